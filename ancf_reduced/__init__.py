@@ -1,0 +1,1 @@
+"""ancf_reduced."""

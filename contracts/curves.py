@@ -1,0 +1,151 @@
+"""Stiffness curves: load against radial deflection of a wheel, and the CSV they travel in."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+
+__all__ = ["StiffnessCurve", "average_curve", "read_curve", "write_curve"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StiffnessCurve:
+    """Quasi-static load of a wheel against its radial deflection.
+
+    Attributes
+    ----------
+    model : ``"fe"``, ``"ancf"``, ``"brush"`` or a user's name
+    orientation_deg : circumferential position that faces the ground [deg]; None for an average
+    deflection : (n,) float [m], strictly increasing, zero at first contact unless the model says otherwise
+    load : (n,) float [N], ground on wheel, positive in compression
+    columns : further columns by header (name with unit), each (n,) float
+    source : where the curve comes from, printed with it
+    partial : True if the run ended before its target; marked wherever the curve appears
+
+    Verified by tests/unit/test_curves.py.
+    """
+
+    model: str
+    orientation_deg: float | None
+    deflection: NDArray[np.float64]
+    load: NDArray[np.float64]
+    columns: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
+    source: str = ""
+    partial: bool = False
+
+    def __post_init__(self) -> None:
+        if self.deflection.shape != self.load.shape or self.deflection.ndim != 1 or len(self.deflection) < 2:
+            raise InputError("curve", f"{self.deflection.shape} points", "needs two or more points", "check the file")
+        if not (np.all(np.isfinite(self.deflection)) and np.all(np.isfinite(self.load))):
+            raise InputError("curve", self.model, "has values that are not finite", "remove NaN and infinite rows")
+        if not np.all(np.diff(self.deflection) > 0.0):
+            raise InputError("deflection", self.model, "must increase strictly", "sort the rows and drop repeats")
+
+    def load_at(self, deflection: float | NDArray[np.float64]) -> NDArray[np.float64]:
+        """Load [N] at a deflection [m] by linear interpolation; NaN-free: raises InputError outside the curve."""
+        d = np.asarray(deflection, dtype=np.float64)
+        if d.size and (d.min() < self.deflection[0] - 1e-12 or d.max() > self.deflection[-1] + 1e-12):
+            raise InputError(
+                "deflection",
+                f"{d.min() * 1e3:.3g}..{d.max() * 1e3:.3g} mm",
+                f"lies outside the curve ({self.deflection[0] * 1e3:.3g}..{self.deflection[-1] * 1e3:.3g} mm)",
+                "compute the curve further",
+            )
+        return np.interp(d, self.deflection, self.load)
+
+    def deflection_at(self, load: float) -> float:
+        """Smallest deflection [m] at which the curve reaches ``load`` [N]; raises InputError if it never does."""
+        reached = np.flatnonzero(self.load >= load)
+        if load < self.load[0] or not len(reached):
+            rule = f"lies outside the curve ({self.load.min():.4g}..{self.load.max():.4g} N)"
+            raise InputError("load", f"{load:g} N", rule, "compute the curve further")
+        i = int(reached[0])
+        if i == 0:
+            return float(self.deflection[0])
+        d, f = self.deflection[i - 1 : i + 1], self.load[i - 1 : i + 1]
+        return float(d[0] + (load - f[0]) * (d[1] - d[0]) / (f[1] - f[0]))
+
+    def initial_tangent(self, up_to: float) -> float:
+        """Slope [N/m] of the least-squares line through the origin over 0..``up_to`` [m], on a uniform grid of 101."""
+        d = np.linspace(0.0, up_to, 101)
+        return float(d @ self.load_at(d) / (d @ d))
+
+
+def average_curve(curves: Sequence[StiffnessCurve], step: float = 0.5e-3) -> StiffnessCurve:
+    """Arithmetic mean of load at equal deflection over the range common to all curves.
+
+    Parameters
+    ----------
+    curves : curves of one model at different orientations
+    step : spacing of the common grid [m]
+    """
+    if not curves:
+        raise InputError("average", "0 curves", "needs at least one curve", "compute an orientation first")
+    start = max(c.deflection[0] for c in curves)
+    end = min(c.deflection[-1] for c in curves)
+    grid = start + step * np.arange(int(np.floor((end - start) / step + 1e-9)) + 1)
+    loads = np.array([c.load_at(grid) for c in curves])
+    return StiffnessCurve(
+        model=curves[0].model,
+        orientation_deg=None,
+        deflection=grid,
+        load=loads.mean(axis=0),
+        columns={"load_min_N": loads.min(axis=0), "load_max_N": loads.max(axis=0)},
+        source=f"arithmetic mean of {len(curves)} orientations at equal deflection",
+        partial=any(c.partial for c in curves),
+    )
+
+
+def write_curve(curve: StiffnessCurve, path: Path) -> None:
+    """Write ``deflection_m,load_N`` and the further columns as CSV with a source line (comment)."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    names = ["deflection_m", "load_N", *curve.columns]
+    table = np.column_stack([curve.deflection, curve.load, *curve.columns.values()])
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        if curve.source:
+            stream.write(f"# source: {curve.source}\n")
+        if curve.partial:
+            stream.write("# partial: True\n")
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(names)
+        writer.writerows([[f"{value:.12g}" for value in row] for row in table])
+
+
+def read_curve(path: Path, model: str | None = None, orientation_deg: float | None = None) -> StiffnessCurve:
+    """Read a curve from CSV: comment lines with ``#``, a header, ``deflection_m,load_N`` first.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, empty, without these two columns, or holds text where a number belongs.
+    """
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError("curve file", path, f"cannot be read ({type(error).__name__})", "check the path") from error
+    comments = [line[1:].strip() for line in lines if line.startswith("#")]
+    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
+    if len(rows) < 3 or [name.strip() for name in rows[0][:2]] != ["deflection_m", "load_N"]:
+        rule = "must have a header deflection_m,load_N and two or more rows"
+        raise InputError("curve file", path, rule, "give deflection in metres and load in newtons")
+    try:
+        table = np.array([[float(value) for value in row] for row in rows[1:]], dtype=np.float64)
+    except ValueError as error:
+        raise InputError("curve file", path, f"has a bad row ({error})", "every cell must be a number") from error
+    source = next((c.removeprefix("source:").strip() for c in comments if c.startswith("source:")), "")
+    return StiffnessCurve(
+        model=model or path.stem,
+        orientation_deg=orientation_deg,
+        deflection=table[:, 0],
+        load=table[:, 1],
+        columns={name.strip(): table[:, 2 + i] for i, name in enumerate(rows[0][2:])},
+        source=source,
+        partial="partial: True" in comments,
+    )

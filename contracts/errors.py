@@ -1,0 +1,80 @@
+"""The one error tree of the project.
+
+Every message says what is wrong, the value with its unit, the rule it breaks, and what to try. Libraries raise;
+only the command line turns an error into an exit status. Verified by tests/unit/test_errors.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+__all__ = ["ConvergenceError", "IncrementRecord", "InputError", "MeshError", "StudyError", "WorkbenchError"]
+
+
+class WorkbenchError(Exception):
+    """Base of every error this project raises on purpose."""
+
+
+class InputError(WorkbenchError, ValueError):
+    """A value given to the library breaks a rule.
+
+    Parameters
+    ----------
+    what : name of the quantity in words, e.g. ``"tire thickness"``
+    value : the value as given, with its unit, e.g. ``"-0.6 mm"``
+    rule : the rule it breaks, e.g. ``"must be greater than zero"``
+    hint : what to try, e.g. ``"give a strip thickness such as 0.6 mm"``
+    """
+
+    def __init__(self, what: str, value: object, rule: str, hint: str) -> None:
+        self.what, self.value, self.rule, self.hint = what, str(value), rule, hint
+        super().__init__(f"{what} = {value}: {rule}; {hint}")
+
+
+class StudyError(WorkbenchError, ValueError):
+    """A study file cannot be used: names the file, the key, the value, the rule and what to try."""
+
+    def __init__(self, path: Path | str, key: str, value: object, rule: str, hint: str) -> None:
+        self.path, self.key, self.value, self.rule, self.hint = str(path), key, str(value), rule, hint
+        place = f"{path}: {key} = {value}" if key else f"{path}"
+        super().__init__(f"{place}: {rule}; {hint}")
+
+
+class MeshError(WorkbenchError):
+    """A mesh fails one of its checks (untagged boundary, inverted element, separate pieces, wrong volume)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class IncrementRecord:
+    """One attempted load increment of a nonlinear static solve.
+
+    Attributes
+    ----------
+    target : control parameter at the increment's end [unit of the control, metres for a raised plane]
+    step : increment of the control parameter [same unit]
+    converged : whether the iteration met its tolerance
+    residuals : relative residual norm after each iteration [-]
+    """
+
+    target: float
+    step: float
+    converged: bool
+    residuals: tuple[float, ...]
+
+
+class ConvergenceError(WorkbenchError):
+    """A nonlinear solve did not converge; carries the history and how far the solution came.
+
+    Parameters
+    ----------
+    message : where it stopped, how far it came, what to try
+    history : every increment attempted, in order
+    last_good : the partial result up to the last converged increment, or None
+    """
+
+    def __init__(self, message: str, history: Sequence[IncrementRecord], last_good: object | None = None) -> None:
+        self.history = tuple(history)
+        self.last_good = last_good
+        super().__init__(message)
