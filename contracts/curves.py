@@ -47,11 +47,15 @@ class StiffnessCurve:
             raise InputError("curve", self.model, "has values that are not finite", "remove NaN and infinite rows")
         if not np.all(np.diff(self.deflection) > 0.0):
             raise InputError("deflection", self.model, "must increase strictly", "sort the rows and drop repeats")
+        for name, values in self.columns.items():
+            if values.shape != self.deflection.shape:
+                rule = f"must have one value per point, shape {self.deflection.shape}"
+                raise InputError(f"curve column {name}", f"shape {values.shape}", rule, "drop the column or fill it")
 
     def load_at(self, deflection: float | NDArray[np.float64]) -> NDArray[np.float64]:
         """Load [N] at a deflection [m] by linear interpolation; NaN-free: raises InputError outside the curve."""
         d = np.asarray(deflection, dtype=np.float64)
-        if d.size and (d.min() < self.deflection[0] - 1e-12 or d.max() > self.deflection[-1] + 1e-12):
+        if d.size and not (d.min() >= self.deflection[0] - 1e-12 and d.max() <= self.deflection[-1] + 1e-12):
             raise InputError(
                 "deflection",
                 f"{d.min() * 1e3:.3g}..{d.max() * 1e3:.3g} mm",
@@ -74,6 +78,8 @@ class StiffnessCurve:
 
     def initial_tangent(self, up_to: float) -> float:
         """Slope [N/m] of the least-squares line through the origin over 0..``up_to`` [m], on a uniform grid of 101."""
+        if not up_to > 0.0:
+            raise InputError("initial tangent range", f"{up_to * 1e3:g} mm", "must be greater than zero", "try 5 mm")
         d = np.linspace(0.0, up_to, 101)
         return float(d @ self.load_at(d) / (d @ d))
 
@@ -90,6 +96,9 @@ def average_curve(curves: Sequence[StiffnessCurve], step: float = 0.5e-3) -> Sti
         raise InputError("average", "0 curves", "needs at least one curve", "compute an orientation first")
     start = max(c.deflection[0] for c in curves)
     end = min(c.deflection[-1] for c in curves)
+    if not 0.0 < step <= end - start:
+        rule = f"must be > 0 and fit into the range common to all curves ({start * 1e3:.4g}..{end * 1e3:.4g} mm)"
+        raise InputError("average step", f"{step * 1e3:g} mm", rule, "compute the curves over the same deflections")
     grid = start + step * np.arange(int(np.floor((end - start) / step + 1e-9)) + 1)
     loads = np.array([c.load_at(grid) for c in curves])
     return StiffnessCurve(
@@ -110,7 +119,7 @@ def write_curve(curve: StiffnessCurve, path: Path) -> None:
     table = np.column_stack([curve.deflection, curve.load, *curve.columns.values()])
     with path.open("w", newline="", encoding="utf-8") as stream:
         if curve.source:
-            stream.write(f"# source: {curve.source}\n")
+            stream.write(f"# source: {' '.join(curve.source.split())}\n")
         if curve.partial:
             stream.write("# partial: True\n")
         writer = csv.writer(stream, lineterminator="\n")
@@ -124,28 +133,42 @@ def read_curve(path: Path, model: str | None = None, orientation_deg: float | No
     Raises
     ------
     InputError
-        If the file is missing, empty, without these two columns, or holds text where a number belongs.
+        If the file is missing, empty, without these two columns, holds text where a number belongs, or has rows
+        that do not match its header.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise InputError("curve file", path, f"cannot be read ({type(error).__name__})", "check the path") from error
     comments = [line[1:].strip() for line in lines if line.startswith("#")]
-    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
-    if len(rows) < 3 or [name.strip() for name in rows[0][:2]] != ["deflection_m", "load_N"]:
+    names, table = _table([line for line in lines if line.strip() and not line.startswith("#")], path)
+    source = next((c.removeprefix("source:").strip() for c in comments if c.startswith("source:")), "")
+    try:
+        return StiffnessCurve(
+            model=model or path.stem,
+            orientation_deg=orientation_deg,
+            deflection=table[:, 0],
+            load=table[:, 1],
+            columns={name: table[:, 2 + i] for i, name in enumerate(names[2:])},
+            source=source,
+            partial="partial: True" in comments,
+        )
+    except InputError as error:
+        raise InputError("curve file", path, f"{error.what} {error.rule}", error.hint) from error
+
+
+def _table(lines: list[str], path: Path) -> tuple[list[str], NDArray[np.float64]]:
+    """Header names and the (n, n_columns) numbers below them; raises InputError where they do not fit together."""
+    try:
+        rows = list(csv.reader(lines))
+        names = [name.strip() for name in rows[0]] if rows else []
+        table = np.array([[float(value) for value in row] for row in rows[1:]], dtype=np.float64)
+    except (ValueError, csv.Error) as error:
+        raise InputError("curve file", path, f"has a bad row ({error})", "every cell must be a number") from error
+    if len(rows) < 3 or names[:2] != ["deflection_m", "load_N"]:
         rule = "must have a header deflection_m,load_N and two or more rows"
         raise InputError("curve file", path, rule, "give deflection in metres and load in newtons")
-    try:
-        table = np.array([[float(value) for value in row] for row in rows[1:]], dtype=np.float64)
-    except ValueError as error:
-        raise InputError("curve file", path, f"has a bad row ({error})", "every cell must be a number") from error
-    source = next((c.removeprefix("source:").strip() for c in comments if c.startswith("source:")), "")
-    return StiffnessCurve(
-        model=model or path.stem,
-        orientation_deg=orientation_deg,
-        deflection=table[:, 0],
-        load=table[:, 1],
-        columns={name.strip(): table[:, 2 + i] for i, name in enumerate(rows[0][2:])},
-        source=source,
-        partial="partial: True" in comments,
-    )
+    if table.shape[1] != len(names):
+        rule = f"has {table.shape[1]} values a row under {len(names)} headers"
+        raise InputError("curve file", path, rule, "give every column a header and every row all columns")
+    return names, table

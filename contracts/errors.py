@@ -6,7 +6,7 @@ only the command line turns an error into an exit status. Verified by tests/unit
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +14,17 @@ __all__ = ["ConvergenceError", "IncrementRecord", "InputError", "MeshError", "St
 
 
 class WorkbenchError(Exception):
-    """Base of every error this project raises on purpose."""
+    """Base of every error this project raises on purpose; survives the way back from a worker process whole."""
+
+    def __reduce__(self) -> tuple[Callable[..., WorkbenchError], tuple[object, ...]]:
+        """Rebuild from text and attributes: the constructors take parts, not the text."""
+        return _restored, (type(self), self.args, vars(self))
+
+
+def _restored(kind: type[WorkbenchError], args: tuple[object, ...], state: dict[str, object]) -> WorkbenchError:
+    error = kind.__new__(kind, *args)
+    error.__dict__.update(state)
+    return error
 
 
 class InputError(WorkbenchError, ValueError):

@@ -49,6 +49,8 @@ class TaggedMesh:
     faces: Mapping[str, int]
 
     def __post_init__(self) -> None:
+        if self.points.ndim != 2 or self.points.shape[1] != 3 or not np.all(np.isfinite(self.points)):
+            raise MeshError(f"points have shape {self.points.shape}: need (n, 3) finite coordinates in metres")
         if self.cells.ndim != 2 or self.cells.shape[1] not in FACET_NODES:
             raise MeshError(f"cells have shape {self.cells.shape}: need (n, 8) or (n, 27) hexahedra; use order 1 or 2")
         if self.facets.ndim != 2 or self.facets.shape[1] != FACET_NODES[self.cells.shape[1]]:
@@ -57,8 +59,9 @@ class TaggedMesh:
             )
         if len(self.cell_tags) != len(self.cells) or len(self.facet_tags) != len(self.facets):
             raise MeshError("one tag per cell and one per facet is needed: check the tag arrays' lengths")
-        if self.cells.min(initial=0) < 0 or self.cells.max(initial=-1) >= len(self.points):
-            raise MeshError(f"cells name nodes outside 0..{len(self.points) - 1}: renumber the cells")
+        for what, nodes in (("cells", self.cells), ("facets", self.facets)):
+            if nodes.min(initial=0) < 0 or nodes.max(initial=-1) >= len(self.points):
+                raise MeshError(f"{what} name nodes outside 0..{len(self.points) - 1}: renumber the {what}")
         if not set(np.unique(self.cell_tags)) <= set(self.parts.values()):
             raise MeshError("a cell tag has no part name: every cell belongs to a named part")
         if not set(np.unique(self.facet_tags)) <= set(self.faces.values()):
@@ -74,6 +77,7 @@ class TaggedMesh:
         digest = hashlib.sha256()
         rounded = np.round(self.points / 1e-12).astype(np.int64)
         for array in (rounded, self.cells, self.cell_tags, self.facets, self.facet_tags):
+            digest.update(repr(array.shape).encode())
             digest.update(np.ascontiguousarray(array, dtype=np.int64).tobytes())
         digest.update(repr((sorted(self.parts.items()), sorted(self.faces.items()))).encode())
         return digest.hexdigest()

@@ -1,0 +1,118 @@
+"""Geometry of the touching faces: first touch with a plane, contact area and patch length."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.mesh import TaggedMesh
+
+__all__ = ["ContactPatch", "contact_faces", "distance_at_touch", "measure_patch"]
+
+from dataclasses import dataclass
+
+_SAMPLES = 13
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactPatch:
+    """Where the body touches the plane.
+
+    Attributes
+    ----------
+    area : undeformed area of the faces below the plane [m^2]
+    length : extent of these faces along ``tangent`` [m]; 0 without contact
+    penetration : largest depth below the plane [m], >= 0
+    """
+
+    area: float
+    length: float
+    penetration: float
+
+
+def contact_faces(mesh: TaggedMesh, names: Iterable[str]) -> NDArray[np.int64]:
+    """Node numbers of the facets of the named faces, (n_facets, 4 or 9)."""
+    tags = [mesh.faces[name] for name in names]
+    return mesh.facets[np.isin(mesh.facet_tags, tags)]
+
+
+def distance_at_touch(mesh: TaggedMesh, facets: NDArray[np.int64], direction: NDArray[np.float64]) -> float:
+    """Distance from the origin to a plane that just touches the undeformed faces.
+
+    Parameters
+    ----------
+    direction : (3,) unit vector from the origin to the plane [-]
+
+    Returns
+    -------
+    distance : largest component of the faces' points along ``direction`` [m], faces sampled on a 13 x 13 lattice
+    """
+    shape, _, _ = _lattice(facets.shape[1])
+    return float(np.max(np.einsum("sn,fnk,k->fs", shape, mesh.points[facets], direction)))
+
+
+def measure_patch(
+    mesh: TaggedMesh,
+    facets: NDArray[np.int64],
+    displacement: NDArray[np.float64],
+    plane: tuple[NDArray[np.float64], float],
+    tangent: NDArray[np.float64],
+) -> ContactPatch:
+    """Contact patch of the deformed faces.
+
+    Parameters
+    ----------
+    displacement : (n_points, 3) [m] at the mesh's nodes
+    plane : unit normal (plane to body) [-] and distance of the plane from the origin along -normal [m]
+    tangent : (3,) unit vector in the plane along which the length is measured [-]
+    """
+    normal, distance = plane
+    shape, weights, derivatives = _lattice(facets.shape[1])
+    reference = mesh.points[facets]
+    current = np.einsum("sn,fnk->fsk", shape, reference + displacement[facets])
+    tangents = np.einsum("asn,fnk->afsk", derivatives, reference)
+    jacobian = np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=-1)
+    gap = current @ normal + distance
+    closed = gap < 0.0
+    if not closed.any():
+        return ContactPatch(area=0.0, length=0.0, penetration=0.0)
+    along = (current @ tangent)[closed]
+    area = float(np.sum(np.where(closed, jacobian * weights, 0.0)))
+    return ContactPatch(area=area, length=float(np.ptp(along)), penetration=float(-gap.min()))
+
+
+def _lattice(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Midpoint-rule lattice on [-1, 1]^2: shape functions (s, n), weights (s,), derivatives (2, s, n)."""
+    edge = -1.0 + (2.0 * np.arange(_SAMPLES) + 1.0) / _SAMPLES
+    edge = edge * _SAMPLES / (_SAMPLES - 1.0)  # reach the facet's edges, so that patches are not cut short
+    a, b = (grid.ravel() for grid in np.meshgrid(edge, edge, indexing="ij"))
+    spacing = np.ones(_SAMPLES)
+    spacing[[0, -1]] = 0.5
+    weights = np.outer(spacing, spacing).ravel() * (2.0 / (_SAMPLES - 1.0)) ** 2
+    la, da = _line(a, nodes)
+    lb, db = _line(b, nodes)
+    order = _ORDER[nodes]
+    shape = np.stack([la[i] * lb[j] for i, j in order], axis=-1)
+    derivatives = np.stack(
+        [
+            np.stack([da[i] * lb[j] for i, j in order], axis=-1),
+            np.stack([la[i] * db[j] for i, j in order], axis=-1),
+        ]
+    )
+    return shape, weights, derivatives
+
+
+_ORDER = {
+    4: ((0, 0), (1, 0), (1, 1), (0, 1)),
+    9: ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)),
+}
+
+
+def _line(s: NDArray[np.float64], nodes: int) -> tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]]:
+    """Lagrange polynomials on [-1, 1] at s, and their derivatives: linear (2) or quadratic (3 of them)."""
+    if nodes == 4:
+        half = np.full_like(s, 0.5)
+        return [(1 - s) / 2, (1 + s) / 2], [-half, half]
+    return [s * (s - 1) / 2, 1 - s * s, s * (s + 1) / 2], [s - 0.5, -2 * s, s + 0.5]

@@ -1,0 +1,152 @@
+"""Every call whose spelling depends on the DOLFINx version, and the one place that imports it.
+
+``dolfinx_solver`` must be imported first where the PyPI wheel provides DOLFINx; Debian and conda builds do without it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from typing import Any
+
+with contextlib.suppress(ModuleNotFoundError):
+    import dolfinx_solver  # noqa: F401  (sets up the libraries of the PyPI wheel)
+
+import basix
+import basix.ufl
+import dolfinx
+import numpy as np
+import ufl as _ufl
+from dolfinx import fem as _fem
+from dolfinx import mesh as dolfinx_mesh
+from dolfinx.cpp.io import perm_gmsh
+from dolfinx.fem import petsc as _fem_petsc
+from dolfinx.graph import adjacencylist
+from dolfinx.io import distribute_entity_data
+from mpi4py import MPI
+from numpy.typing import NDArray
+from petsc4py import PETSc
+
+__all__ = [
+    "COMM",
+    "MPI",
+    "DirichletBC",
+    "Expr",
+    "Function",
+    "Mesh",
+    "MeshTags",
+    "PETSc",
+    "PointEvaluation",
+    "cell_nodes",
+    "compile_form",
+    "create_matrix",
+    "facet_tags_from_nodes",
+    "fem",
+    "fem_petsc",
+    "lagrange_points",
+    "mesh_from_arrays",
+    "meshtags",
+    "quadrature_points",
+    "quadrature_space",
+    "ufl",
+    "versions",
+]
+
+COMM = MPI.COMM_WORLD
+Mesh = dolfinx_mesh.Mesh[np.float64]
+MeshTags = dolfinx_mesh.MeshTags
+Function = _fem.Function[np.float64]
+DirichletBC = _fem.DirichletBC[np.float64]
+type Expr = Any
+# UFL carries no types and DOLFINx's are partial: both are used untyped, our own code around them is not.
+ufl: Any = _ufl
+fem: Any = _fem
+fem_petsc: Any = _fem_petsc
+JIT_OPTIONS = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
+_HEXAHEDRON = dolfinx_mesh.CellType.hexahedron
+
+
+def versions() -> dict[str, str]:
+    """Versions of the libraries a finite element result depends on."""
+    return {
+        "dolfinx": str(dolfinx.__version__),
+        "petsc": ".".join(str(part) for part in PETSc.Sys.getVersion()),
+        "basix": str(basix.__version__),
+    }
+
+
+def mesh_from_arrays(points: NDArray[np.float64], cells: NDArray[np.int64]) -> Mesh:
+    """DOLFINx mesh of 8- or 27-node hexahedra in gmsh's node order; ``points`` (n, 3) [m]."""
+    degree = 1 if cells.shape[1] == 8 else 2
+    element = basix.ufl.element("Lagrange", "hexahedron", degree, shape=(3,))
+    permutation = np.asarray(perm_gmsh(_HEXAHEDRON, cells.shape[1]))
+    return dolfinx_mesh.create_mesh(COMM, np.ascontiguousarray(cells[:, permutation]), element, points)
+
+
+def facet_tags_from_nodes(mesh: Mesh, facets: NDArray[np.int64], values: NDArray[np.int32]) -> MeshTags:
+    """Facet tags from facets given by their node numbers (gmsh order, input numbering)."""
+    permutation = np.asarray(perm_gmsh(dolfinx_mesh.CellType.quadrilateral, facets.shape[1]))
+    entities, local = distribute_entity_data(mesh, 2, np.ascontiguousarray(facets[:, permutation]), values)
+    mesh.topology.create_connectivity(2, 3)
+    return dolfinx_mesh.meshtags_from_entities(mesh, 2, adjacencylist(entities), local.astype(np.int32))
+
+
+def cell_nodes(mesh: Mesh) -> NDArray[np.int32]:
+    """Geometry nodes of each cell, (n_cells, 8 or 27), local numbering."""
+    geometry = mesh.geometry
+    return np.asarray(geometry.dofmaps[0] if hasattr(geometry, "dofmaps") else geometry.dofmap)
+
+
+def meshtags(mesh: Mesh, dim: int, entities: NDArray[np.int32], values: NDArray[np.int32]) -> MeshTags:
+    """Tags of entities of dimension ``dim``, sorted by entity."""
+    order = np.argsort(entities)
+    return dolfinx_mesh.meshtags(mesh, dim, entities[order], values[order])
+
+
+def quadrature_points(degree: int) -> NDArray[np.float64]:
+    """Gauss points of the reference hexahedron for a quadrature degree, (n, 3) [-]."""
+    points, _ = basix.make_quadrature(basix.CellType.hexahedron, degree)
+    return np.asarray(points)
+
+
+def quadrature_space(mesh: Mesh, degree: int, shape: tuple[int, ...]) -> Any:
+    """Space of values at the Gauss points of every cell."""
+    element = basix.ufl.quadrature_element("hexahedron", value_shape=shape, scheme="default", degree=degree)
+    return fem.functionspace(mesh, element)
+
+
+def lagrange_points(degree: int) -> NDArray[np.float64]:
+    """Node positions of the reference hexahedron's Lagrange element, (n, 3) [-]."""
+    element = basix.create_element(basix.ElementFamily.P, basix.CellType.hexahedron, degree)
+    return np.asarray(element.points)
+
+
+def compile_form(expression: Expr) -> Any:
+    """Compile a UFL form to machine code with this project's compiler flags."""
+    return fem.form(expression, jit_options=JIT_OPTIONS)
+
+
+def create_matrix(form: Any, diagonal_blocks: NDArray[np.int32]) -> PETSc.Mat:
+    """Empty matrix for a bilinear form, with room on the diagonal of further nodes that no integral reaches."""
+    pattern = fem.create_sparsity_pattern(form)
+    pattern.insert_diagonal(diagonal_blocks)
+    pattern.finalize()
+    matrix = dolfinx.cpp.la.petsc.create_matrix(COMM, pattern)
+    matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+    return matrix
+
+
+class PointEvaluation:
+    """Compiled UFL expression at fixed reference points, evaluated for chosen cells.
+
+    Parameters
+    ----------
+    expression : UFL expression
+    points : (n_points, 3) reference points
+    """
+
+    def __init__(self, expression: Expr, points: NDArray[np.float64]) -> None:
+        self._compiled = fem.Expression(expression, points, jit_options=JIT_OPTIONS)
+
+    def __call__(self, mesh: Mesh, cells: NDArray[np.int32]) -> NDArray[np.float64]:
+        """Values, (n_cells, n_points, *shape)."""
+        return np.asarray(self._compiled.eval(mesh, cells))

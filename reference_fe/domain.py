@@ -1,0 +1,76 @@
+"""A tagged mesh as a DOLFINx mesh with named parts and faces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from contracts.mesh import TaggedMesh
+from reference_fe import dolfinx_api as api
+
+__all__ = ["Domain"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Domain:
+    """DOLFINx mesh with its tags; made from a `contracts.mesh.TaggedMesh`.
+
+    Attributes
+    ----------
+    tagged : the mesh as given
+    mesh : dolfinx.mesh.Mesh
+    cell_tags, facet_tags : dolfinx.mesh.MeshTags with the tags of ``tagged``
+
+    Verified by tests/unit/test_fe_domain.py.
+    """
+
+    tagged: TaggedMesh
+    mesh: api.Mesh
+    cell_tags: api.MeshTags
+    facet_tags: api.MeshTags
+
+    @classmethod
+    def from_tagged(cls, tagged: TaggedMesh) -> Domain:
+        """Build the DOLFINx mesh and its tags."""
+        mesh = api.mesh_from_arrays(tagged.points, tagged.cells)
+        cells = np.arange(mesh.topology.index_map(3).size_local, dtype=np.int32)
+        values = tagged.cell_tags[mesh.topology.original_cell_index[: len(cells)]].astype(np.int32)
+        return cls(
+            tagged=tagged,
+            mesh=mesh,
+            cell_tags=api.meshtags(mesh, 3, cells, values),
+            facet_tags=api.facet_tags_from_nodes(mesh, tagged.facets, tagged.facet_tags.astype(np.int32)),
+        )
+
+    def part_tags(self, names: Iterable[str]) -> tuple[int, ...]:
+        """Cell tags of named parts; InputError for a name the mesh does not have."""
+        return _look_up(names, dict(self.tagged.parts), "part")
+
+    def face_tags(self, names: Iterable[str]) -> tuple[int, ...]:
+        """Facet tags of named faces; InputError for a name the mesh does not have."""
+        return _look_up(names, dict(self.tagged.faces), "face")
+
+    def cells_of(self, names: Iterable[str]) -> NDArray[np.int32]:
+        """Local cell numbers of the named parts, ascending."""
+        mask = np.isin(self.cell_tags.values, self.part_tags(names))
+        return np.asarray(self.cell_tags.indices[mask], dtype=np.int32)
+
+    def facets_of(self, names: Iterable[str]) -> NDArray[np.int32]:
+        """Local facet numbers of the named faces, ascending."""
+        mask = np.isin(self.facet_tags.values, self.face_tags(names))
+        return np.asarray(self.facet_tags.indices[mask], dtype=np.int32)
+
+
+def _look_up(names: Iterable[str], known: dict[str, int], what: str) -> tuple[int, ...]:
+    tags = []
+    for name in names:
+        if name not in known:
+            raise InputError(
+                f"mesh {what}", name, f"is not in the mesh (it has {', '.join(sorted(known))})", "rename it"
+            )
+        tags.append(known[name])
+    return tuple(tags)

@@ -1,0 +1,107 @@
+"""Drives a static problem through wanted values of its control parameter, cutting increments back where needed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from reference_fe.newton import NewtonOutcome, NewtonSolver
+from reference_fe.static_problem import StaticProblem
+
+__all__ = ["ConvergedState", "solve_increments"]
+
+SMALLEST_FRACTION = 1.0 / 1024.0
+"""An increment cut below this fraction of the first wanted step ends the run."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConvergedState:
+    """One converged increment.
+
+    Attributes
+    ----------
+    control : control parameter reached [m for a raised plane, - for a load factor]
+    wanted : whether it is one of the targets asked for, not only a cut-back stop on the way
+    outcome : Newton history and residual
+    contact_force : force of the plane on the body [N]
+    reaction : sum of the support forces on the body [N]
+    """
+
+    control: float
+    wanted: bool
+    outcome: NewtonOutcome
+    contact_force: NDArray[np.float64]
+    reaction: NDArray[np.float64]
+
+
+def solve_increments(
+    solver: NewtonSolver,
+    targets: Sequence[float],
+    history: list[IncrementRecord],
+    attempt_limit: int = 400,
+    on_attempt: Callable[[IncrementRecord], None] | None = None,
+) -> Iterator[ConvergedState]:
+    """Yield each converged state on the way through ``targets`` from an unloaded start; the caller may stop early.
+
+    An increment that does not converge is halved from the last converged state; after a success the step doubles, up to
+    the distance to the next target. Every attempt is appended to ``history``.
+
+    Raises
+    ------
+    ConvergenceError
+        When the increment falls below 1/1024 of the first step, or after ``attempt_limit`` attempts; carries history.
+
+    Verified by tests/unit/test_fe_increments.py and tests/verification/test_fe_ring.py.
+    """
+    if not len(targets) or np.any(np.diff([0.0, *targets]) <= 0.0) or not np.all(np.isfinite(targets)):
+        raise InputError("targets", list(targets), "must increase from above zero", "sort them and drop repeats")
+    problem = solver.problem
+    reached, good, step = 0.0, problem.u.x.array.copy(), float(targets[0])
+    smallest = SMALLEST_FRACTION * step
+    for target in targets:
+        step = max(step, float(target) - reached)
+        while reached < target:
+            remaining = float(target) - reached
+            step = min(step, remaining)
+            goal = float(target) if step >= remaining * (1.0 - 1e-9) else reached + step
+            problem.set_control(goal)
+            outcome = solver.solve(rise=_lag(problem, goal - reached, first=reached == 0.0))
+            record = IncrementRecord(
+                target=goal, step=goal - reached, converged=outcome.converged, residuals=outcome.residuals
+            )
+            history.append(record)
+            if on_attempt is not None:
+                on_attempt(record)
+            if outcome.converged:
+                reached, good, step = goal, problem.u.x.array.copy(), 2.0 * step
+                yield ConvergedState(
+                    control=goal,
+                    wanted=goal == float(target),
+                    outcome=outcome,
+                    contact_force=problem.contact_force(),
+                    reaction=problem.reaction(outcome.residual),
+                )
+                continue
+            problem.u.x.array[:] = good
+            step *= 0.5
+            if step < smallest or len(history) >= attempt_limit:
+                raise ConvergenceError(_message(reached, goal, step, outcome), history)
+
+
+def _lag(problem: StaticProblem, step: float, *, first: bool) -> float:
+    """Contact lag of an increment [m]: its rise; at first touch only the lowest 2 % of the rise may touch."""
+    if problem.contact is None:
+        return 0.0
+    return (0.98 if first else 1.0) * step
+
+
+def _message(reached: float, goal: float, step: float, outcome: NewtonOutcome) -> str:
+    tail = ", ".join(f"{value:.1e}" for value in outcome.residuals[-4:])
+    return (
+        f"the increment to control {goal:.6g} does not converge; last converged at {reached:.6g}, next step would be "
+        f"{step:.2g}, last relative residuals {tail}; try a softer contact stiffness or a finer mesh"
+    )

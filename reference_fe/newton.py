@@ -1,0 +1,152 @@
+"""Newton iteration with mixed integration points and a symmetric MUMPS factorisation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from reference_fe import dolfinx_api as api
+from reference_fe.static_problem import StaticProblem
+
+__all__ = ["NewtonOutcome", "NewtonSettings", "NewtonSolver"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewtonSettings:
+    """When an iteration ends.
+
+    Attributes
+    ----------
+    relative_tolerance : largest residual norm over free unknowns, relative to the norm of the support and contact
+        forces at the same state [-]
+    maximum_iterations : linear solves before the increment is given up
+    """
+
+    relative_tolerance: float = 1e-8
+    maximum_iterations: int = 25
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.relative_tolerance < 1.0:
+            raise InputError("relative tolerance", self.relative_tolerance, "must lie in (0, 1)", "1e-8 is usual")
+        if self.maximum_iterations < 1:
+            raise InputError("maximum iterations", self.maximum_iterations, "must be at least 1", "25 is usual")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewtonOutcome:
+    """How one iteration ended.
+
+    Attributes
+    ----------
+    converged : whether the tolerance was met
+    residuals : relative residual at each evaluation [-], one more than the number of linear solves; 1 stands for the
+        start of an increment, where nothing balances yet
+    residual : (n_dofs,) residual at the last state, supported unknowns included [N]
+    """
+
+    converged: bool
+    residuals: tuple[float, ...]
+    residual: NDArray[np.float64]
+
+    @property
+    def iterations(self) -> int:
+        """Number of linear solves."""
+        return len(self.residuals) - 1
+
+
+class NewtonSolver:
+    """Solves a `StaticProblem` at its present control parameter; keeps matrix, pattern and symbolic analysis."""
+
+    def __init__(self, problem: StaticProblem, settings: NewtonSettings) -> None:
+        self.problem, self.settings = problem, settings
+        self._matrix: api.PETSc.Mat | None = None
+        self._ksp: api.PETSc.KSP | None = None
+        self._free = np.ones(problem.dofs, dtype=bool)
+        self._free[problem.supported] = False
+
+    def solve(self, rise: float = 0.0) -> NewtonOutcome:
+        """Iterate from the present displacement; leaves the last iterate in ``problem.u``.
+
+        ``rise`` is the plane's rise since the last converged state [m]: the first solve then uses that state's contact
+        set (see `contact_law.plane_pressure`), which spares most of the search for the new one.
+        """
+        problem, history = self.problem, list[float]()
+        offset = self._offset_at_supports()
+        problem.store_stress(extrapolate=False)
+        if rise:
+            problem.contact_lag.value = rise
+            self._step(problem.residual(), offset)
+            problem.contact_lag.value, offset = 0.0, np.zeros(0)
+            history.append(1.0)
+        residual = problem.residual()
+        while True:
+            history.append(self._relative(residual, moved=not history and bool(offset.any())))
+            if history[-1] <= self.settings.relative_tolerance:
+                return NewtonOutcome(converged=True, residuals=tuple(history), residual=residual)
+            if not np.isfinite(history[-1]) or len(history) > self.settings.maximum_iterations:
+                return NewtonOutcome(converged=False, residuals=tuple(history), residual=residual)
+            self._step(residual, offset)
+            offset = np.zeros(0)
+            residual = problem.residual()
+
+    def _step(self, residual: NDArray[np.float64], offset: NDArray[np.float64]) -> None:
+        """One linear solve; stores the extrapolated stress and moves u."""
+        problem = self.problem
+        self._matrix = problem.tangent(self._matrix)
+        if self._ksp is None:
+            self._ksp = _mumps(self._matrix)
+        right_hand_side = np.where(self._free, -residual, 0.0)
+        x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
+        if offset.any():
+            right_hand_side -= self._lifted(offset)
+            right_hand_side[problem.supported] = offset[problem.supported]
+        b.array[:] = right_hand_side
+        self._ksp.setOperators(self._matrix)
+        self._ksp.solve(b, x)
+        problem.du.x.array[:] = x.array
+        b.destroy()
+        x.destroy()
+        if problem.discretisation.mixed_integration_points:
+            problem.store_stress(extrapolate=True)
+        problem.u.x.array[:] += problem.du.x.array
+
+    def _offset_at_supports(self) -> NDArray[np.float64]:
+        """Prescribed minus present displacement at supported unknowns, zero elsewhere, (n_dofs,) [m]."""
+        target = self.problem.u.x.array.copy()
+        for bc in self.problem.bcs:
+            bc.set(target)
+        return np.asarray(target - self.problem.u.x.array)
+
+    def _lifted(self, offset: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Tangent times the supports' offset, (n_dofs,) [N]."""
+        full = self.problem.unsupported_tangent()
+        x, y = full.createVecRight(), full.createVecLeft()
+        x.array[:] = offset
+        full.mult(x, y)
+        product = np.array(y.array)
+        for item in (full, x, y):
+            item.destroy()
+        return product
+
+    def _relative(self, residual: NDArray[np.float64], *, moved: bool) -> float:
+        """Residual norm over free unknowns relative to that of the support and contact forces; inf before a move."""
+        if moved:
+            return float("inf") if not np.isfinite(residual).all() else 1.0
+        out_of_balance = float(np.linalg.norm(residual[self._free]))
+        applied = float(np.linalg.norm(residual[~self._free])) + float(np.linalg.norm(self.problem.contact_force()))
+        if applied == 0.0:
+            return 0.0 if out_of_balance == 0.0 else 1.0
+        return out_of_balance / applied
+
+
+def _mumps(matrix: api.PETSc.Mat) -> api.PETSc.KSP:
+    """Direct solver: MUMPS on the symmetric matrix (indefinite allowed)."""
+    ksp = api.PETSc.KSP().create(matrix.comm)
+    ksp.setType("preonly")
+    pc = ksp.getPC()
+    pc.setType("cholesky")
+    pc.setFactorSolverType("mumps")
+    return ksp

@@ -1,0 +1,261 @@
+"""The wheel on a rigid plane: hub held, plane raised, load and stress recorded. A client of `StaticProblem`."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from contracts.frames import ground_direction_h
+from contracts.materials import Material
+from contracts.mesh import TaggedMesh
+from reference_fe.contact_patch import ContactPatch, contact_faces, distance_at_touch, measure_patch
+from reference_fe.domain import Domain
+from reference_fe.hyperelastic import MaterialLaw
+from reference_fe.increments import ConvergedState, solve_increments
+from reference_fe.newton import NewtonSettings, NewtonSolver
+from reference_fe.static_problem import Discretisation, StaticProblem
+from reference_fe.stress import StressRecovery
+from reference_fe.supports import PlaneContact, Support
+
+__all__ = ["FieldSnapshot", "WheelLoadCase", "WheelResult", "solve_wheel"]
+
+CONTACT_FACES = ("tire_outer", "grouser_outer")
+HUB_PARTS = ("outer_hub", "cone", "impact_springs", "inner_hub")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelLoadCase:
+    """One orientation of the wheel pressed on a plane.
+
+    Attributes
+    ----------
+    orientation_deg : circumferential position that faces the plane [deg]
+    deflections : wanted points of the curve, rise of the plane from first touch [m]
+    maximum_load : the run ends at the first point with at least this load [N]
+    snapshot_loads : loads of the full wheel at which fields are kept [N]
+    law : stored energy
+    contact_stiffness : penalty stiffness per undeformed area [N/m^3]
+    contact_ramp : gap at which the contact pressure begins [m], see `contact_law.plane_pressure`
+    quadrature_degree : see `Discretisation`
+    newton : tolerance and iteration limit
+    """
+
+    orientation_deg: float
+    deflections: tuple[float, ...]
+    maximum_load: float = float("inf")
+    snapshot_loads: tuple[float, ...] = ()
+    law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
+    contact_stiffness: float = 1e11
+    contact_ramp: float = 5e-6
+    quadrature_degree: int = 5
+    newton: NewtonSettings = field(default_factory=NewtonSettings)
+
+    def __post_init__(self) -> None:
+        if not np.isfinite(self.orientation_deg):
+            raise InputError("orientation", f"{self.orientation_deg} deg", "must be finite", "give degrees, e.g. 15")
+        if not self.maximum_load > 0.0:
+            raise InputError("maximum load", f"{self.maximum_load:g} N", "must be > 0", "300 N covers the reference")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FieldSnapshot:
+    """Fields at one load.
+
+    Attributes
+    ----------
+    load : load of the full wheel [N]
+    deflection : rise of the plane from first touch [m]
+    displacement : (n_points, 3) at the mesh's nodes [m], wheel frame
+    von_mises : (n_points,) Cauchy von Mises stress averaged at the nodes [Pa]; 0 on rigid parts
+    """
+
+    load: float
+    deflection: float
+    displacement: NDArray[np.float64]
+    von_mises: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelResult:
+    """Curve, increments and fields of one orientation.
+
+    Attributes
+    ----------
+    curve : load of the full wheel against the plane's rise from first touch; columns as in `solve_wheel`
+    increments : every attempted increment, in order
+    snapshots : fields at the chosen loads that were reached
+    dofs : number of displacement unknowns
+    distance_at_touch : distance of hub and plane at first touch [m]
+    wall_s : wall time of the solve [s]
+    """
+
+    curve: StiffnessCurve
+    increments: tuple[IncrementRecord, ...]
+    snapshots: tuple[FieldSnapshot, ...]
+    dofs: int
+    distance_at_touch: float
+    wall_s: float
+
+
+def solve_wheel(
+    mesh: TaggedMesh,
+    materials: Mapping[str, Material],
+    load_case: WheelLoadCase,
+    progress: Callable[[float, float], None] | None = None,
+) -> WheelResult:
+    """Stiffness curve of a wheel at one orientation.
+
+    Parameters
+    ----------
+    mesh : wheel in its frame; contact faces ``tire_outer`` and ``grouser_outer``; a face group ``symmetry`` marks a
+        half width, whose loads and areas are doubled in the result
+    materials : part name -> material; hub parts (outer_hub, cone, impact_springs, inner_hub) are held rigid
+    progress : called with the deflection reached [m] and the load [N] after each increment
+
+    Returns
+    -------
+    result : the curve's columns are ``contact_length_m`` (extent along the ground), ``contact_area_m2``,
+        ``penetration_m``, ``force_imbalance`` (support plus contact force over contact force),
+        ``relative_residual``, ``newton_iterations`` and ``max_von_mises_{part}_Pa``
+
+    Raises
+    ------
+    ConvergenceError
+        With the partial `WheelResult` as ``last_good`` (its curve marked partial), if there are two or more points.
+
+    Verified by tests/verification/test_fe_wheel.py.
+    """
+    run = _WheelRun(mesh, materials, load_case)
+    try:
+        for state in solve_increments(run.solver, load_case.deflections, run.history):
+            load = run.record(state)
+            if progress is not None:
+                progress(state.control, load)
+            if load >= load_case.maximum_load:
+                break
+    except ConvergenceError as error:
+        partial = run.result(partial=True) if len(run.rows) > 1 else None
+        where = f"orientation {load_case.orientation_deg:g} deg: "
+        raise ConvergenceError(where + str(error), error.history, partial) from error
+    return run.result(partial=False)
+
+
+class _WheelRun:
+    """Problem, records and fields of one orientation while it is being solved."""
+
+    def __init__(self, mesh: TaggedMesh, materials: Mapping[str, Material], load_case: WheelLoadCase) -> None:
+        self.started, self.mesh, self.load_case = time.perf_counter(), mesh, load_case
+        hub = tuple(part for part in HUB_PARTS if part in mesh.parts)
+        flexible = {part: materials[part] for part in mesh.parts if part not in hub and part in materials}
+        faces = tuple(face for face in CONTACT_FACES if face in mesh.faces)
+        self.facets = contact_faces(mesh, faces)
+        self.direction = ground_direction_h(np.deg2rad(load_case.orientation_deg))
+        self.touch = distance_at_touch(mesh, self.facets, self.direction)
+        self.half_width = "symmetry" in mesh.faces
+        supports = [Support(parts=hub)]
+        if self.half_width:
+            supports.append(Support(faces=("symmetry",), components=(1,)))
+        n = -self.direction
+        self.problem = StaticProblem(
+            Domain.from_tagged(mesh),
+            flexible,
+            supports,
+            contact=PlaneContact(
+                faces=faces,
+                normal=(float(n[0]), float(n[1]), float(n[2])),
+                distance_at_touch=self.touch,
+                stiffness=load_case.contact_stiffness,
+                ramp=load_case.contact_ramp,
+            ),
+            discretisation=Discretisation(law=load_case.law, quadrature_degree=load_case.quadrature_degree),
+        )
+        self.solver = NewtonSolver(self.problem, load_case.newton)
+        self.stress = StressRecovery(self.problem)
+        self.history: list[IncrementRecord] = []
+        self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
+        self.snapshots: list[FieldSnapshot] = []
+
+    @property
+    def _sides(self) -> float:
+        return 2.0 if self.half_width else 1.0
+
+    def record(self, state: ConvergedState) -> float:
+        """Add one converged state to the curve, with the snapshots passed on the way; returns its load [N]."""
+        load = self._load(state.contact_force)
+        for wanted in self.load_case.snapshot_loads:
+            if self.rows[-1]["load_N"] < wanted <= load:
+                self._keep_snapshot(wanted, state.control, load)
+        normal, distance = -self.direction, self.touch - state.control
+        tangent = np.array([-self.direction[2], 0.0, self.direction[0]])
+        displacement = self.problem.nodal_displacement()
+        patch = measure_patch(self.mesh, self.facets, displacement, (normal, distance), tangent)
+        force = float(np.linalg.norm(state.contact_force))
+        imbalance = float(np.linalg.norm(state.reaction + state.contact_force)) / force if force else 0.0
+        row = self._row(state.control, load, patch)
+        row["force_imbalance"], row["relative_residual"] = imbalance, state.outcome.residuals[-1]
+        row["newton_iterations"] = float(state.outcome.iterations)
+        row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
+        self.rows.append(row)
+        return load
+
+    def result(self, *, partial: bool) -> WheelResult:
+        """Everything recorded so far."""
+        names = list(self.rows[-1])
+        table = {name: np.array([row.get(name, 0.0) for row in self.rows]) for name in names}
+        curve = StiffnessCurve(
+            model="fe",
+            orientation_deg=self.load_case.orientation_deg,
+            deflection=table.pop("deflection_m"),
+            load=table.pop("load_N"),
+            columns=table,
+            source=f"solid finite elements, {self.problem.dofs} unknowns, deflection from first touch",
+            partial=partial,
+        )
+        return WheelResult(
+            curve=curve,
+            increments=tuple(self.history),
+            snapshots=tuple(self.snapshots),
+            dofs=self.problem.dofs,
+            distance_at_touch=self.touch,
+            wall_s=time.perf_counter() - self.started,
+        )
+
+    def _load(self, contact_force: NDArray[np.float64]) -> float:
+        return float(-self._sides * contact_force @ self.direction)
+
+    def _row(self, deflection: float, load: float, patch: ContactPatch) -> dict[str, float]:
+        return {
+            "deflection_m": deflection,
+            "load_N": load,
+            "contact_length_m": patch.length,
+            "contact_area_m2": self._sides * patch.area,
+            "penetration_m": patch.penetration,
+            "force_imbalance": 0.0,
+            "relative_residual": 0.0,
+            "newton_iterations": 0.0,
+        }
+
+    def _keep_snapshot(self, wanted: float, control: float, load: float) -> None:
+        """Solve at the deflection interpolated for the wanted load, keep the fields, and return to ``control``."""
+        problem, last = self.problem, self.rows[-1]
+        here = problem.u.x.array.copy()
+        fraction = (wanted - last["load_N"]) / (load - last["load_N"])
+        deflection = last["deflection_m"] + fraction * (control - last["deflection_m"])
+        problem.set_control(deflection)
+        if self.solver.solve(rise=deflection - control).converged:
+            self.snapshots.append(
+                FieldSnapshot(
+                    load=self._load(problem.contact_force()),
+                    deflection=deflection,
+                    displacement=problem.nodal_displacement(),
+                    von_mises=self.stress.nodal_von_mises(),
+                )
+            )
+        problem.u.x.array[:] = here
+        problem.set_control(control)
