@@ -1,1 +1,38 @@
-"""geometry."""
+"""The wheel as numbers, its mesh of hexahedra, the checks of that mesh and its files."""
+
+from geometry.build import build_mesh
+from geometry.checks import check_matches_design, check_mesh
+from geometry.closed_form import closed_form_joint_areas, closed_form_volume, part_masses
+from geometry.measures import MeshQuality, joint_areas, mesh_quality, mesh_volume
+from geometry.msh import write_msh
+from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+from geometry.step import write_step
+from geometry.summary import MeshSummary, PartSummary, summarize_mesh
+from geometry.vtu import write_vtu
+from geometry.wheel import WheelDesign, exomars
+
+__all__ = [
+    "Cone",
+    "Grousers",
+    "HubRing",
+    "MeshQuality",
+    "MeshSummary",
+    "PartSummary",
+    "SpringSet",
+    "Tire",
+    "WheelDesign",
+    "build_mesh",
+    "check_matches_design",
+    "check_mesh",
+    "closed_form_joint_areas",
+    "closed_form_volume",
+    "exomars",
+    "joint_areas",
+    "mesh_quality",
+    "mesh_volume",
+    "part_masses",
+    "summarize_mesh",
+    "write_msh",
+    "write_step",
+    "write_vtu",
+]

@@ -1,0 +1,104 @@
+"""Volumes and joint areas of a wheel's parts in closed form, from its dimensions alone.
+
+With a strip of thickness t along a centreline of length L the section is exactly t L (offset curves): a semicircle of
+radius R gives pi R t. Verified by tests/verification/test_mesh_volume.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from contracts.materials import Material
+from geometry.parts import Grousers, SpringSet
+from geometry.resolution import part_bands
+from geometry.springs import leg_sides, spring_leg, weld_angle
+from geometry.wheel import WheelDesign
+
+__all__ = ["closed_form_joint_areas", "closed_form_volume", "part_masses"]
+
+
+def closed_form_volume(design: WheelDesign, half_width: bool = True) -> Mapping[str, float]:
+    """Volume of each part [m^3], over y >= 0 or over the full width.
+
+    tire and hubs: pi (r_o^2 - r_i^2) w; weld of angle a: a/2 (r_o^2 - r_i^2) w; strip: L t w; cone with joints of axial
+    width b: pi (r_o^2 - r_i^2) b; grouser: w int_{-t/2}^{t/2} sqrt((R + h)^2 - x^2) - sqrt(R^2 - x^2) dx.
+    """
+    widths = {name: _width(bands, half_width) for name, bands in part_bands(design).items()}
+    rim = design.tire.inner_radius
+    sections = {"tire": math.pi * (design.tire.outer_radius**2 - rim**2)}
+    if design.grousers is not None:
+        sections["grousers"] = _grouser_section(design.grousers, design.tire.outer_radius)
+    for springs in design.spring_sets:
+        sections[springs.name] = _spring_section(springs, (design.outer_hub.outer_radius, rim))
+    for name, ring in (("outer_hub", design.outer_hub), ("inner_hub", design.inner_hub)):
+        if ring is not None:
+            sections[name] = math.pi * (ring.outer_radius**2 - ring.inner_radius**2)
+    if design.impact_springs is not None and design.inner_hub is not None:
+        gap = (design.inner_hub.outer_radius, design.outer_hub.inner_radius)
+        sections["impact_springs"] = _spring_section(design.impact_springs, gap)
+    volumes = {name: section * widths[name] for name, section in sections.items()}
+    if design.cone is not None and design.inner_hub is not None:
+        r_o, r_i = design.outer_hub.inner_radius, design.inner_hub.outer_radius
+        cones = 1.0 if half_width else 2.0
+        volumes["cone"] = cones * math.pi * (r_o**2 - r_i**2) * design.cone.axial_width(r_o, r_i)
+    return {name: volumes[name] for name in design.materials}
+
+
+def closed_form_joint_areas(design: WheelDesign, half_width: bool = True) -> Mapping[tuple[str, str], float]:
+    """Area [m^2] over which two parts are bonded, by their names in alphabetical order."""
+    widths = {name: _width(bands, half_width) for name, bands in part_bands(design).items()}
+    areas: dict[tuple[str, str], float] = {}
+
+    def add(a: str, b: str, area: float) -> None:
+        areas[(a, b) if a < b else (b, a)] = area
+
+    tire, hub, inner = design.tire, design.outer_hub, design.inner_hub
+    if design.grousers is not None:
+        foot = 2.0 * tire.outer_radius * math.asin(0.5 * design.grousers.thickness / tire.outer_radius)
+        add("tire", "grousers", design.grousers.count * foot * widths["tire"])
+    for springs in design.spring_sets:
+        angle = springs.count * weld_angle(springs, tire.inner_radius) * widths[springs.name]
+        add(springs.name, "tire", angle * tire.inner_radius)
+        add(springs.name, "outer_hub", angle * hub.outer_radius)
+    if inner is not None and design.impact_springs is not None:
+        impact = design.impact_springs
+        angle = impact.count * weld_angle(impact, hub.inner_radius) * widths["impact_springs"]
+        add("impact_springs", "outer_hub", angle * hub.inner_radius)
+        add("impact_springs", "inner_hub", angle * inner.outer_radius)
+    if inner is not None and design.cone is not None:
+        joint = design.cone.axial_width(hub.inner_radius, inner.outer_radius) * (1.0 if half_width else 2.0)
+        add("cone", "outer_hub", 2.0 * math.pi * hub.inner_radius * joint)
+        add("cone", "inner_hub", 2.0 * math.pi * inner.outer_radius * joint)
+    return areas
+
+
+def part_masses(volumes: Mapping[str, float], materials: Mapping[str, Material]) -> Mapping[str, float]:
+    """Mass of each part [kg] from its volume [m^3] and the density of its material."""
+    return {name: volume * materials[name].density for name, volume in volumes.items()}
+
+
+def _width(bands: tuple[tuple[float, float], ...], half_width: bool) -> float:
+    return sum((max(b, 0.0) - max(a, 0.0)) if half_width else b - a for a, b in bands)
+
+
+def _spring_section(springs: SpringSet, gap: tuple[float, float]) -> float:
+    """Section area [m^2] of all strips and welds of a set."""
+    hub, rim = gap
+    t, angle = springs.thickness, weld_angle(springs, rim)
+    welds = 0.5 * angle * (rim**2 - (rim - t) ** 2 + (hub + t) ** 2 - hub**2)
+    sides = leg_sides(springs)
+    if springs.shape == "spline":
+        strip = spring_leg(springs, gap, 0.0, sides[0]).length * t
+    else:
+        strip = math.pi * 0.5 * (rim - hub - t) * t
+    return springs.count * (welds + len(sides) * strip)
+
+
+def _grouser_section(grousers: Grousers, radius: float) -> float:
+    half = 0.5 * grousers.thickness
+
+    def under_arc(r: float) -> float:
+        return half * math.sqrt(r * r - half * half) + r * r * math.asin(half / r)
+
+    return grousers.count * (under_arc(radius + grousers.height) - under_arc(radius))

@@ -1,0 +1,191 @@
+"""The parts of a wheel as numbers: tire, grousers, spring sets, hub rings and cone.
+
+Lengths in metres, angles in radians, frame of ``contracts.frames``: y along the axle, zero at the wheel's mid-plane;
+phi from the lowest point (-z) towards the front (+x). Verified by tests/unit/test_geometry_validation.py.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from contracts.errors import InputError
+from contracts.materials import TI_6AL_4V, Material
+from geometry.rules import require_bands, require_count, require_finite, require_name, require_positive_length
+
+__all__ = ["Bands", "Cone", "Grousers", "HubRing", "SpringSet", "SpringShape", "Tire"]
+
+Bands = tuple[tuple[float, float], ...]
+"""Axial bands ``((y0, y1), ...)`` [m], y0 < y1."""
+
+SpringShape = Literal["arc", "hoop", "spline"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tire:
+    """The rim: a cylindrical strip, without its grousers.
+
+    Attributes
+    ----------
+    outer_radius : radius of the outer surface [m]
+    width : axial width, from -width/2 to width/2 [m]
+    thickness : radial thickness [m]
+    material : elastic material
+    """
+
+    outer_radius: float
+    width: float
+    thickness: float
+    material: Material = TI_6AL_4V
+
+    def __post_init__(self) -> None:
+        require_positive_length("tire outer radius", self.outer_radius)
+        require_positive_length("tire width", self.width)
+        require_positive_length("tire thickness", self.thickness)
+        if self.thickness >= self.outer_radius:
+            rule = f"must be smaller than the outer radius {self.outer_radius * 1e3:g} mm"
+            raise InputError("tire thickness", f"{self.thickness * 1e3:g} mm", rule, "give a strip such as 0.6 mm")
+
+    @property
+    def inner_radius(self) -> float:
+        """Radius of the inner surface [m]."""
+        return self.outer_radius - self.thickness
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grousers:
+    """Radial fins over the full width of the tire, flanks parallel, tip a cylinder about the axle.
+
+    Attributes
+    ----------
+    count : number of fins, equally spaced [-]
+    height : radial height of the tip above the tire's outer radius [m]
+    thickness : distance between the two flanks [m]
+    phase : circumferential position of the first fin [rad]
+    material : elastic material
+    """
+
+    count: int
+    height: float
+    thickness: float
+    phase: float = 0.0
+    material: Material = TI_6AL_4V
+
+    def __post_init__(self) -> None:
+        require_count("grouser count", self.count)
+        require_positive_length("grouser height", self.height)
+        require_positive_length("grouser thickness", self.thickness)
+        require_finite("grouser phase", self.phase, "rad")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpringSet:
+    """Equal curved strips between two rings (rim and hub), bonded to both over a weld.
+
+    A weld is a layer of the strip's thickness on the ring, centred on the station. The strip leaves the rim weld
+    through the weld's end face, tangentially to the rim, and arrives tangentially at the end of the hub weld, which
+    covers the same angle (theory notes 8, "Geometry trap": without an overlap the joint is a hinge).
+
+    Attributes
+    ----------
+    name : part name in the mesh
+    count : number of stations, equally spaced [-]
+    phase : circumferential position of the first station (weld centre) [rad]
+    bands : axial bands ``((y0, y1), ...)`` that each station's strips occupy [m]
+    thickness : strip thickness [m]
+    shape : ``"arc"`` one semicircle; ``"hoop"`` two mirrored semicircles that share a weld; ``"spline"`` a clamped
+        cubic spline through ``points``
+    weld_length : arc length of the weld on the outer ring's inner surface [m]
+    direction : side to which an arc or spline leaves the weld: 1 towards larger phi, -1 towards smaller phi
+    points : for ``"spline"``: (radius fraction, angle) of points on the centreline; the fraction runs from 0 on the rim
+        weld's mid-surface to 1 on the hub weld's [-], the angle is measured from the weld's end in ``direction`` [rad]
+    material : elastic material
+    """
+
+    name: str
+    count: int
+    bands: Bands
+    thickness: float
+    shape: SpringShape
+    weld_length: float
+    phase: float = 0.0
+    direction: int = 1
+    points: tuple[tuple[float, float], ...] = ()
+    material: Material = TI_6AL_4V
+
+    def __post_init__(self) -> None:
+        require_name("spring set name", self.name)
+        require_count(f"{self.name} count", self.count)
+        require_finite(f"{self.name} phase", self.phase, "rad")
+        require_positive_length(f"{self.name} thickness", self.thickness)
+        require_positive_length(f"{self.name} weld length", self.weld_length)
+        require_bands(f"{self.name} band", self.bands)
+        if self.shape not in ("arc", "hoop", "spline"):
+            raise InputError(f"{self.name} shape", self.shape, "is not known", "give arc, hoop or spline")
+        if self.direction not in (-1, 1):
+            raise InputError(f"{self.name} direction", self.direction, "must be 1 or -1", "1 leaves towards larger phi")
+        if (self.shape == "spline") != bool(self.points):
+            rule = "points belong to the shape spline, and only to it"
+            raise InputError(f"{self.name} points", self.points, rule, "give points such as ((0.5, 0.5),) for a spline")
+        if not all(math.isfinite(v) for point in self.points for v in point):
+            raise InputError(f"{self.name} points", self.points, "must be finite", "give (fraction, radians) pairs")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HubRing:
+    """A cylindrical ring of the hub.
+
+    Attributes
+    ----------
+    outer_radius : radius of the outer surface [m]
+    thickness : radial thickness [m]
+    width : axial width, from -width/2 to width/2 [m]
+    material : elastic material
+    """
+
+    outer_radius: float
+    thickness: float
+    width: float
+    material: Material = TI_6AL_4V
+
+    def __post_init__(self) -> None:
+        require_positive_length("hub outer radius", self.outer_radius)
+        require_positive_length("hub thickness", self.thickness)
+        require_positive_length("hub width", self.width)
+        if self.thickness >= self.outer_radius:
+            rule = f"must be smaller than the hub's outer radius {self.outer_radius * 1e3:g} mm"
+            raise InputError("hub thickness", f"{self.thickness * 1e3:g} mm", rule, "give a ring such as 2 mm")
+
+    @property
+    def inner_radius(self) -> float:
+        """Radius of the inner surface (bore) [m]."""
+        return self.outer_radius - self.thickness
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cone:
+    """A frustum shell from the outer hub's bore to the inner hub's outer face, and its mirror image about y = 0.
+
+    Attributes
+    ----------
+    thickness : thickness normal to the shell [m]
+    outer_position : axial position of the middle of its joint with the outer hub, y > 0 [m]
+    inner_position : axial position of the middle of its joint with the inner hub, y > 0 [m]
+    material : elastic material
+    """
+
+    thickness: float
+    outer_position: float
+    inner_position: float
+    material: Material = TI_6AL_4V
+
+    def __post_init__(self) -> None:
+        require_positive_length("cone thickness", self.thickness)
+        require_positive_length("cone outer position", self.outer_position)
+        require_positive_length("cone inner position", self.inner_position)
+
+    def axial_width(self, outer_radius: float, inner_radius: float) -> float:
+        """Axial extent [m] of a joint: thickness / cos(angle between the shell and the radius)."""
+        slope = (self.outer_position - self.inner_position) / (outer_radius - inner_radius)
+        return self.thickness * math.hypot(1.0, slope)

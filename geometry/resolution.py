@@ -1,0 +1,238 @@
+"""How finely a wheel is divided: break angles of the rings, axial levels, element counts.
+
+The rim and the hub rings are cut at the same angles in every axial band, so that bands meet node to node.
+Verified by tests/unit/test_geometry_resolution.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from geometry.parts import SpringSet
+from geometry.springs import station_angles, weld_angle
+from geometry.wheel import WheelDesign
+
+__all__ = ["MeshSize", "Ring", "active_parts", "axial_bands", "axial_levels", "hub_ring", "part_names", "rim_ring"]
+
+Parts = Literal["all", "flexible"]
+Interval = tuple[float, float, float]
+
+_SAME_ANGLE = 1e-9
+_SLIVER = 1e-5
+_SAME_LEVEL = 1e-9
+_LARGEST_BLOCK = math.radians(60.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshSize:
+    """Element sizes asked for.
+
+    Attributes
+    ----------
+    element_size : largest element length along strips and around rings [m]
+    axial_size : largest element length along the axle [m]
+    thickness_elements : elements through each thickness [-]
+    refinement : part name -> element size [m] where it differs
+    """
+
+    element_size: float
+    axial_size: float
+    thickness_elements: int
+    refinement: Mapping[str, float]
+
+    def of(self, part: str) -> float:
+        """Element size [m] of a part."""
+        return self.refinement.get(part, self.element_size)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ring:
+    """The circumferential division of a ring.
+
+    Attributes
+    ----------
+    angles : (n,) float [rad] in [0, 2 pi), increasing: where blocks meet
+    counts : (n,) int, elements between angle i and angle i + 1 (the last wraps around)
+    """
+
+    angles: NDArray[np.float64]
+    counts: NDArray[np.int64]
+
+    def index(self, angle: float) -> int:
+        """Number of the break at ``angle`` [rad]."""
+        offset = np.abs((self.angles - angle + math.pi) % (2.0 * math.pi) - math.pi)
+        return int(np.argmin(offset))
+
+    def span(self, start: float, end: float) -> list[int]:
+        """Numbers of the intervals from the break at ``start`` to the break at ``end`` [rad], in order."""
+        first, last = self.index(start), self.index(end)
+        return [(first + k) % len(self.angles) for k in range((last - first) % len(self.angles))]
+
+    def angle(self, i: int) -> float:
+        """Angle [rad] of break ``i``, taken around the ring."""
+        return float(self.angles[i % len(self.angles)])
+
+    def step(self, i: int) -> float:
+        """Angle [rad] covered by interval ``i``."""
+        return (self.angle(i + 1) - self.angle(i)) % (2.0 * math.pi)
+
+
+def part_names(design: WheelDesign, parts: Parts) -> tuple[str, ...]:
+    """Names of the parts that are meshed; ``"flexible"`` leaves out cone, impact springs and inner hub."""
+    rigid = ("cone", "impact_springs", "inner_hub") if parts == "flexible" else ()
+    return tuple(name for name in design.materials if name not in rigid)
+
+
+def rim_ring(design: WheelDesign, size: MeshSize) -> Ring:
+    """Division of the rim: cut at grouser flanks and weld ends."""
+    radius = design.tire.inner_radius
+    intervals: list[Interval] = []
+    if design.grousers is not None:
+        half = math.asin(0.5 * design.grousers.thickness / design.tire.outer_radius)
+        for k in range(design.grousers.count):
+            middle = design.grousers.phase + 2.0 * math.pi * k / design.grousers.count
+            intervals.append((middle - half, middle + half, math.inf))
+    for springs in design.spring_sets:
+        intervals += _weld_intervals(springs, radius, size.of(springs.name) / radius)
+    grouser = [(a, b) for a, b, limit in intervals if limit == math.inf]
+    ring = _divide(intervals, size.of("tire") / design.tire.outer_radius)
+    counts = ring.counts.copy()
+    for a, b in grouser:
+        for i in ring.span(a, b):
+            share = ring.step(i) / (b - a)
+            counts[i] = max(counts[i], math.ceil(size.thickness_elements * share - 1e-6))
+    return Ring(angles=ring.angles, counts=counts)
+
+
+def hub_ring(design: WheelDesign, size: MeshSize, parts: Parts) -> Ring:
+    """Division shared by outer hub, cone and inner hub: cut at the ends of the welds on them."""
+    intervals: list[Interval] = []
+    hub = design.outer_hub.outer_radius
+    for springs in design.spring_sets:
+        intervals += _weld_intervals(springs, design.tire.inner_radius, size.of(springs.name) / hub)
+    impact = design.impact_springs
+    names = part_names(design, parts)
+    if impact is not None and impact.name in names:
+        bore = design.outer_hub.inner_radius
+        intervals += _weld_intervals(impact, bore, size.of(impact.name) / bore)
+    largest = size.of("outer_hub") / hub
+    if "cone" in names:
+        largest = min(largest, size.of("cone") / hub)
+    if design.inner_hub is not None and "inner_hub" in names:
+        largest = min(largest, size.of("inner_hub") / design.inner_hub.outer_radius)
+    return _divide(intervals, largest)
+
+
+def _weld_intervals(springs: SpringSet, rim: float, largest: float) -> list[Interval]:
+    half = 0.5 * weld_angle(springs, rim)
+    return [(a - half, a + half, largest) for a in station_angles(springs)]
+
+
+def _divide(intervals: Iterable[Interval], largest: float) -> Ring:
+    """Ring cut at the ends of ``intervals`` (start, end, largest element angle inside [rad])."""
+    marked = list(intervals)
+    angles = _unique_angles([end for a, b, _ in marked for end in (a, b)])
+    gaps = (np.roll(angles, -1) - angles) % (2.0 * math.pi)
+    gaps[gaps == 0.0] = 2.0 * math.pi
+    pieces = [
+        a + gap * np.arange(n) / n
+        for a, gap, n in zip(angles, gaps, np.ceil(gaps / _LARGEST_BLOCK - 1e-9).astype(int), strict=True)
+    ]
+    ring = Ring(angles=_unique_angles(np.concatenate(pieces)), counts=np.zeros(0, dtype=np.int64))
+    limit = np.full(len(ring.angles), largest)
+    for a, b, inside in marked:
+        for i in ring.span(a, b):
+            limit[i] = min(limit[i], inside)
+    counts = [math.ceil(ring.step(i) / limit[i] - 1e-6) for i in range(len(limit))]
+    return Ring(angles=ring.angles, counts=np.maximum(np.array(counts, dtype=np.int64), 1))
+
+
+def _unique_angles(angles: Iterable[float]) -> NDArray[np.float64]:
+    """Angles [rad] in [0, 2 pi), sorted, equal ones once; raises InputError for cuts that all but coincide."""
+    turned = np.sort(np.mod(np.fromiter(angles, dtype=np.float64), 2.0 * math.pi))
+    turned[np.abs(turned - 2.0 * math.pi) < _SAME_ANGLE] = 0.0
+    turned = np.sort(turned)
+    kept = turned[np.concatenate([[True], np.diff(turned) > _SAME_ANGLE])]
+    gaps = (np.roll(kept, -1) - kept) % (2.0 * math.pi)
+    if len(kept) > 1 and gaps.min() < _SLIVER:
+        where = math.degrees(kept[int(np.argmin(gaps))])
+        rule = f"two weld ends or grouser flanks near phi = {where:.4g} deg make a sliver"
+        raise InputError("ring cut", f"{gaps.min():.3g} rad apart", rule, "make them equal or change a weld length")
+    return np.asarray(kept, dtype=np.float64)
+
+
+def axial_levels(design: WheelDesign, parts: Parts, half_width: bool) -> NDArray[np.float64]:
+    """Axial positions [m] where the section changes, increasing; InputError for half of a wheel without symmetry."""
+    names = part_names(design, parts)
+    levels = [0.0]
+    for name, bands in part_bands(design).items():
+        if name not in names:
+            continue
+        if half_width and not _symmetric(bands):
+            rule = "half width needs bands that mirror each other about y = 0"
+            raise InputError(f"{name} bands", bands, rule, "mesh the full width (half_width=False)")
+        levels += [y for band in bands for y in band]
+    joints = cone_joints(design) if "cone" in names else ()
+    levels += [y for joint in joints for y in joint]
+    ordered = np.sort(np.array(levels))
+    kept = ordered[np.concatenate([[True], np.diff(ordered) > _SAME_LEVEL])]
+    for low, high in joints:
+        inside = kept[(kept > low + _SAME_LEVEL) & (kept < high - _SAME_LEVEL)]
+        if len(inside):
+            rule = f"its joint {low * 1e3:.4g}..{high * 1e3:.4g} mm is cut by the band edge at {inside[0] * 1e3:.4g} mm"
+            raise InputError("cone position", f"{0.5e3 * (low + high):.4g} mm", rule, "move the cone or the band")
+    return np.asarray(kept[kept >= -_SAME_LEVEL] if half_width else kept, dtype=np.float64)
+
+
+def axial_bands(design: WheelDesign, size: MeshSize, levels: NDArray[np.float64]) -> list[tuple[float, float, int]]:
+    """Axial bands (y0 [m], y1 [m], elements); the joints of the cone have as many elements as its thickness."""
+    joints = cone_joints(design)
+    bands = []
+    for low, high in pairwise(levels):
+        count = max(1, math.ceil((high - low) / size.axial_size - 1e-6))
+        if any(abs(a - low) < _SAME_LEVEL and abs(b - high) < _SAME_LEVEL for a, b in joints):
+            count = size.thickness_elements
+        bands.append((float(low), float(high), count))
+    return bands
+
+
+def active_parts(design: WheelDesign, names: Iterable[str], middle: float) -> frozenset[str]:
+    """Parts of ``names`` (the cone apart) whose section is there at the axial position ``middle`` [m]."""
+    bands = part_bands(design)
+    return frozenset(n for n in names if n in bands and any(a < middle < b for a, b in bands[n]))
+
+
+def cone_joints(design: WheelDesign) -> tuple[tuple[float, float], ...]:
+    """Axial extents [m] of the cone's joints: outer, inner, and their mirror images."""
+    if design.cone is None or design.inner_hub is None:
+        return ()
+    half = 0.5 * design.cone.axial_width(design.outer_hub.inner_radius, design.inner_hub.outer_radius)
+    joints = [(y - half, y + half) for y in (design.cone.outer_position, design.cone.inner_position)]
+    return tuple(joints + [(-high, -low) for low, high in joints])
+
+
+def part_bands(design: WheelDesign) -> dict[str, tuple[tuple[float, float], ...]]:
+    """Axial bands [m] of every part made by extrusion (all but the cone)."""
+    half = 0.5 * design.tire.width
+    bands: dict[str, tuple[tuple[float, float], ...]] = {"tire": ((-half, half),)}
+    if design.grousers is not None:
+        bands["grousers"] = bands["tire"]
+    sets = (*design.spring_sets, *([design.impact_springs] if design.impact_springs else []))
+    bands |= {springs.name: springs.bands for springs in sets}
+    for name, ring in (("outer_hub", design.outer_hub), ("inner_hub", design.inner_hub)):
+        if ring is not None:
+            bands[name] = ((-0.5 * ring.width, 0.5 * ring.width),)
+    return bands
+
+
+def _symmetric(bands: tuple[tuple[float, float], ...]) -> bool:
+    mirrored = sorted((-b, -a) for a, b in bands)
+    return bool(np.allclose(sorted(bands), mirrored, rtol=0.0, atol=_SAME_LEVEL))

@@ -1,0 +1,61 @@
+"""Rules for single values: one function per kind of rule, each raising InputError with value, unit and hint.
+
+Verified by tests/unit/test_geometry_validation.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+from contracts.errors import InputError
+
+__all__ = ["require_bands", "require_count", "require_finite", "require_name", "require_positive_length"]
+
+
+def require_finite(what: str, value: float, unit: str) -> None:
+    """Raise InputError unless ``value`` [unit] is a finite number."""
+    if not math.isfinite(value):
+        raise InputError(what, f"{value} {unit}", "must be a finite number", "check the study file and its units")
+
+
+def require_positive_length(what: str, value: float) -> None:
+    """Raise InputError unless the length ``value`` [m] is finite and greater than zero."""
+    if not (math.isfinite(value) and value > 0.0):
+        raise InputError(
+            what, f"{value * 1e3:g} mm", "must be finite and greater than zero", "give a length such as 2 mm"
+        )
+
+
+def require_count(what: str, value: int, least: int = 1) -> None:
+    """Raise InputError unless ``value`` is a whole number of at least ``least``."""
+    if not isinstance(value, int) or isinstance(value, bool) or value < least:
+        raise InputError(
+            what, value, f"must be a whole number >= {least}", f"give {least} or more, or leave the part out"
+        )
+
+
+def require_name(what: str, value: str) -> None:
+    """Raise InputError unless ``value`` can name a part: letters, digits and underscores, a letter first."""
+    if not (value.isidentifier() and value.isascii()):
+        raise InputError(
+            what, repr(value), "must be letters, digits and underscores", "give a name such as springs_outer"
+        )
+
+
+def require_bands(what: str, bands: Sequence[tuple[float, float]]) -> None:
+    """Raise InputError unless the axial bands ``((y0, y1), ...)`` [m] are finite, rising and apart from each other."""
+    if not bands:
+        raise InputError(what, "no band", "needs at least one axial band", "give ((-0.02, 0.02),)")
+    for y0, y1 in bands:
+        text = f"{y0 * 1e3:g}..{y1 * 1e3:g} mm"
+        if not (math.isfinite(y0) and math.isfinite(y1)):
+            raise InputError(what, text, "must have finite ends", "check the study file and its units")
+        if y1 <= y0:
+            raise InputError(what, text, "must end after it begins", "give the smaller y first")
+    ordered = sorted(bands)
+    for (_, end), (start, _) in pairwise(ordered):
+        if start < end:
+            text = f"{start * 1e3:g} mm begins before {end * 1e3:g} mm"
+            raise InputError(what, text, "bands of one set must not overlap", "shorten or join the bands")

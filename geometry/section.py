@@ -1,0 +1,242 @@
+"""The wheel's section in the x-z plane as four-sided blocks with shared corners.
+
+Corners carry names, not coordinates, so that two blocks share a corner because they were built on it; a spring and the
+rim beside its weld's end share that one corner (the crack tip) and nothing beyond.
+Verified by tests/unit/test_geometry_section.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.parts import Grousers, HubRing, SpringSet
+from geometry.resolution import MeshSize, Ring
+from geometry.springs import Leg, leg_sides, polar, spring_leg, station_angles, weld_angle
+from geometry.wheel import WheelDesign
+
+__all__ = ["Block", "Curve", "Key", "Section", "build_section"]
+
+Array = NDArray[np.float64]
+Key = tuple[str | int, ...]
+"""Name of a corner, e.g. ``("rim_in", 3)``."""
+
+_Surfaces = tuple[tuple[str, str], tuple[float, float]]
+"""Names and radii [m] of the two surfaces that bound a ring."""
+
+_LEAST_PER_HALF_RING = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Curve:
+    """A long side of a block: a circular arc about ``centre``, or a spline through ``through``.
+
+    Attributes
+    ----------
+    start, end : names of its corners
+    centre : (2,) float [m], or None for a spline
+    through : (n, 2) float [m], interior points of a spline
+    tangents : (2, 2) float [-], unit tangents of a spline at its start and end
+    """
+
+    start: Key
+    end: Key
+    centre: Array | None = None
+    through: Array | None = None
+    tangents: Array | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Block:
+    """A four-sided face: ``inner`` and ``outer`` run side by side, straight lines join their ends.
+
+    Attributes
+    ----------
+    part : part name
+    inner, outer : the long sides
+    n_length, n_thickness : elements along and across
+    groups : side (``"inner"``, ``"outer"``, ``"ends"``) -> face group, where it is boundary
+    """
+
+    part: str
+    inner: Curve
+    outer: Curve
+    n_length: int
+    n_thickness: int
+    groups: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """Corners (name -> (2,) [m] in x, z) and blocks."""
+
+    corners: Mapping[Key, Array]
+    blocks: tuple[Block, ...]
+
+
+@dataclass(slots=True, kw_only=True)
+class _Draft:
+    """A section while it is built, with the division of the rings."""
+
+    size: MeshSize
+    corners: dict[Key, Array] = field(default_factory=dict)
+    blocks: list[Block] = field(default_factory=list)
+
+    def corner(self, key: Key, point: Array) -> Key:
+        self.corners.setdefault(key, point)
+        return key
+
+    def ring_arc(self, name: str, radius: float, ring: Ring, i: int) -> Curve:
+        """Arc about the axle between breaks ``i`` and ``i + 1`` of a ring."""
+        j = (i + 1) % len(ring.angles)
+        ends = [self.corner((name, k), polar(radius, ring.angle(k))) for k in (i, j)]
+        return Curve(start=ends[0], end=ends[1], centre=np.zeros(2))
+
+    def level_names(self, first: str, last: str) -> list[str]:
+        """Names of the surfaces between two surfaces of a ring, both included, one element apart."""
+        n = self.size.thickness_elements
+        return [first, *(f"{first}|{last}|{k}" for k in range(1, n)), last]
+
+    def add_ring_piece(self, part: str, surfaces: _Surfaces, ring: Ring, i: int, groups: Mapping[str, str]) -> None:
+        """Layers of a ring between breaks ``i`` and ``i + 1``, from one named surface to another."""
+        (first, last), radii = surfaces
+        names = self.level_names(first, last)
+        levels = zip(names, np.linspace(*radii, len(names)), strict=True)
+        self.add_layers(part, [self.ring_arc(n, float(r), ring, i) for n, r in levels], int(ring.counts[i]), groups)
+
+    def add_layers(self, part: str, curves: Sequence[Curve], n_length: int, groups: Mapping[str, str]) -> None:
+        """One block between each curve and the next, so that every long edge of an element lies on a drawn curve."""
+        for k, (inner, outer) in enumerate(pairwise(curves)):
+            here = {"ends"} | ({"inner"} if k == 0 else set()) | ({"outer"} if k == len(curves) - 2 else set())
+            kept = {side: group for side, group in groups.items() if side in here}
+            self.blocks.append(
+                Block(part=part, inner=inner, outer=outer, n_length=n_length, n_thickness=1, groups=kept)
+            )
+
+
+def build_section(design: WheelDesign, size: MeshSize, rings: tuple[Ring, Ring], active: frozenset[str]) -> Section:
+    """Return the blocks of the parts named in ``active``.
+
+    Parameters
+    ----------
+    design : the wheel
+    size : element sizes
+    rings : divisions of the rim and of the hub
+    active : names of the parts this axial band has
+    """
+    draft = _Draft(size=size)
+    rim, hub = rings
+    if "tire" in active:
+        _add_rim(draft, design, rim)
+    if design.grousers is not None and "grousers" in active:
+        _add_grousers(draft, design.grousers, design.tire.outer_radius, rim)
+    for name, part in (("outer_hub", design.outer_hub), ("inner_hub", design.inner_hub)):
+        if part is not None and name in active:
+            _add_hub(draft, name, part, hub)
+    for springs in design.spring_sets:
+        if springs.name in active:
+            gap = (design.outer_hub.outer_radius, design.tire.inner_radius)
+            _add_springs(draft, springs, gap, (("rim_in", rim), ("outer_hub_out", hub)))
+    impact = design.impact_springs
+    if impact is not None and design.inner_hub is not None and impact.name in active:
+        gap = (design.inner_hub.outer_radius, design.outer_hub.inner_radius)
+        _add_springs(draft, impact, gap, (("outer_hub_in", hub), ("inner_hub_out", hub)))
+    return Section(corners=draft.corners, blocks=tuple(draft.blocks))
+
+
+def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> None:
+    radii = design.tire.inner_radius, design.tire.outer_radius
+    for i in range(len(ring.angles)):
+        groups = {"inner": "tire_inner", "outer": "tire_outer"}
+        draft.add_ring_piece("tire", (("rim_in", "rim_out"), radii), ring, i, groups)
+
+
+def _add_grousers(draft: _Draft, fins: Grousers, radius: float, ring: Ring) -> None:
+    """Fins with parallel flanks on the rim's outer surface at ``radius``."""
+    half, tip = 0.5 * fins.thickness, radius + fins.height
+    n_height = max(1, math.ceil(fins.height / draft.size.of("grousers") - 1e-6))
+    foot_angle = math.asin(half / radius)
+    for k in range(fins.count):
+        middle = fins.phase + 2.0 * math.pi * k / fins.count
+        for i in ring.span(middle - foot_angle, middle + foot_angle):
+            ends: list[Key] = []
+            for j in (i, (i + 1) % len(ring.angles)):
+                offset = (ring.angle(j) - middle + math.pi) % (2.0 * math.pi) - math.pi
+                at_tip = middle + math.asin(radius * math.sin(offset) / tip)
+                ends.append(draft.corner(("tip", k, j), polar(tip, at_tip)))
+            draft.blocks.append(
+                Block(
+                    part="grousers",
+                    inner=draft.ring_arc("rim_out", radius, ring, i),
+                    outer=Curve(start=ends[0], end=ends[1], centre=np.zeros(2)),
+                    n_length=int(ring.counts[i]),
+                    n_thickness=n_height,
+                    groups={"outer": "grouser_outer", "ends": "grouser_outer"},
+                )
+            )
+
+
+def _add_hub(draft: _Draft, name: str, hub: HubRing, ring: Ring) -> None:
+    surfaces = (f"{name}_in", f"{name}_out"), (hub.inner_radius, hub.outer_radius)
+    for i in range(len(ring.angles)):
+        draft.add_ring_piece(name, surfaces, ring, i, {"inner": f"{name}_bore", "outer": f"{name}_outer"})
+
+
+def _add_springs(
+    draft: _Draft,
+    springs: SpringSet,
+    gap: tuple[float, float],
+    surfaces: tuple[tuple[str, Ring], tuple[str, Ring]],
+) -> None:
+    """Welds and strips of one set; ``surfaces`` names the corners and division of the outer and the inner ring."""
+    hub_radius, rim_radius = gap
+    half, t = 0.5 * weld_angle(springs, rim_radius), springs.thickness
+    (rim_name, rim), (hub_name, hub) = surfaces
+    at_rim, at_hub = (f"{springs.name}_rim", rim_name), (f"{springs.name}_hub", hub_name)
+    for station in station_angles(springs):
+        for i in rim.span(station - half, station + half):
+            draft.add_ring_piece(springs.name, (at_rim, (rim_radius - t, rim_radius)), rim, i, {})
+        for i in hub.span(station - half, station + half):
+            draft.add_ring_piece(springs.name, (at_hub, (hub_radius + t, hub_radius)), hub, i, {})
+        for side in leg_sides(springs):
+            leg = spring_leg(springs, gap, station, side)
+            i, j = rim.index(station + side * half), hub.index(station + side * half)
+            start: list[Key] = [(name, i) for name in draft.level_names(*at_rim)]
+            end: list[Key] = [(name, j) for name in draft.level_names(*at_hub)]
+            _add_leg(draft, springs, leg, (i, side), (start, end))
+
+
+def _add_leg(
+    draft: _Draft, springs: SpringSet, leg: Leg, key: tuple[int, int], ends: tuple[list[Key], list[Key]]
+) -> None:
+    """Blocks of one strip; ``ends`` are the corners, inside to outside, it shares with the welds on rim and hub."""
+    stride = (len(leg.points) - 1) // leg.segments
+    per_half_ring = max(_LEAST_PER_HALF_RING, math.ceil(leg.length / draft.size.of(springs.name) - 1e-6))
+    offsets = springs.thickness * np.linspace(-0.5, 0.5, len(ends[0]))
+    lines = [leg.points + offset * leg.normals for offset in offsets]
+    stations = [ends[0]]
+    for s in range(1, leg.segments):
+        names: list[Key] = [(springs.name, *key, s, level) for level in range(len(lines))]
+        stations.append([draft.corner(n, line[s * stride]) for n, line in zip(names, lines, strict=True)])
+    stations.append(ends[1])
+    for s in range(leg.segments):
+        piece = slice(s * stride, (s + 1) * stride + 1)
+        curves = [
+            _leg_curve(leg, line[piece], leg.normals[piece], (stations[s][k], stations[s + 1][k]))
+            for k, line in enumerate(lines)
+        ]
+        draft.add_layers(springs.name, curves, math.ceil(per_half_ring / leg.segments), {})
+
+
+def _leg_curve(leg: Leg, points: Array, normals: Array, ends: tuple[Key, Key]) -> Curve:
+    if leg.centre is not None:
+        return Curve(start=ends[0], end=ends[1], centre=leg.centre)
+    tangents = np.column_stack([-normals[[0, -1], 1], normals[[0, -1], 0]])
+    if np.dot(tangents[0], points[1] - points[0]) < 0.0:
+        tangents = -tangents
+    return Curve(start=ends[0], end=ends[1], through=points[1:-1], tangents=tangents)

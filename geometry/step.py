@@ -1,0 +1,108 @@
+"""STEP export: the wheel's parts over the full width as CAD solids, in millimetres, named by part.
+
+Verified by tests/unit/test_geometry_files.py.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from geometry.gmsh_session import gmsh_session
+from geometry.resolution import MeshSize, Ring, cone_joints, hub_ring, part_bands, rim_ring
+from geometry.section import build_section
+from geometry.solids import draw_faces, draw_frustum_section
+from geometry.wheel import WheelDesign
+
+__all__ = ["write_step"]
+
+_UNIT = "Geometry.OCCTargetUnit"
+_PRODUCT = re.compile(r"PRODUCT\('[^']* \d+\.(\d+)',\s*'[^']*'")
+
+
+def write_step(design: WheelDesign, path: Path) -> None:
+    """Write the whole wheel as one solid per ring, grouser, spring and cone; the product's name is the part's.
+
+    Parameters
+    ----------
+    design : the wheel
+    path : file to write (``.step``); its folder is made if needed
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    names: list[str] = []
+    with gmsh_session(design.name) as gmsh:
+        for part, solids in _solids(gmsh, design):
+            names += [part] * len(solids)
+        occ = gmsh.model.occ
+        occ.remove([entity for dim in (2, 1, 0) for entity in occ.getEntities(dim)])
+        occ.synchronize()
+        before = gmsh.option.getString(_UNIT)
+        gmsh.option.setString(_UNIT, "M")
+        try:
+            with _silenced_stdout():
+                gmsh.write(str(path))
+        finally:
+            gmsh.option.setString(_UNIT, before)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(_PRODUCT.sub(lambda m: _named(m, names), text), encoding="utf-8")
+
+
+@contextmanager
+def _silenced_stdout() -> Iterator[None]:
+    """Send the process's standard output nowhere: OpenCASCADE's STEP writer reports there, whatever gmsh is told."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    with Path(os.devnull).open("w") as nowhere:
+        os.dup2(nowhere.fileno(), 1)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+
+
+def _named(match: re.Match[str], names: list[str]) -> str:
+    """Product of the k-th solid, which OpenCASCADE numbers 1.k, with the part's name."""
+    name = names[int(match.group(1)) - 1]
+    return f"PRODUCT('{name}','{name}'"
+
+
+def _solids(gmsh: Any, design: WheelDesign) -> Iterator[tuple[str, list[tuple[int, int]]]]:
+    """Make and yield the solids of each part, in the order of their tags."""
+    coarse = MeshSize(element_size=1.0, axial_size=1.0, thickness_elements=1, refinement={})
+    rings = rim_ring(design, coarse), hub_ring(design, coarse, "all")
+    for part, bands in part_bands(design).items():
+        for low, high in bands:
+            yield part, _extruded(gmsh, design, rings, part, (low, high))
+    joints = cone_joints(design)
+    for outer, inner in zip(joints[::2], joints[1::2], strict=True):
+        yield "cone", _revolved(gmsh, design, outer, inner)
+
+
+def _extruded(
+    gmsh: Any, design: WheelDesign, rings: tuple[Ring, Ring], part: str, band: tuple[float, float]
+) -> list[tuple[int, int]]:
+    """Unite a part's blocks in the section plane and extrude what remains over one of its bands."""
+    occ = gmsh.model.occ
+    coarse = MeshSize(element_size=1.0, axial_size=1.0, thickness_elements=1, refinement={})
+    section = build_section(design, coarse, rings, frozenset({part, "tire"} if part == "grousers" else {part}))
+    drawn = [(2, face) for block, face, _ in draw_faces(occ, section, band[0]) if block.part == part]
+    united, _ = occ.fuse(drawn[:1], drawn[1:])
+    solids = [s for s in occ.extrude(united, 0.0, band[1] - band[0], 0.0) if s[0] == 3]
+    return occ.fuse(solids[:1], solids[1:])[0] if len(solids) > 1 else solids
+
+
+def _revolved(
+    gmsh: Any, design: WheelDesign, outer: tuple[float, float], inner: tuple[float, float]
+) -> list[tuple[int, int]]:
+    assert design.inner_hub is not None
+    occ = gmsh.model.occ
+    radii = design.outer_hub.inner_radius, design.inner_hub.outer_radius
+    face = draw_frustum_section(occ, radii, (outer, inner), 0.0)
+    return [s for s in occ.revolve([(2, face)], 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 2.0 * math.pi) if s[0] == 3]

@@ -1,0 +1,120 @@
+"""Whether the parts of a wheel fit together: nested radii, bands inside the width, springs clear of each other.
+
+Every rule raises InputError. Verified by tests/unit/test_geometry_validation.py.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from contracts.errors import InputError
+from geometry.clearance import require_clear_of_rings, require_clear_sets
+from geometry.parts import Cone, Grousers, HubRing, SpringSet
+from geometry.springs import weld_angle
+
+if TYPE_CHECKING:
+    from geometry.wheel import WheelDesign
+
+__all__ = ["RESERVED_NAMES", "validate_wheel"]
+
+RESERVED_NAMES = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
+
+
+def validate_wheel(design: WheelDesign) -> None:
+    """Check a design as a whole; raises InputError naming the first rule it breaks."""
+    _check_names(design)
+    tire, hub = design.tire, design.outer_hub
+    if design.grousers is not None:
+        _check_grousers(design.grousers, tire.outer_radius)
+    _check_nested("outer hub radius", hub.outer_radius, "tire's inner radius", tire.inner_radius)
+    half_width = 0.5 * min(tire.width, hub.width)
+    for springs in design.spring_sets:
+        _check_springs(springs, (hub.outer_radius, tire.inner_radius), half_width)
+    require_clear_sets(design.spring_sets, (hub.outer_radius, tire.inner_radius))
+    if design.inner_hub is None:
+        if design.cone is not None or design.impact_springs is not None:
+            rule = "cone and impact springs need an inner hub"
+            raise InputError("inner hub", "none", rule, "give an inner hub or leave both out")
+    else:
+        _check_inner_hub(design, design.inner_hub)
+
+
+def _check_names(design: WheelDesign) -> None:
+    if not design.spring_sets:
+        raise InputError("spring sets", "none", "the rim needs springs", "give at least one SpringSet")
+    names = [springs.name for springs in design.spring_sets]
+    for name in names:
+        if name in RESERVED_NAMES:
+            raise InputError("spring set name", name, "is the name of another part", "choose another name")
+        if names.count(name) > 1:
+            raise InputError("spring set name", name, "is used twice", "give each spring set its own name")
+    if design.impact_springs is not None and design.impact_springs.name != "impact_springs":
+        rule = "the set between the hubs is called impact_springs"
+        raise InputError("impact spring set name", design.impact_springs.name, rule, "set name='impact_springs'")
+
+
+def _check_grousers(grousers: Grousers, radius: float) -> None:
+    spacing = 2.0 * radius * math.sin(math.pi / grousers.count) if grousers.count > 1 else 2.0 * radius
+    if grousers.thickness >= spacing:
+        text = f"{grousers.thickness * 1e3:g} mm"
+        rule = f"{grousers.count} grousers overlap: their feet are {spacing * 1e3:.4g} mm apart"
+        raise InputError("grouser thickness", text, rule, "use fewer or thinner grousers")
+
+
+def _check_nested(what: str, inner: float, other: str, outer: float) -> None:
+    if inner >= outer:
+        rule = f"must be smaller than the {other}, {outer * 1e3:g} mm"
+        raise InputError(what, f"{inner * 1e3:g} mm", rule, "use a smaller hub or a larger wheel")
+
+
+def _check_springs(springs: SpringSet, gap: tuple[float, float], half_width: float) -> None:
+    hub, rim = gap
+    if 2.0 * springs.thickness >= rim - hub:
+        rule = f"strip and two welds do not fit the gap of {(rim - hub) * 1e3:.4g} mm between the rings"
+        raise InputError(f"{springs.name} thickness", f"{springs.thickness * 1e3:g} mm", rule, "use a thinner strip")
+    for y0, y1 in springs.bands:
+        if y0 < -half_width - 1e-12 or y1 > half_width + 1e-12:
+            rule = f"leaves the rings it joins, which reach from {-half_width * 1e3:g} to {half_width * 1e3:g} mm"
+            raise InputError(f"{springs.name} band", f"{y0 * 1e3:g}..{y1 * 1e3:g} mm", rule, "move the band inwards")
+    if weld_angle(springs, rim) >= 2.0 * math.pi / springs.count:
+        spacing = 2.0 * math.pi * rim / springs.count
+        rule = f"must be smaller than the spacing of the welds, {spacing * 1e3:.4g} mm"
+        raise InputError(f"{springs.name} weld length", f"{springs.weld_length * 1e3:g} mm", rule, "shorten the weld")
+    require_clear_of_rings(springs, gap)
+
+
+def _check_inner_hub(design: WheelDesign, inner: HubRing) -> None:
+    bore = design.outer_hub.inner_radius
+    _check_nested("inner hub radius", inner.outer_radius, "outer hub's bore", bore)
+    if design.cone is None and design.impact_springs is None:
+        rule = "nothing joins it to the outer hub"
+        raise InputError("inner hub", f"{inner.outer_radius * 1e3:g} mm", rule, "give a cone, or leave the hub out")
+    half_width = 0.5 * min(inner.width, design.outer_hub.width)
+    if design.impact_springs is not None:
+        _check_springs(design.impact_springs, (inner.outer_radius, bore), half_width)
+        require_clear_sets((design.impact_springs,), (inner.outer_radius, bore))
+    if design.cone is not None:
+        _check_cone(design, design.cone, inner)
+
+
+def _check_cone(design: WheelDesign, cone: Cone, inner: HubRing) -> None:
+    half = 0.5 * cone.axial_width(design.outer_hub.inner_radius, inner.outer_radius)
+    for what, at, width in (
+        ("cone outer position", cone.outer_position, design.outer_hub.width),
+        ("cone inner position", cone.inner_position, inner.width),
+    ):
+        if at - half < -1e-12 or at + half > 0.5 * width + 1e-12:
+            rule = f"its joint of {2e3 * half:.4g} mm must lie in 0..{500.0 * width:g} mm"
+            raise InputError(what, f"{at * 1e3:g} mm", rule, "move the cone along the axle")
+    if 0.0 < abs(cone.outer_position - cone.inner_position) < 2.0 * half:
+        text = f"{cone.outer_position * 1e3:g} and {cone.inner_position * 1e3:g} mm"
+        rule = f"its two joints of {2e3 * half:.4g} mm overlap along the axle"
+        raise InputError("cone positions", text, rule, "make them equal (a disc) or move them apart")
+    if design.impact_springs is not None:
+        low = min(cone.outer_position, cone.inner_position) - half
+        high = max(cone.outer_position, cone.inner_position) + half
+        for y0, y1 in design.impact_springs.bands:
+            if (y0 <= high and y1 >= low) or (y0 <= -low and y1 >= -high):
+                rule = f"meets the cone, which takes up {low * 1e3:.4g}..{high * 1e3:.4g} mm on either side"
+                raise InputError("impact_springs band", f"{y0 * 1e3:g}..{y1 * 1e3:g} mm", rule, "narrow the band")

@@ -1,0 +1,119 @@
+"""Division of the wheel: cuts of the rings, element counts, axial levels."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from contracts.errors import InputError
+from geometry import Cone, build_mesh, exomars
+from geometry.resolution import MeshSize, Ring, axial_bands, axial_levels, hub_ring, part_names, rim_ring
+
+WHEEL = exomars()
+
+
+def size(element: float = 8e-3, thickness_elements: int = 1, **refinement: float) -> MeshSize:
+    return MeshSize(
+        element_size=element, axial_size=20e-3, thickness_elements=thickness_elements, refinement=refinement
+    )
+
+
+def total(ring: Ring) -> float:
+    return sum(ring.step(i) for i in range(len(ring.angles)))
+
+
+def test_rim_is_cut_at_grousers_and_weld_ends() -> None:
+    ring = rim_ring(WHEEL, size())
+    assert len(ring.angles) == 12 * 2 + 6 * 2
+    assert total(ring) == pytest.approx(2 * math.pi)
+    half_weld = 0.5 * 8e-3 / WHEEL.tire.inner_radius
+    for angle in (half_weld, -half_weld, math.radians(60.0) + half_weld):
+        offset = (ring.angles[ring.index(angle)] - angle) % (2 * math.pi)
+        assert min(offset, 2 * math.pi - offset) < 1e-12
+    assert len(ring.span(-half_weld, half_weld)) == 3
+
+
+def test_no_element_is_longer_than_asked() -> None:
+    for ring, radius in ((rim_ring(WHEEL, size()), 142.5e-3), (hub_ring(WHEEL, size(), "all"), 50e-3)):
+        lengths = [radius * ring.step(i) / ring.counts[i] for i in range(len(ring.angles))]
+        assert max(lengths) <= 8e-3 * (1 + 1e-6)
+
+
+def test_refining_a_spring_set_refines_its_welds_only() -> None:
+    coarse, fine = rim_ring(WHEEL, size()), rim_ring(WHEEL, size(springs_outer=0.5e-3))
+    half = 0.5 * 8e-3 / WHEEL.tire.inner_radius
+    inside = coarse.span(-half, half)
+    assert all(fine.counts[i] > coarse.counts[i] for i in inside if coarse.step(i) > 0.01)
+    far = coarse.span(math.radians(60.0) - half, math.radians(60.0) + half)
+    assert all(fine.counts[i] == coarse.counts[i] for i in far)
+
+
+def test_grouser_foot_has_as_many_elements_as_its_thickness() -> None:
+    ring = rim_ring(WHEEL, size(thickness_elements=3))
+    half = math.asin(0.5e-3 / 142.5e-3)
+    assert sum(int(ring.counts[i]) for i in ring.span(-half, half)) == 3
+
+
+def test_cuts_that_all_but_coincide_are_refused() -> None:
+    outer, inner = WHEEL.spring_sets
+    rim = WHEEL.tire.inner_radius
+    foot = 2.0 * rim * math.asin(0.5e-3 / 142.5e-3)
+    near = replace(WHEEL, spring_sets=(replace(outer, weld_length=foot + 1e-6), inner))
+    with pytest.raises(InputError, match="sliver"):
+        rim_ring(near, size())
+    same = replace(WHEEL, spring_sets=(replace(outer, weld_length=foot), inner))
+    assert len(rim_ring(same, size()).angles) == len(rim_ring(WHEEL, size()).angles) - 6
+
+
+def test_levels_are_the_edges_of_bands() -> None:
+    half = axial_levels(WHEEL, "flexible", half_width=True)
+    assert half == pytest.approx([0.0, 0.02, 0.04, 0.06])
+    full = axial_levels(WHEEL, "flexible", half_width=False)
+    assert full == pytest.approx([-0.06, -0.04, -0.02, 0.0, 0.02, 0.04, 0.06])
+    assert [count for _, _, count in axial_bands(WHEEL, size(), half)] == [1, 1, 1]
+
+
+def test_joints_of_the_cone_have_the_elements_of_its_thickness() -> None:
+    levels = axial_levels(WHEEL, "all", half_width=True)
+    bands = axial_bands(WHEEL, size(thickness_elements=4), levels)
+    assert sum(count == 4 for _, _, count in bands) == 2
+    assert np.all(np.diff(levels) > 1e-4)
+
+
+def test_a_cone_joint_cut_by_a_band_edge_is_refused() -> None:
+    cut = replace(WHEEL, cone=Cone(thickness=1.5e-3, outer_position=40e-3, inner_position=22e-3))
+    with pytest.raises(InputError, match="is cut by the band edge"):
+        axial_levels(cut, "all", half_width=True)
+
+
+def test_half_of_a_wheel_without_symmetry_is_refused() -> None:
+    outer, inner = WHEEL.spring_sets
+    skew = replace(WHEEL, spring_sets=(replace(outer, bands=((40e-3, 60e-3),)), inner))
+    with pytest.raises(InputError, match="mirror each other"):
+        axial_levels(skew, "flexible", half_width=True)
+    assert len(axial_levels(skew, "flexible", half_width=False)) == 6
+
+
+def test_flexible_leaves_out_the_rigid_parts() -> None:
+    assert part_names(WHEEL, "flexible") == ("tire", "grousers", "springs_outer", "springs_inner", "outer_hub")
+    assert set(part_names(WHEEL, "all")) - set(part_names(WHEEL, "flexible")) == {
+        "cone",
+        "impact_springs",
+        "inner_hub",
+    }
+
+
+def test_sizes_out_of_range_are_refused() -> None:
+    with pytest.raises(InputError, match="element size"):
+        build_mesh(WHEEL, element_size=0.0)
+    with pytest.raises(InputError, match="axial size"):
+        build_mesh(WHEEL, element_size=8e-3, axial_size=math.nan)
+    with pytest.raises(InputError, match="thickness"):
+        build_mesh(WHEEL, element_size=8e-3, thickness_elements=0)
+    with pytest.raises(InputError, match="not a part"):
+        build_mesh(WHEEL, element_size=8e-3, refinement={"spokes": 1e-3})
+    with pytest.raises(InputError, match="order"):
+        build_mesh(WHEEL, element_size=8e-3, order=3)
