@@ -1,1 +1,6 @@
-"""ancf_reduced."""
+"""ANCF plates, slope discontinuities, reference node, contact and tire statics; import from the modules.
+
+shape_functions, plate_kernels (numba), plate_mesh, plate_model, plate_mass: any network of plates.
+reference_node, contact_grid, equilibrium: what ties, touches and balances it.
+tire_preset, tire_mesh, plane_problem, static_tire, tire_surfaces: the airless tire, a client of the above.
+"""

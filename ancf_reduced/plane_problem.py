@@ -1,0 +1,78 @@
+"""Equilibrium of a tire with a held reference node against a plane: residual, exact tangent, one Newton solve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ancf_reduced.contact_grid import PlaneContact, contact_tangent, plane_contact
+from ancf_reduced.equilibrium import NewtonControls, NewtonResult, newton_solve
+from ancf_reduced.reference_node import rigid_reference_node
+from ancf_reduced.tire_mesh import Tire
+
+__all__ = ["PlaneProblem"]
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlaneProblem:
+    """Free coordinates of a tire whose reference node is held at the hub centre, against a frictionless plane.
+
+    Attributes
+    ----------
+    tire : constant data
+    direction : (3,) float [-], from the hub to the ground, wheel frame
+
+    Verified by tests/unit/test_ancf_plane_problem.py (finite differences) and tests/unit/test_ancf_static_tire.py.
+    """
+
+    tire: Tire
+    direction: FloatArray
+
+    @property
+    def hub(self) -> FloatArray:
+        """The held reference node's coordinates, (4, 3)."""
+        return rigid_reference_node(self.tire.tie.origin, np.eye(3))
+
+    def expand(self, x: FloatArray) -> FloatArray:
+        """Node coordinates (n_nodes, 4, 3) from the free ones, flat."""
+        return self.tire.tie.expand(x.reshape(-1, 4, 3), self.hub)
+
+    def contact(self, p: FloatArray, deflection: float) -> PlaneContact:
+        """Contact with the plane at R - deflection."""
+        preset = self.tire.preset
+        offset = preset.outer_radius - deflection
+        return plane_contact(self.tire.grid, p, self.direction, offset, preset.contact_stiffness)
+
+    def residual(self, x: FloatArray, deflection: float) -> tuple[FloatArray, float]:
+        """Elastic minus contact force on the free coordinates, gradient rows divided by t: all in newtons.
+
+        The scale is the largest contact force component, and at least 1e-4 E t w (so that the dead zone has one).
+        """
+        preset, p = self.tire.preset, self.expand(x)
+        contact, free = self.contact(p, deflection).force, self.tire.tie.free
+        unit = np.array([1.0, *[1.0 / preset.rim_thickness] * 3])[:, None]
+        floor = 1e-4 * preset.young_modulus * preset.rim_thickness * preset.width
+        out_of_balance = (self.tire.model.elastic_force(p) - contact)[free] * unit
+        return out_of_balance.ravel(), max(float(np.abs(contact[free] * unit).max()), floor)
+
+    def tangent(self, x: FloatArray, deflection: float) -> FloatArray:
+        """Exact derivative of `residual` (contact points that switch excepted)."""
+        preset, p = self.tire.preset, self.expand(x)
+        contact = contact_tangent(self.tire.grid, self.contact(p, deflection), self.direction, preset.contact_stiffness)
+        rows = (12 * self.tire.tie.free[:, None] + np.arange(12)).ravel()
+        unit = np.tile([1.0] * 3 + [1.0 / preset.rim_thickness] * 9, len(self.tire.tie.free))
+        return (self.tire.model.elastic_tangent(p) + contact)[np.ix_(rows, rows)] * unit[:, None]
+
+    def solve(self, deflection: float, start: FloatArray, controls: NewtonControls) -> NewtonResult:
+        """Newton at one deflection; a result with an inverted plate counts as not converged."""
+        result = newton_solve(
+            lambda x: self.residual(x, deflection), lambda x: self.tangent(x, deflection), start, controls
+        )
+        if result.converged and self.tire.model.volume_ratio(self.expand(result.x)).min() <= 0.0:
+            reason = "a plate is inverted, det F <= 0: beyond what St. Venant-Kirchhoff can carry"
+            return replace(result, converged=False, reason=reason)
+        return result

@@ -1,0 +1,39 @@
+"""The preset refuses numbers out of range and says what to do."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from ancf_reduced.tire_preset import refined_preset, thesis_preset
+from contracts.errors import InputError
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"outer_radius": 0.0}, "outer radius"),
+        ({"width": float("nan")}, "width"),
+        ({"contact_stiffness": -1.0}, "contact stiffness = -1 N/m"),
+        ({"hub_radius": 0.118}, "hub radius = 118 mm"),
+        ({"circumferential_plates": 6}, "multiple of the spokes"),
+        ({"plates_per_spoke": 0}, "plates per spoke"),
+        ({"contact_points": (1, 10)}, "contact points"),
+        ({"contact_layout": "random"}, "contact layout"),
+    ],
+)
+def test_bad_numbers_are_refused(change: dict[str, object], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        replace(thesis_preset(), **change)
+
+
+def test_refinement_keeps_the_contact_stiffness_per_area() -> None:
+    fine = refined_preset(thesis_preset(), 16, 2)
+    assert (fine.circumferential_plates, fine.plates_per_spoke) == (16, 2)
+    assert fine.contact_stiffness * 16 == pytest.approx(4 * thesis_preset().contact_stiffness)
+
+
+def test_refinement_to_nothing_is_refused() -> None:
+    with pytest.raises(InputError, match="circumferential plates"):
+        refined_preset(thesis_preset(), 0)
