@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +11,6 @@ from numpy.typing import NDArray
 from contracts.mesh import TaggedMesh
 
 __all__ = ["ContactPatch", "contact_faces", "distance_at_touch", "measure_patch"]
-
-from dataclasses import dataclass
 
 _SAMPLES = 13
 
@@ -22,8 +21,8 @@ class ContactPatch:
 
     Attributes
     ----------
-    area : undeformed area of the faces below the plane [m^2]
-    length : extent of these faces along ``tangent`` [m]; 0 without contact
+    area : undeformed area of the touching faces [m^2]
+    length : extent of the touching faces along ``tangent`` [m]; 0 without contact
     penetration : largest depth below the plane [m], >= 0
     """
 
@@ -59,6 +58,7 @@ def measure_patch(
     displacement: NDArray[np.float64],
     plane: tuple[NDArray[np.float64], float],
     tangent: NDArray[np.float64],
+    touch_gap: float = 0.0,
 ) -> ContactPatch:
     """Contact patch of the deformed faces.
 
@@ -67,6 +67,7 @@ def measure_patch(
     displacement : (n_points, 3) [m] at the mesh's nodes
     plane : unit normal (plane to body) [-] and distance of the plane from the origin along -normal [m]
     tangent : (3,) unit vector in the plane along which the length is measured [-]
+    touch_gap : normal gap below which a point counts as touching [m], e.g. the ramp of the contact law
     """
     normal, distance = plane
     shape, weights, derivatives = _lattice(facets.shape[1])
@@ -75,12 +76,12 @@ def measure_patch(
     tangents = np.einsum("asn,fnk->afsk", derivatives, reference)
     jacobian = np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=-1)
     gap = current @ normal + distance
-    closed = gap < 0.0
+    closed = gap < touch_gap
     if not closed.any():
         return ContactPatch(area=0.0, length=0.0, penetration=0.0)
     along = (current @ tangent)[closed]
     area = float(np.sum(np.where(closed, jacobian * weights, 0.0)))
-    return ContactPatch(area=area, length=float(np.ptp(along)), penetration=float(-gap.min()))
+    return ContactPatch(area=area, length=float(np.ptp(along)), penetration=max(0.0, float(-gap.min())))
 
 
 def _lattice(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

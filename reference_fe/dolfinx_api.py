@@ -13,12 +13,11 @@ with contextlib.suppress(ModuleNotFoundError):
 
 import basix
 import basix.ufl
-import dolfinx
+import dolfinx as _dolfinx
 import numpy as np
 import ufl as _ufl
 from dolfinx import fem as _fem
 from dolfinx import mesh as dolfinx_mesh
-from dolfinx.cpp.io import perm_gmsh
 from dolfinx.fem import petsc as _fem_petsc
 from dolfinx.graph import adjacencylist
 from dolfinx.io import distribute_entity_data
@@ -36,16 +35,17 @@ __all__ = [
     "MeshTags",
     "PETSc",
     "PointEvaluation",
+    "cell_measure",
     "cell_nodes",
     "compile_form",
     "create_matrix",
     "facet_tags_from_nodes",
     "fem",
     "fem_petsc",
+    "gauss_rule",
     "lagrange_points",
     "mesh_from_arrays",
     "meshtags",
-    "quadrature_points",
     "quadrature_space",
     "ufl",
     "versions",
@@ -58,6 +58,7 @@ Function = _fem.Function[np.float64]
 DirichletBC = _fem.DirichletBC[np.float64]
 type Expr = Any
 # UFL carries no types and DOLFINx's are partial: both are used untyped, our own code around them is not.
+dolfinx: Any = _dolfinx
 ufl: Any = _ufl
 fem: Any = _fem
 fem_petsc: Any = _fem_petsc
@@ -77,14 +78,14 @@ def versions() -> dict[str, str]:
 def mesh_from_arrays(points: NDArray[np.float64], cells: NDArray[np.int64]) -> Mesh:
     """DOLFINx mesh of 8- or 27-node hexahedra in gmsh's node order; ``points`` (n, 3) [m]."""
     degree = 1 if cells.shape[1] == 8 else 2
-    element = basix.ufl.element("Lagrange", "hexahedron", degree, shape=(3,))
-    permutation = np.asarray(perm_gmsh(_HEXAHEDRON, cells.shape[1]))
+    element: Any = basix.ufl.element("Lagrange", "hexahedron", degree, shape=(3,))
+    permutation = np.asarray(dolfinx.cpp.io.perm_gmsh(_HEXAHEDRON, cells.shape[1]))
     return dolfinx_mesh.create_mesh(COMM, np.ascontiguousarray(cells[:, permutation]), element, points)
 
 
 def facet_tags_from_nodes(mesh: Mesh, facets: NDArray[np.int64], values: NDArray[np.int32]) -> MeshTags:
     """Facet tags from facets given by their node numbers (gmsh order, input numbering)."""
-    permutation = np.asarray(perm_gmsh(dolfinx_mesh.CellType.quadrilateral, facets.shape[1]))
+    permutation = np.asarray(dolfinx.cpp.io.perm_gmsh(dolfinx_mesh.CellType.quadrilateral, facets.shape[1]))
     entities, local = distribute_entity_data(mesh, 2, np.ascontiguousarray(facets[:, permutation]), values)
     mesh.topology.create_connectivity(2, 3)
     return dolfinx_mesh.meshtags_from_entities(mesh, 2, adjacencylist(entities), local.astype(np.int32))
@@ -102,15 +103,25 @@ def meshtags(mesh: Mesh, dim: int, entities: NDArray[np.int32], values: NDArray[
     return dolfinx_mesh.meshtags(mesh, dim, entities[order], values[order])
 
 
-def quadrature_points(degree: int) -> NDArray[np.float64]:
-    """Gauss points of the reference hexahedron for a quadrature degree, (n, 3) [-]."""
-    points, _ = basix.make_quadrature(basix.CellType.hexahedron, degree)
-    return np.asarray(points)
+def gauss_rule(points_per_axis: tuple[int, int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Tensor Gauss rule of the reference hexahedron: points (n, 3) and weights (n,) [-]."""
+    rules: list[Any] = [basix.make_quadrature(basix.CellType.interval, 2 * n - 1) for n in points_per_axis]
+    grids = np.meshgrid(*[rule[0][:, 0] for rule in rules], indexing="ij")
+    weights = np.einsum("i,j,k->ijk", *[rule[1] for rule in rules])
+    return np.stack(grids, axis=-1).reshape(-1, 3), weights.ravel()
 
 
-def quadrature_space(mesh: Mesh, degree: int, shape: tuple[int, ...]) -> Any:
+def cell_measure(mesh: Mesh, tags: MeshTags, ids: tuple[int, ...], points_per_axis: tuple[int, int, int]) -> Any:
+    """UFL measure over the tagged cells with a tensor Gauss rule."""
+    points, weights = gauss_rule(points_per_axis)
+    metadata = {"quadrature_rule": "custom", "quadrature_points": points, "quadrature_weights": weights}
+    return ufl.dx(domain=mesh, subdomain_data=tags, subdomain_id=ids, metadata=metadata)
+
+
+def quadrature_space(mesh: Mesh, points_per_axis: tuple[int, int, int], shape: tuple[int, ...]) -> Any:
     """Space of values at the Gauss points of every cell."""
-    element = basix.ufl.quadrature_element("hexahedron", value_shape=shape, scheme="default", degree=degree)
+    points, weights = gauss_rule(points_per_axis)
+    element = basix.ufl.quadrature_element("hexahedron", value_shape=shape, points=points, weights=weights)
     return fem.functionspace(mesh, element)
 
 
@@ -130,8 +141,9 @@ def create_matrix(form: Any, diagonal_blocks: NDArray[np.int32]) -> PETSc.Mat:
     pattern = fem.create_sparsity_pattern(form)
     pattern.insert_diagonal(diagonal_blocks)
     pattern.finalize()
-    matrix = dolfinx.cpp.la.petsc.create_matrix(COMM, pattern)
-    matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+    matrix: PETSc.Mat = dolfinx.cpp.la.petsc.create_matrix(COMM, pattern)
+    symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
+    matrix.setOption(symmetric, True)
     return matrix
 
 

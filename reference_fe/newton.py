@@ -126,7 +126,7 @@ class NewtonSolver:
         x, y = full.createVecRight(), full.createVecLeft()
         x.array[:] = offset
         full.mult(x, y)
-        product = np.array(y.array)
+        product = np.array(y.array, dtype=np.float64)
         for item in (full, x, y):
             item.destroy()
         return product

@@ -20,6 +20,7 @@ from contracts.materials import Material
 from reference_fe import dolfinx_api as api
 from reference_fe import hyperelastic as law_of
 from reference_fe.contact_law import plane_pressure
+from reference_fe.contact_patch import contact_faces, distance_at_touch
 from reference_fe.dolfinx_api import fem, fem_petsc, ufl
 from reference_fe.domain import Domain
 from reference_fe.hyperelastic import MaterialLaw
@@ -36,13 +37,14 @@ class Discretisation:
     ----------
     law : stored energy
     degree : degree of the displacement, 1 or 2
-    quadrature_degree : 5 gives 3x3x3 Gauss points, the least that leaves 27-node hexahedra without zero-energy modes
+    gauss_points : Gauss points along the cell's three local axes; 27-node hexahedra keep full rank as long as two of
+        them have 3 points. 2 along the curved axis (see `orientation.curved_axis_first`) cures membrane locking
     mixed_integration_points : store the stress at the points for the geometric stiffness; False is plain Newton
     """
 
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
     degree: int = 2
-    quadrature_degree: int = 5
+    gauss_points: tuple[int, int, int] = (2, 3, 3)
     mixed_integration_points: bool = True
 
 
@@ -81,7 +83,7 @@ class StaticProblem:
         self.V = fem.functionspace(mesh, ("Lagrange", self.discretisation.degree, (3,)))
         self.u, self.du = fem.Function(self.V, name="displacement"), fem.Function(self.V)
         self.lame = self._lame_fields()
-        self.stored_stress = fem.Function(api.quadrature_space(mesh, self.discretisation.quadrature_degree, (3, 3)))
+        self.stored_stress = fem.Function(api.quadrature_space(mesh, self.discretisation.gauss_points, (3, 3)))
         self.load_factor = fem.Constant(mesh, 0.0)
         self.plane_normal, self.plane_distance = fem.Constant(mesh, np.zeros(3)), fem.Constant(mesh, 1.0)
         self.penalty = fem.Constant(mesh, 0.0)
@@ -125,7 +127,7 @@ class StaticProblem:
 
     def unsupported_tangent(self) -> api.PETSc.Mat:
         """Tangent stiffness without regard to the supports [N/m]; a new matrix, to be destroyed by the caller."""
-        matrix = fem_petsc.assemble_matrix(self._tangent_form)
+        matrix: api.PETSc.Mat = fem_petsc.assemble_matrix(self._tangent_form)
         matrix.assemble()
         return matrix
 
@@ -134,7 +136,7 @@ class StaticProblem:
         if self._contact_form is None:
             return np.zeros(3)
         total = self.domain.mesh.comm.allreduce(fem.assemble_scalar(self._contact_form))
-        return np.asarray(self.plane_normal.value) * total
+        return np.asarray(self.plane_normal.value * total, dtype=np.float64)
 
     def reaction(self, residual: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sum of the support forces on the body, from the residual at supported unknowns, (3,) [N]."""
@@ -181,12 +183,8 @@ class StaticProblem:
     def _build_forms(self, tractions: Sequence[Traction]) -> None:
         choice, u, mesh = self.discretisation, self.u, self.domain.mesh
         v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
-        dx = ufl.dx(
-            domain=mesh,
-            subdomain_data=self.domain.cell_tags,
-            subdomain_id=self.domain.part_tags(self.materials),
-            metadata={"quadrature_degree": choice.quadrature_degree},
-        )
+        parts = self.domain.part_tags(self.materials)
+        dx = api.cell_measure(mesh, self.domain.cell_tags, parts, choice.gauss_points)
         S = law_of.second_piola_kirchhoff(choice.law, u, self.lame)
         S_geo = self.stored_stress if choice.mixed_integration_points else S
         dE_v = law_of.linearised_strain(u, v)
@@ -195,7 +193,7 @@ class StaticProblem:
         tangent = ufl.inner(CC_dE, dE_v) * dx + ufl.inner(S_geo, ufl.sym(ufl.grad(w).T * ufl.grad(v))) * dx
         residual, tangent = self._add_boundary(residual, tangent, tractions, v, w)
         self._residual_form, self._tangent_form = api.compile_form(residual), api.compile_form(tangent)
-        points = api.quadrature_points(choice.quadrature_degree)
+        points, _ = api.gauss_rule(choice.gauss_points)
         increment = law_of.stress_increment(choice.law, u, self.du, self.lame)
         self._extrapolated_stress = api.PointEvaluation(S + increment, points)
         self._current_stress = api.PointEvaluation(S, points)
@@ -209,6 +207,7 @@ class StaticProblem:
             residual -= self.load_factor * ufl.inner(fem.Constant(mesh, traction.vector), v) * ds
         self._contact_form = None
         if self.contact is not None:
+            _check_plane(self.domain, self.contact)
             ds = ufl.ds(
                 domain=mesh,
                 subdomain_data=tags,
@@ -243,3 +242,18 @@ class StaticProblem:
                         self.bcs.append(fem.dirichletbc(value, dofs, self.V.sub(component)))
         marked = [bc.dof_indices()[0] for bc in self.bcs]
         self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
+
+
+def _check_plane(domain: Domain, contact: PlaneContact) -> None:
+    """Refuse a plane that does not just touch the undeformed body (to a thousandth of its distance)."""
+    domain.face_tags(contact.faces)
+    facets = contact_faces(domain.tagged, contact.faces)
+    reach = distance_at_touch(domain.tagged, facets, -np.asarray(contact.normal))
+    gap = contact.distance_at_touch - reach
+    if abs(gap) > 1e-3 * max(abs(reach), abs(contact.distance_at_touch)):
+        raise InputError(
+            "contact plane at the start",
+            f"{abs(gap) * 1e3:.4g} mm {'off' if gap > 0 else 'inside'} the undeformed body",
+            "must just touch it, with its normal pointing to the body",
+            "flip the normal, or take distance_at_touch from contact_patch.distance_at_touch",
+        )

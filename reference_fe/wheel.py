@@ -19,6 +19,7 @@ from reference_fe.domain import Domain
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.increments import ConvergedState, solve_increments
 from reference_fe.newton import NewtonSettings, NewtonSolver
+from reference_fe.orientation import curved_axis_first
 from reference_fe.static_problem import Discretisation, StaticProblem
 from reference_fe.stress import StressRecovery
 from reference_fe.supports import PlaneContact, Support
@@ -42,7 +43,7 @@ class WheelLoadCase:
     law : stored energy
     contact_stiffness : penalty stiffness per undeformed area [N/m^3]
     contact_ramp : gap at which the contact pressure begins [m], see `contact_law.plane_pressure`
-    quadrature_degree : see `Discretisation`
+    gauss_points : Gauss points along the curved axis and the two others of a cell, see `Discretisation`
     newton : tolerance and iteration limit
     """
 
@@ -53,7 +54,7 @@ class WheelLoadCase:
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
     contact_stiffness: float = 1e11
     contact_ramp: float = 5e-6
-    quadrature_degree: int = 5
+    gauss_points: tuple[int, int, int] = (2, 3, 3)
     newton: NewtonSettings = field(default_factory=NewtonSettings)
 
     def __post_init__(self) -> None:
@@ -150,7 +151,8 @@ class _WheelRun:
     """Problem, records and fields of one orientation while it is being solved."""
 
     def __init__(self, mesh: TaggedMesh, materials: Mapping[str, Material], load_case: WheelLoadCase) -> None:
-        self.started, self.mesh, self.load_case = time.perf_counter(), mesh, load_case
+        self.started, self.load_case = time.perf_counter(), load_case
+        self.mesh = mesh = curved_axis_first(mesh)
         hub = tuple(part for part in HUB_PARTS if part in mesh.parts)
         flexible = {part: materials[part] for part in mesh.parts if part not in hub and part in materials}
         faces = tuple(face for face in CONTACT_FACES if face in mesh.faces)
@@ -173,7 +175,7 @@ class _WheelRun:
                 stiffness=load_case.contact_stiffness,
                 ramp=load_case.contact_ramp,
             ),
-            discretisation=Discretisation(law=load_case.law, quadrature_degree=load_case.quadrature_degree),
+            discretisation=Discretisation(law=load_case.law, gauss_points=load_case.gauss_points),
         )
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress = StressRecovery(self.problem)
@@ -194,7 +196,8 @@ class _WheelRun:
         normal, distance = -self.direction, self.touch - state.control
         tangent = np.array([-self.direction[2], 0.0, self.direction[0]])
         displacement = self.problem.nodal_displacement()
-        patch = measure_patch(self.mesh, self.facets, displacement, (normal, distance), tangent)
+        ramp = self.load_case.contact_ramp
+        patch = measure_patch(self.mesh, self.facets, displacement, (normal, distance), tangent, ramp)
         force = float(np.linalg.norm(state.contact_force))
         imbalance = float(np.linalg.norm(state.reaction + state.contact_force)) / force if force else 0.0
         row = self._row(state.control, load, patch)

@@ -1,0 +1,74 @@
+"""The increment driver on a scripted solver: cut-back, growth, records, failure."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from reference_fe.increments import solve_increments
+from reference_fe.newton import NewtonOutcome
+
+
+class ScriptedSolver:
+    """Converges when the step is at most ``limit``; the state is the control parameter itself."""
+
+    def __init__(self, limit: float) -> None:
+        self.limit, self.control = limit, 0.0
+        self.u = SimpleNamespace(x=SimpleNamespace(array=np.zeros(1)))
+        self.problem: Any = self
+        self.contact = None
+
+    def set_control(self, control: float) -> None:
+        self.control = control
+
+    def solve(self, rise: float = 0.0) -> NewtonOutcome:
+        converged = self.control - self.u.x.array[0] <= self.limit * (1 + 1e-12)
+        self.u.x.array[0] = self.control if converged else 1e9
+        return NewtonOutcome(converged=converged, residuals=(1.0, 0.0), residual=np.zeros(1))
+
+    def contact_force(self) -> np.ndarray:
+        return np.zeros(3)
+
+    def reaction(self, residual: np.ndarray) -> np.ndarray:
+        return np.zeros(3)
+
+
+def drive(limit: float, targets: list[float]) -> tuple[list[float], list[bool], list[IncrementRecord]]:
+    history: list[IncrementRecord] = []
+    solver: Any = ScriptedSolver(limit)
+    states = list(solve_increments(solver, targets, history))
+    return [s.control for s in states], [s.wanted for s in states], history
+
+
+def test_targets_are_hit_exactly() -> None:
+    controls, wanted, history = drive(10.0, [1.0, 2.5, 4.0])
+    assert controls == [1.0, 2.5, 4.0]
+    assert all(wanted)
+    assert all(record.converged for record in history)
+
+
+def test_a_failed_increment_is_halved_from_the_last_good_state() -> None:
+    controls, wanted, history = drive(0.3, [1.0])
+    assert controls[-1] == 1.0
+    assert max(np.diff([0.0, *controls])) <= 0.3 * (1 + 1e-9)
+    assert wanted == [False] * (len(controls) - 1) + [True]
+    assert [record.converged for record in history[:3]] == [False, False, True]
+    assert history[2].step == pytest.approx(0.25)
+
+
+def test_a_hopeless_problem_raises_with_its_history() -> None:
+    history: list[IncrementRecord] = []
+    solver: Any = ScriptedSolver(0.0)
+    with pytest.raises(ConvergenceError, match="does not converge") as caught:
+        list(solve_increments(solver, [1.0], history))
+    assert len(caught.value.history) == len(history) > 5
+
+
+@pytest.mark.parametrize("targets", [[], [2.0, 1.0], [0.0, 1.0], [1.0, float("nan")]])
+def test_bad_targets_are_refused(targets: list[float]) -> None:
+    with pytest.raises(InputError):
+        drive(1.0, targets)

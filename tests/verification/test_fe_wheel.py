@@ -1,0 +1,82 @@
+"""Claim: the wheel's stiffness obeys the symmetries of its design, and its bookkeeping balances.
+
+Source: the design itself (mirror planes, three-fold rotation). Tolerances: the meshes are equal up to rotation, so that
+only round-off and the Newton tolerance (1e-8) separate the results: 1e-6 relative.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pytest
+
+from contracts.errors import ConvergenceError
+from contracts.materials import TI_6AL_4V
+from geometry import WheelDesign, build_mesh
+from reference_fe.newton import NewtonOutcome, NewtonSolver
+from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
+
+DEFLECTIONS = (0.002, 0.005)
+
+
+@functools.cache
+def coarse_wheel(orientation_deg: float, *, half_width: bool = True) -> WheelResult:
+    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=half_width)
+    case = WheelLoadCase(orientation_deg=orientation_deg, deflections=DEFLECTIONS, snapshot_loads=(20.0,))
+    return solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
+
+
+def test_half_and_full_width_carry_the_same_load() -> None:
+    np.testing.assert_allclose(
+        coarse_wheel(0.0).curve.load, coarse_wheel(0.0, half_width=False).curve.load, rtol=1e-6, atol=1e-9
+    )
+
+
+@pytest.mark.parametrize("equal", [-15.0, 135.0])
+def test_mirrored_and_rotated_orientations_are_equal(equal: float) -> None:
+    np.testing.assert_allclose(coarse_wheel(15.0).curve.load, coarse_wheel(equal).curve.load, rtol=1e-6, atol=1e-9)
+
+
+def test_other_orientations_differ() -> None:
+    """Negative control: between a grouser under a spring and the gap beside it the load differs by far more."""
+    assert abs(coarse_wheel(15.0).curve.load[-1] / coarse_wheel(0.0).curve.load[-1] - 1.0) > 0.02
+
+
+def test_every_increment_converged_and_balances() -> None:
+    curve = coarse_wheel(15.0).curve
+    assert (curve.columns["relative_residual"][1:] <= 1e-8).all()
+    assert (curve.columns["force_imbalance"] < 1e-6).all()
+    assert (np.diff(curve.load) > 0.0).all()
+    assert (curve.columns["contact_area_m2"][1:] > 0.0).all()
+
+
+def test_a_snapshot_is_taken_at_its_load() -> None:
+    (snapshot,) = coarse_wheel(0.0).snapshots
+    assert snapshot.load == pytest.approx(20.0, rel=0.02)
+    lowest = np.argmin(snapshot.displacement[:, 2])
+    assert np.abs(snapshot.displacement).max() < 2.0 * snapshot.deflection
+    assert snapshot.displacement[lowest, 2] < 0.0 < snapshot.deflection
+    assert snapshot.von_mises.max() > 1e7
+
+
+def test_a_run_that_does_not_converge_keeps_its_partial_curve(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A solver that gives up beyond 3 mm: the error carries the point at 2 mm, marked partial, and the history."""
+    solve = NewtonSolver.solve
+
+    def give_up(self: NewtonSolver, rise: float = 0.0) -> NewtonOutcome:
+        outcome = solve(self, rise) if rise < 3e-3 and not limit_reached else None
+        limit_reached.append(outcome is not None)
+        return outcome or NewtonOutcome(converged=False, residuals=(1.0, 2.0), residual=np.zeros(1))
+
+    limit_reached: list[bool] = []
+    monkeypatch.setattr(NewtonSolver, "solve", give_up)
+    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    case = WheelLoadCase(orientation_deg=15.0, deflections=(2e-3, 5e-3))
+    with pytest.raises(ConvergenceError, match=r"orientation 15 deg.*does not converge") as caught:
+        solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
+    partial = caught.value.last_good
+    assert isinstance(partial, WheelResult)
+    assert partial.curve.partial
+    np.testing.assert_allclose(partial.curve.deflection, [0.0, 2e-3])
+    assert sum(not record.converged for record in caught.value.history) > 5
