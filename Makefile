@@ -1,0 +1,66 @@
+# Set-up and everyday commands. `make report` and `make test` need git, make, a C compiler and Python 3; nothing else.
+# Every path is relative, so that a clone works wherever it lies.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+VENV := .venv
+TOOLS := .venv-tools
+READY := $(VENV)/.ready
+PYTHON := $(VENV)/bin/python
+PACKAGES := contracts geometry reference_fe ancf_reduced rover_dynamics workbench
+STUDY ?=
+OUT ?= build/report
+
+# One thread in BLAS: results repeat, and independent tasks share the cores as processes.
+export OMP_NUM_THREADS := 1
+
+.PHONY: help setup report test lint unit bench clean distclean
+
+help: ## show this list
+	@grep -hE '^[a-z]+:.*## ' Makefile | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 18
+
+setup: $(READY) ## install the pinned environment (the other targets do it when needed)
+
+report: $(READY) ## compute the study and write the report (STUDY=file.toml, OUT=build/report)
+	$(VENV)/bin/workbench report $(if $(STUDY),"$(STUDY)") --out "$(OUT)"
+
+test: lint ## lint, then every test
+	$(PYTHON) -m pytest
+
+lint: $(READY) ## ruff (rules and format) and mypy --strict
+	$(PYTHON) -m ruff check .
+	$(PYTHON) -m ruff format --check .
+	$(PYTHON) -m mypy --strict $(addprefix -p ,$(PACKAGES))
+
+unit: $(READY) ## the fast tests
+	$(PYTHON) -m pytest -q tests/unit
+
+bench: $(READY) ## run one benchmark: make bench NAME=fe_wheel
+	@test -n "$(NAME)" || { echo "make bench: NAME is not given; one of:" $(basename $(notdir $(wildcard benchmarks/*.py))) >&2; exit 2; }
+	@test -f "benchmarks/$(NAME).py" || { echo "make bench: benchmarks/$(NAME).py is not there; one of:" $(basename $(notdir $(wildcard benchmarks/*.py))) >&2; exit 2; }
+	$(PYTHON) "benchmarks/$(NAME).py"
+
+clean: ## remove results and caches, keep the environment
+	rm -rf build .mypy_cache .ruff_cache .pytest_cache .hypothesis
+
+distclean: clean ## remove the environment too
+	rm -rf $(VENV) $(TOOLS)
+
+# The environment: uv from PATH, or our own copy; Python 3.12; the exact versions of constraints.txt.
+$(READY): constraints.txt pyproject.toml .python-version
+	@uv="$$(command -v uv || true)"; \
+	if [ -z "$$uv" ] && [ ! -x $(TOOLS)/bin/uv ]; then \
+	  echo "uv is not on PATH: installing it into $(TOOLS)"; \
+	  here="$$PWD"; \
+	  (cd / && python3 -m venv "$$here/$(TOOLS)" && "$$here/$(TOOLS)/bin/python" -m pip install --quiet --disable-pip-version-check uv) \
+	    || { rm -rf $(TOOLS); echo "make: uv could not be installed with python3; install uv yourself and put it on PATH" >&2; exit 2; }; \
+	fi; \
+	uv="$${uv:-$(TOOLS)/bin/uv}"; \
+	if ! $(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 12))' 2>/dev/null; then \
+	  "$$uv" venv --quiet --clear --python "$$(cat .python-version)" $(VENV); \
+	fi; \
+	"$$uv" pip install --quiet --python $(PYTHON) --constraints constraints.txt --build-constraints constraints.txt --group dev --editable . ; \
+	touch $@
