@@ -54,7 +54,8 @@ def test_uniaxial_tension_gives_the_uniform_stress(law: MaterialLaw, order: int)
     u = problem.nodal_displacement()
     stretch = 1.0 + u[:, 0].max()
     lateral = 1.0 + u[:, 1].min()
-    stress = StressRecovery(problem).cell_nodes()
+    recovery = StressRecovery(problem)
+    stress = np.append(recovery.cell_stations().ravel(), recovery.nodal_von_mises())
     np.testing.assert_allclose(stress, traction / lateral**2, rtol=1e-7)  # true stress: force over deformed area
     if law is MaterialLaw.ST_VENANT_KIRCHHOFF:  # P = F S, S = E (F^2 - 1)/2: a cubic for the stretch
         assert STEEL.young_modulus * stretch * (stretch**2 - 1.0) / 2.0 == pytest.approx(traction, rel=1e-9)

@@ -23,6 +23,7 @@ from reference_fe.increments import ConvergedState, solve_increments
 from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.orientation import curved_axis_first
 from reference_fe.static_problem import Discretisation, StaticProblem
+from reference_fe.stress import StressRecovery
 from reference_fe.supports import PlaneContact, Support
 from tests.structured_hexahedra import block_mesh
 
@@ -131,3 +132,19 @@ def test_a_flipped_normal_is_caught() -> None:
     """Negative control: a plane whose normal points away from the ring is refused before anything is solved."""
     with pytest.raises(InputError, match="normal pointing to the body"):
         quarter_ring(12, normal=(0.0, 0.0, -1.0))
+
+
+def test_stress_is_that_of_bending() -> None:
+    """At 10 % compression the elastica gives the curvatures; fibre stress = E t/2 times their change, to 2 %."""
+    problem = quarter_ring(40)
+    press(problem, (0.1,))
+    table = np.loadtxt(
+        Path(__file__).parents[1] / "data/analytic/ring_between_plates_elastica.csv", delimiter=",", skiprows=3
+    )
+    curvature_change = np.array([np.interp(0.1, table[:, 1], table[:, k]) - 1.0 for k in (4, 5)]) / RADIUS
+    fibre_stress = STRIP.young_modulus * 0.5 * THICKNESS * np.abs(curvature_change)
+    recovery = StressRecovery(problem)
+    assert recovery.largest_by_part()["body"] == pytest.approx(fibre_stress.max(), rel=0.02)
+    points, stress = problem.domain.tagged.points, recovery.nodal_von_mises()
+    at_ends = [stress[np.abs(points[:, axis]) < 1e-9].max() for axis in (0, 2)]  # contact, and a quarter turn on
+    np.testing.assert_allclose(at_ends, fibre_stress, rtol=0.03)
