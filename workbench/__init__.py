@@ -1,1 +1,1 @@
-"""workbench."""
+"""Command line, study files, task graph and result store, comparison, figures and report."""
