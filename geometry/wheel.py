@@ -68,10 +68,10 @@ class WheelDesign:
     **Inferred, not published**: the inner springs' turn of 60 degrees against the outer ones; that a spring is a hoop
     of two mirrored semicircles; the strip thickness 0.61 mm, one for rim and springs (chosen so that the solid
     model's average curve starts at 8.25 N/mm with hub radius 50 mm); the spring bands -60..-40, -20..20 and
-    40..60 mm; a weld of 8 mm; height 3 mm, thickness 1 mm and phase 0 of the grousers; the outer hub's radius 50 mm, thickness 2 mm
-    and width 120 mm; everything of the cone (a mirrored pair, 1.5 mm, from y = 36 mm at the outer to y = 22 mm at the
-    inner hub), of the impact springs (6 semicircles of 1 mm strip, y = -15..15 mm, weld 6 mm, phase 30 degrees) and of
-    the inner hub (radius 20 mm, thickness 3 mm, width 60 mm); Ti-6Al-4V for every part.
+    40..60 mm; a weld of 8 mm; height 3 mm, thickness 1 mm and phase 0 of the grousers; the outer hub's radius 50 mm,
+    thickness 2 mm and width 120 mm; everything of the cone (a mirrored pair, 1.5 mm, from y = 36 mm at the outer to
+    y = 22 mm at the inner hub), of the impact springs (6 semicircles of 1 mm strip, y = -15..15 mm, weld 6 mm, phase 30
+    degrees) and of the inner hub (radius 20 mm, thickness 3 mm, width 60 mm); Ti-6Al-4V for every part.
 
     Attributes
     ----------
