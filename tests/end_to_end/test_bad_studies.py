@@ -1,0 +1,88 @@
+"""Bad input: one message on stderr with file, key, value and rule, exit status 2, earlier results untouched."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.end_to_end.small_study import run, small_study_text
+
+THICKNESS = r'thickness = "[^"]*"'
+OUTER_HUB = r'outer_radius = "50 mm"'
+SPLINE = 'shape = "spline"\npoints = [[0.5, "70 deg"], [1.3, "100 deg"]]'
+
+BAD: dict[str, tuple[str, str, list[str]]] = {
+    "negative thickness": (THICKNESS, 'thickness = "-0.6 mm"', ["wheel.tire.thickness = '-0.6 mm'", "greater than 0"]),
+    "zero thickness": (THICKNESS, 'thickness = "0 mm"', ["wheel.tire.thickness = '0 mm'", "greater than 0"]),
+    "wrong unit": (THICKNESS, 'thickness = "0.6 kg"', ["wheel.tire.thickness = '0.6 kg'", "must be a length"]),
+    "unknown key": (THICKNESS, 'thicknes = "0.6 mm"', ["wheel.tire.thicknes = '0.6 mm'", "not a known key"]),
+    "hub larger than rim": (OUTER_HUB, 'outer_radius = "150 mm"', ["wheel.outer_hub.outer_radius", "smaller than"]),
+    "springs cross the hub": ('shape = "hoop"', SPLINE, ["wheel.springs[0].shape", "crosses the hub"]),
+    "springs overlap": ("count = 3", "count = 40", ["wheel.springs[0].count = 40", "overlap"]),
+    "orientation nan": (r'orientations = \["0 deg"\]', "orientations = [nan]", ["fe.orientations[0] = nan", "finite"]),
+    "not toml": ('name = "exomars"', "name = exomars", ["not valid TOML"]),
+    "empty": (r"(?s).*", "", ["is empty"]),
+}
+
+
+def _snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
+    return {str(p): (p.stat().st_mtime_ns, p.read_bytes()) for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+@pytest.fixture(scope="module")
+def earlier(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with results of an earlier run."""
+    folder = tmp_path_factory.mktemp("earlier")
+    for name in (
+        "report/summary.json",
+        "report/report.html",
+        "report/curves/fe_phi000.csv",
+        "store/ab/x/manifest.json",
+    ):
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("earlier result", encoding="utf-8")
+    return folder
+
+
+def _assert_refused(earlier: Path, study: Path, wanted: list[str]) -> None:
+    before = _snapshot(earlier)
+    ended = run("report", study, "--out", earlier / "report", "--store", earlier / "store")
+    assert ended.returncode == 2, ended.stdout + ended.stderr
+    assert ended.stdout == ""
+    assert ended.stderr.startswith("workbench: error: ")
+    assert ended.stderr.count("\n") == 1
+    assert "Traceback" not in ended.stderr
+    for text in [str(study), *wanted]:
+        assert text in ended.stderr
+    assert _snapshot(earlier) == before
+
+
+@pytest.mark.parametrize(("old", "new", "wanted"), BAD.values(), ids=BAD.keys())
+def test_bad_study(earlier: Path, tmp_path: Path, old: str, new: str, wanted: list[str]) -> None:
+    text, count = re.subn(old, lambda _: new, small_study_text(), count=1)
+    assert count == 1
+    study = tmp_path / "study.toml"
+    study.write_text(text, encoding="utf-8")
+    _assert_refused(earlier, study, wanted)
+
+
+def test_missing_file_folder_and_bytes(earlier: Path, tmp_path: Path) -> None:
+    binary = tmp_path / "binary.toml"
+    binary.write_bytes(b"name = \xff")
+    _assert_refused(earlier, tmp_path / "none.toml", ["does not exist"])
+    _assert_refused(earlier, tmp_path, ["is a folder"])
+    _assert_refused(earlier, binary, ["not UTF-8"])
+
+
+def test_output_folder_that_is_a_file(earlier: Path, tmp_path: Path) -> None:
+    study, out = tmp_path / "study.toml", tmp_path / "out"
+    study.write_text(small_study_text(), encoding="utf-8")
+    out.write_text("mine", encoding="utf-8")
+    ended = run("report", study, "--out", out, "--store", tmp_path / "store")
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1)
+    assert "--out" in ended.stderr
+    assert out.read_text(encoding="utf-8") == "mine"
+    assert not (tmp_path / "store").exists()

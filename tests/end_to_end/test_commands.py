@@ -1,0 +1,104 @@
+"""The other commands, run as a user would run them."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import meshio
+import pytest
+
+from contracts.curves import read_curve
+from tests.end_to_end.small_study import run
+
+
+def test_help_and_wrong_usage() -> None:
+    shown = run("--help")
+    assert shown.returncode == 0
+    for name in ("report", "mesh", "stiffness", "compare", "doctor"):
+        assert name in shown.stdout
+    wrong = run("report", "--nonsense")
+    assert wrong.returncode == 2
+    assert "--nonsense" in wrong.stderr
+    assert "Traceback" not in wrong.stderr
+    assert run("paint").returncode == 2
+    assert run("report", "--workers", "0").returncode == 2
+
+
+def test_doctor_finds_what_the_tests_run_on() -> None:
+    ended = run("doctor")
+    assert ended.returncode == 0, ended.stdout
+    for name in ("dolfinx-solver-real", "gmsh", "python", "C compiler"):
+        assert name in ended.stdout
+    assert "missing" not in ended.stdout
+
+
+def test_mesh_writes_every_file(
+    workspace: Path, first_report: subprocess.CompletedProcess[str], tmp_path: Path
+) -> None:
+    ended = run("mesh", "study.toml", "--out", tmp_path, "--store", "store", folder=workspace)
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stderr == ""
+    assert "1 tasks computed, 2 reused" in ended.stdout
+    names = {"wheel.msh", "wheel.vtu", "wheel.step", "wheel.png", "solved.msh", "solved.vtu", "summary.json"}
+    assert {p.name for p in tmp_path.iterdir()} == names
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert summary["wheel"]["quality"]["min_scaled_jacobian"] > 0.2
+    mesh = meshio.read(tmp_path / "wheel.vtu")
+    assert sum(len(block.data) for block in mesh.cells) == summary["wheel"]["quality"]["n_cells"]
+    assert (tmp_path / "wheel.step").read_bytes().startswith(b"ISO-10303-21")
+    assert (tmp_path / "wheel.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("model", ["ancf", "brush"])
+def test_stiffness_of_the_quick_models(workspace: Path, tmp_path: Path, model: str) -> None:
+    extra = ["--orientation", "10", "--orientation", "80"] if model == "ancf" else []
+    ended = run(
+        "stiffness", "study.toml", "--model", model, *extra, "--out", tmp_path, "--store", "store", folder=workspace
+    )
+    assert ended.returncode == 0, ended.stderr
+    found = {p.name for p in (tmp_path / "curves").iterdir()}
+    orientations = {"ancf_phi010.csv", "ancf_phi080.csv"} if model == "ancf" else set()
+    assert found == {f"{model}_average.csv", *orientations}
+    if model == "ancf":  # the tire is symmetric about its spokes: 10 and 80 deg are mirror images
+        one, two = (read_curve(tmp_path / "curves" / name) for name in sorted(orientations))
+        assert one.load == pytest.approx(two.load, rel=1e-6, abs=1e-6)
+
+
+def test_stiffness_of_fe_reuses_the_report(
+    workspace: Path, first_report: subprocess.CompletedProcess[str], tmp_path: Path
+) -> None:
+    ended = run("stiffness", "study.toml", "--out", tmp_path, "--store", "store", folder=workspace)
+    assert ended.returncode == 0, ended.stderr
+    assert "0 tasks computed, 2 reused" in ended.stdout
+    assert {p.name for p in (tmp_path / "curves").iterdir()} == {"fe_phi000.csv", "fe_average.csv"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["--model", "magic"], "is not known"),
+        (["--orientation", "nan"], "must be finite"),
+        (["--orientation", "400"], "less than 360"),
+        (["--orientation", "left"], "--orientation"),
+    ],
+)
+def test_stiffness_refuses_bad_options(workspace: Path, tmp_path: Path, arguments: list[str], text: str) -> None:
+    ended = run("stiffness", "study.toml", *arguments, "--out", tmp_path / "o", "--store", "store", folder=workspace)
+    assert ended.returncode == 2
+    assert text in ended.stderr
+    assert "Traceback" not in ended.stderr
+    assert not (tmp_path / "o").exists()
+
+
+def test_compare_two_curves_from_anywhere(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("deflection_m,load_N\n0,0\n0.03,275\n", encoding="utf-8")
+    (tmp_path / "b.csv").write_text("deflection_m,load_N,note\n0,0,1\n0.03,250,2\n", encoding="utf-8")
+    ended = run("compare", tmp_path / "a.csv", tmp_path / "b.csv")
+    assert ended.returncode == 0, ended.stderr
+    for text in ("10.000 %", "25.000 N", "ISO/TS 18571"):
+        assert text in ended.stdout
+    missing = run("compare", tmp_path / "a.csv", tmp_path / "none.csv")
+    assert (missing.returncode, missing.stderr.count("\n")) == (2, 1)
+    assert "none.csv" in missing.stderr

@@ -1,0 +1,106 @@
+"""The main job, run as a user would: the whole chain on a small study, then again."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import subprocess
+import time
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from contracts.curves import read_curve
+from tests.end_to_end.small_study import run, small_study_text
+
+TASKS = {"mesh", "mesh_whole", "mesh_fine", "fe_phi000", "fe_fine", "ancf_phi000", "ancf_phi045", "brush", "ancf_plate",
+         "metrics", "pictures"}  # fmt: skip
+
+type Finished = subprocess.CompletedProcess[str]
+
+
+def test_report_exits_0_and_says_what_it_did(first_report: Finished) -> None:
+    assert first_report.returncode == 0, first_report.stdout + first_report.stderr
+    assert first_report.stderr == ""
+    assert set(re.findall(r"\] (\S+): computed", first_report.stdout)) == TASKS
+    assert "11 tasks computed, 0 reused" in first_report.stdout
+
+
+def test_summary_holds_the_agreed_fields(first_report: Finished, workspace: Path) -> None:
+    summary = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))
+    assert (summary["schema"], summary["study"], summary["status"]) == (1, "exomars", "pass")
+    ids = [c["id"] for c in summary["checks"]]
+    assert len(ids) == len(set(ids))
+    for wanted in ("fe.initial_tangent", "fe.deflection_at_160N", "fe.deflection_at_250N", "fe.residual", "fe.balance",
+                   "fe.reach", "fe.mesh_uncertainty", "fe.yield", "fe.spread_20mm", "mesh.mass", "ancf.preset_phi000",
+                   "ancf.preset_phi045", "ancf.flexible_mass", "ancf.plate_elastic_force", "ancf_vs_fe.relative_l2",
+                   "ancf_vs_fe.iso_18571", "brush_vs_fe.relative_l2"):  # fmt: skip
+        assert wanted in ids
+    gates = [c for c in summary["checks"] if c["role"] == "gate"]
+    assert {c["status"] for c in gates} == {"pass"}
+    assert {t["task"] for t in summary["timings"]} == TASKS
+    assert all(t["wall_s"] >= 0.0 for t in summary["timings"])
+    assert next(t["dofs"] for t in summary["timings"] if t["task"] == "fe_phi000") > 1000
+    assert set(summary["provenance"]["tasks"]) == TASKS
+
+
+def test_junit_holds_the_same_checks(first_report: Finished, workspace: Path) -> None:
+    summary = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))
+    (suite,) = ElementTree.parse(workspace / "report" / "junit.xml").getroot()
+    assert [case.get("name") for case in suite] == [c["id"] for c in summary["checks"]]
+    assert suite.get("failures") == suite.get("errors") == "0"
+
+
+def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished, workspace: Path) -> None:
+    folder = workspace / "report" / "curves"
+    names = {"fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
+             "brush_average.csv"}  # fmt: skip
+    assert {p.name for p in folder.iterdir()} == names
+    for path in folder.iterdir():
+        lines = path.read_text(encoding="utf-8").splitlines()
+        assert next(line for line in lines if not line.startswith("#")).startswith("deflection_m,load_N")
+        assert np.all(np.diff(read_curve(path).deflection) > 0.0)
+    assert [p.name for p in (workspace / "report" / "fields").iterdir()] == ["fe_phi000_20N.vtu"]
+    fe = read_curve(folder / "fe_phi000.csv")
+    assert fe.load[-1] > 10.0
+    assert fe.deflection[-1] == pytest.approx(0.006)
+
+
+def test_page_is_self_contained_and_shows_everything(first_report: Finished, workspace: Path) -> None:
+    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    outside_scripts = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
+    assert not re.search(r"""(src|href)=["'](?!#|data:)""", outside_scripts)
+    assert not re.search(r"<script[^>]+src=", page)
+    assert outside_scripts.count("data:image/png;base64,") == 2
+    for text in ("All 14 gates passed", "Inferred, not published", "inferred from the thesis", "FE average",
+                 "ANCF 45", "brush line", "Stated mesh uncertainty", "under 20 N", "How to read this"):  # fmt: skip
+        assert text in page, text
+    named = re.findall(r".{4}Sivo's data", html.unescape(page))
+    assert named
+    assert set(named) == {"not Sivo's data"}
+
+
+def test_a_second_run_reuses_everything_and_a_strict_study_exits_1(first_report: Finished, workspace: Path) -> None:
+    """Only the comparison changes: tolerances and a user's curve; a failed gate gives exit status 1."""
+    (workspace / "mine.csv").write_text("# source: file\ndeflection_m,load_N\n0,0\n0.006,40\n", encoding="utf-8")
+    mine = '[[compare.curves]]\nfile = "mine.csv"\nlabel = "my digitised curve"\nsource = "Someone, Fig. 1"\n'
+    strict = small_study_text().replace("[tolerances]", f"{mine}\n[tolerances]")
+    strict = strict.replace('reach_deflection = "6 mm"', "")
+    (workspace / "strict.toml").write_text(strict, encoding="utf-8")
+    second = run("report", "strict.toml", "--out", "strict", "--store", "store", folder=workspace)
+    assert second.returncode == 1, second.stderr
+    assert "1 tasks computed, 10 reused" in second.stdout
+    start = time.perf_counter()
+    third = run("report", "strict.toml", "--out", "strict", "--store", "store", folder=workspace)
+    assert time.perf_counter() - start < 30.0
+    assert third.returncode == 1
+    assert "0 tasks computed, 11 reused" in third.stdout
+    summary = json.loads((workspace / "strict" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["status"] == "fail"
+    assert [c["id"] for c in summary["checks"] if c["role"] == "gate" and c["status"] != "pass"] == ["fe.reach"]
+    user = next(c for c in summary["checks"] if c["id"] == "user_0.relative_l2")
+    assert (user["source"], user["role"]) == ("Someone, Fig. 1", "finding")
+    assert "my digitised curve" in (workspace / "strict" / "report.html").read_text(encoding="utf-8")

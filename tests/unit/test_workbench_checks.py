@@ -1,0 +1,185 @@
+"""Checks on synthetic curves: each passes on a sound set and fails on a damaged one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from contracts.curves import StiffnessCurve, average_curve
+from contracts.records import Check
+from workbench.checks_fe import band_checks, mesh_checks, solver_checks, spread_checks, yield_check
+from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, preset_error, user_checks
+from workbench.comparison import exit_status, overall_status
+from workbench.results import ModelCurves, UserCurve
+from workbench.study import thesis_band
+from workbench.study_sections import ToleranceSection
+
+TOLERANCES = ToleranceSection()
+D = np.linspace(0.0, 0.036, 37)
+
+
+def _fe_curve(orientation: float, slope: float, **columns: float) -> StiffnessCurve:
+    shape = D - 2.0 * D**2
+    values = {"force_imbalance": 1e-9, "max_von_mises_tire_Pa": 4e8} | columns
+    return StiffnessCurve(
+        model="fe",
+        orientation_deg=orientation,
+        deflection=D,
+        load=slope * shape,
+        columns={name: np.full_like(D, value) for name, value in values.items()},
+    )
+
+
+def _fe(slopes: tuple[float, float] = (8600.0, 8000.0), residual: float = 1e-9, **columns: float) -> ModelCurves:
+    curves = {float(i): _fe_curve(float(i), slope, **columns) for i, slope in enumerate(slopes)}
+    record = {"converged": True, "residuals": [1.0, residual], "target": 0.01, "step": 0.01}
+    failed = {"converged": False, "residuals": [1.0, 0.5], "target": 0.02, "step": 0.01}
+    numbers: Mapping[float, Mapping[str, Any]] = {o: {"increments": [failed, record]} for o in curves}
+    return ModelCurves(model="fe", by_orientation=curves, average=average_curve(list(curves.values())), numbers=numbers)
+
+
+def _by_id(checks: list[Check]) -> dict[str, Check]:
+    assert len({c.id for c in checks}) == len(checks)
+    return {c.id: c for c in checks}
+
+
+def test_band_checks_pass_on_a_curve_inside_and_fail_on_a_soft_one() -> None:
+    good = _by_id(band_checks(_fe(), thesis_band(), TOLERANCES))
+    assert {c.status for c in good.values()} == {"pass"}
+    assert good["fe.initial_tangent"].role == "gate"
+    assert good["fe.initial_tangent"].value == pytest.approx(8250.0, rel=0.02)
+    assert good["fe.deflection_at_160N"].reference == (0.019, 0.021)
+    soft = _by_id(band_checks(_fe((5000.0, 5000.0)), thesis_band(), TOLERANCES))
+    assert soft["fe.initial_tangent"].status == "fail"
+    assert soft["fe.deflection_at_160N"].status == "fail"
+    assert soft["fe.deflection_at_250N"].status == "error"
+    assert soft["fe.deflection_at_250N"].value is None
+
+
+@pytest.mark.parametrize(
+    ("damage", "failing"),
+    [
+        ({}, set()),
+        ({"residual": 2e-8}, {"fe.residual"}),
+        ({"force_imbalance": 2e-6}, {"fe.balance"}),
+        ({"slopes": (3000.0, 8000.0)}, {"fe.mesh_uncertainty"}),
+    ],
+)
+def test_solver_checks_catch_each_damage(damage: dict[str, Any], failing: set[str]) -> None:
+    fine = _fe_curve(0.0, 8700.0)
+    checks = _by_id(solver_checks(_fe(**damage), fine, (0.0, 0.02), TOLERANCES))
+    assert {c.id for c in checks.values() if c.status == "fail"} == failing
+    assert {c.role for c in checks.values()} == {"gate"}
+
+
+def test_reach_fails_for_a_run_that_stopped_early() -> None:
+    short = ToleranceSection(reach_deflection="40 mm", reach_load="400 N")
+    checks = _by_id(solver_checks(_fe(), _fe_curve(0.0, 8600.0), (0.0, 0.02), short))
+    assert checks["fe.reach"].status == "fail"
+    assert checks["fe.reach"].value == pytest.approx(0.9)
+
+
+def test_spread_and_yield_are_findings() -> None:
+    spread = _by_id(spread_checks(_fe((9000.0, 4000.0)), TOLERANCES))
+    assert [c.status for c in spread.values()] == ["fail"] * 3
+    assert spread["fe.spread_20mm"].value == pytest.approx(5000.0 / 6500.0)
+    assert yield_check(_fe(), {"tire": 880e6}).status == "pass"
+    over = yield_check(_fe(max_von_mises_tire_Pa=9e8), {"tire": 880e6})
+    assert (over.status, over.role) == ("fail", "finding")
+
+
+def test_mesh_checks_catch_lost_mass_and_bad_cells() -> None:
+    whole = {
+        "total_volume": 1.0,
+        "total_volume_closed_form": 1.0005,
+        "total_mass": 1.0,
+        "total_mass_closed_form": 1.0005,
+        "quality": {"min_scaled_jacobian": 0.9},
+    }
+    assert {c.status for c in mesh_checks(whole, whole, TOLERANCES)} == {"pass"}
+    damaged = whole | {"total_mass": 0.998, "quality": {"min_scaled_jacobian": -0.1}}
+    failing = {c.id for c in mesh_checks(whole, damaged, TOLERANCES) if c.status == "fail"}
+    assert failing == {"mesh.mass", "mesh.min_scaled_jacobian"}
+
+
+def _ancf(scale: float = 1.0, mass: float = 4.426) -> ModelCurves:
+    """The table itself, times a factor."""
+    from workbench.checks_models import _preset_table
+
+    table = _preset_table()
+    curves = {
+        o: StiffnessCurve(model="ancf", orientation_deg=o, deflection=table[:, 0], load=scale * table[:, 1 + i])
+        for i, o in enumerate((0.0, 45.0))
+    }
+    average = average_curve(list(curves.values()))
+    numbers = {o: {"flexible_mass_kg": mass} for o in curves}
+    return ModelCurves(model="ancf", by_orientation=curves, average=average, numbers=numbers)
+
+
+def test_ancf_preset_is_held_against_its_table() -> None:
+    assert {c.status for c in ancf_checks(_ancf(), TOLERANCES)} == {"pass"}
+    assert preset_error(_ancf(1.02), 0.0) == pytest.approx(0.02, rel=1e-9)
+    failing = {c.id for c in ancf_checks(_ancf(1.02, mass=4.0), TOLERANCES) if c.status == "fail"}
+    assert failing == {"ancf.preset_phi000", "ancf.preset_phi045", "ancf.flexible_mass"}
+
+
+def test_ancf_preset_without_its_orientations_cannot_be_evaluated() -> None:
+    ancf = _ancf()
+    one = ModelCurves(
+        model="ancf",
+        by_orientation={0.0: ancf.by_orientation[0.0]},
+        average=ancf.by_orientation[0.0],
+        numbers=ancf.numbers,
+    )
+    assert _by_id(ancf_checks(one, TOLERANCES))["ancf.preset_phi045"].status == "error"
+
+
+def test_plate_checks() -> None:
+    checks = plate_checks({"mass": 1e-15, "elastic_force": 1e-9}, TOLERANCES)
+    assert [c.status for c in checks] == ["pass", "fail"]
+
+
+def test_agreement_and_user_checks_are_findings() -> None:
+    numbers = {"end": 0.03, "relative_l2": 0.2, "max_error": 10.0, "tangent": 9000.0, "tangent_reference": 8250.0}
+    metrics = {"ancf_average": numbers | {"iso_rating": 0.9}, "brush": numbers, "user_0": {"relative_l2": 0.05}}
+    checks = _by_id(agreement_checks(metrics, TOLERANCES))
+    assert {c.role for c in checks.values()} == {"finding"}
+    assert {c.id for c in checks.values() if c.status == "fail"} == {
+        "ancf_vs_fe.relative_l2",
+        "brush_vs_fe.relative_l2",
+    }
+    user = UserCurve(label="paper", curve=_fe_curve(0.0, 8000.0), orientation_deg=None)
+    (check,) = user_checks([user], metrics, TOLERANCES)
+    assert (check.status, check.role) == ("pass", "finding")
+
+
+def _check(role: str, status: str) -> Check:
+    return Check(
+        id=f"{role}.{status}",
+        title="t",
+        quantity="q",
+        unit="-",
+        value=None if status == "error" else 1.0,
+        reference=1.0,
+        tolerance="1 %",
+        status=status,  # type: ignore[arg-type]
+        role=role,  # type: ignore[arg-type]
+        source="s",
+    )
+
+
+@pytest.mark.parametrize(
+    ("checks", "status", "exit_code"),
+    [
+        ([("gate", "pass"), ("finding", "fail"), ("finding", "error")], "pass", 0),
+        ([("gate", "pass"), ("gate", "fail"), ("gate", "error")], "fail", 1),
+        ([("gate", "pass"), ("gate", "error")], "error", 1),
+    ],
+)
+def test_only_gates_decide_the_verdict(checks: list[tuple[str, str]], status: str, exit_code: int) -> None:
+    made = [_check(*pair) for pair in checks]
+    assert overall_status(made) == status
+    assert exit_status(made) == exit_code

@@ -1,0 +1,91 @@
+"""The task graph of a study: what is computed, in which order, and what a change invalidates."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from workbench.fingerprint import canonical_json
+from workbench.graph import mesh_tasks, orientation_name, report_tasks, stiffness_tasks
+from workbench.study import Study, WheelStudy
+from workbench.study_file import built_in_study, read_study
+from workbench.study_models import wheel_design
+from workbench.task import Task, task_keys
+
+HERE = built_in_study().parent
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    return read_study(built_in_study())
+
+
+def _changed(study: Study, section: str, **values: object) -> Study:
+    part = getattr(study, section).model_copy(update=values)
+    return study.model_copy(update={section: part})
+
+
+def _new_keys(before: tuple[Task, ...], after: tuple[Task, ...]) -> set[str]:
+    old, new = task_keys(before), task_keys(after)
+    return {name for name in new if new[name] != old.get(name)}
+
+
+def test_report_has_every_task_and_needs_come_first(study: Study) -> None:
+    tasks = report_tasks(study, HERE)
+    names = [t.name for t in tasks]
+    orientations = [f"fe_phi{o:03d}" for o in (0, 15, 30, 45, 60)] + ["ancf_phi000", "ancf_phi045"]
+    others = {"mesh", "mesh_whole", "mesh_fine", "fe_fine", "brush", "ancf_plate", "metrics", "pictures"}
+    assert set(names) == {*orientations, *others}
+    for i, task in enumerate(tasks):
+        assert set(task.needs) <= set(names[:i])
+
+
+def test_inputs_are_json_that_survives_a_round_trip(study: Study) -> None:
+    for task in report_tasks(study, HERE):
+        assert json.loads(canonical_json(task.inputs)) == json.loads(json.dumps(task.inputs))
+
+
+def test_wheel_design_survives_the_trip_to_the_worker(study: Study) -> None:
+    wheel = json.loads(canonical_json(mesh_tasks(study)[0].inputs["wheel"]))
+    assert wheel_design(WheelStudy.model_validate(wheel, context={"si": True})) == wheel_design(study)
+
+
+def test_deflections_contain_the_one_where_meshes_are_compared(study: Study) -> None:
+    odd = _changed(study, "fe", points=7)
+    task = next(t for t in report_tasks(odd, HERE) if t.name == "fe_phi000")
+    assert 0.02 in task.inputs["deflections"]
+    assert task.inputs["deflections"][-1] == pytest.approx(0.036)
+
+
+def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
+    before = report_tasks(study, HERE)
+    assert _new_keys(before, report_tasks(study, HERE)) == set()
+    ancf = report_tasks(_changed(study, "ancf", young_modulus=281e3), HERE)
+    assert _new_keys(before, ancf) == {"ancf_phi000", "ancf_phi045", "metrics"}
+    fine = report_tasks(_changed(study, "fe", fine_factor=1.5), HERE)
+    assert _new_keys(before, fine) == {"mesh_fine", "fe_fine"}
+    tolerance = report_tasks(_changed(study, "tolerances", initial_tangent=0.5), HERE)
+    assert _new_keys(before, tolerance) == set()
+    mesh = report_tasks(_changed(study, "mesh", element_size=7e-3), HERE)
+    assert {"ancf_phi000", "ancf_phi045", "brush", "ancf_plate"} == set(task_keys(before)) - _new_keys(before, mesh)
+
+
+def test_stiffness_tasks_take_the_orientations_asked_for(study: Study) -> None:
+    assert [t.name for t in stiffness_tasks(study, "fe", [7.5])] == ["mesh", "fe_phi007.5"]
+    assert [t.name for t in stiffness_tasks(study, "ancf", [])] == ["ancf_phi000", "ancf_phi045"]
+    assert [t.name for t in stiffness_tasks(study, "brush", [])] == ["brush"]
+    assert orientation_name("fe", 359.0) == "fe_phi359"
+
+
+def test_text_of_a_user_curve_is_part_of_the_key(study: Study, tmp_path: Path) -> None:
+    from workbench.study import CompareSection
+    from workbench.study_sections import CurveSection
+
+    section = CurveSection(file="mine.csv", label="mine", source="me")
+    with_curve = study.model_copy(update={"compare": CompareSection(curves=(section,))})
+    (tmp_path / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.01,82\n", encoding="utf-8")
+    before = report_tasks(with_curve, tmp_path)
+    (tmp_path / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.01,83\n", encoding="utf-8")
+    assert _new_keys(before, report_tasks(with_curve, tmp_path)) == {"metrics"}

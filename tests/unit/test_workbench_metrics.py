@@ -1,0 +1,56 @@
+"""Distances between curves, on curves whose distance is known exactly."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from workbench.metrics import compare_curves, iso_18571_rating, largest_spread
+
+
+def _line(slope: float, end: float = 0.03, offset: float = 0.0, start: float = 0.0) -> StiffnessCurve:
+    d = np.linspace(start, end, 31)
+    return StiffnessCurve(model="line", orientation_deg=None, deflection=d, load=slope * d + offset)
+
+
+def test_equal_curves_have_no_distance() -> None:
+    metrics = compare_curves(_line(8250.0), _line(8250.0))
+    assert (metrics.relative_l2, metrics.max_error, metrics.iso_rating) == (0.0, 0.0, 1.0)
+
+
+def test_ten_percent_steeper_line() -> None:
+    metrics = compare_curves(_line(9075.0), _line(8250.0))
+    assert metrics.relative_l2 == pytest.approx(0.1, rel=1e-12)
+    assert metrics.max_error == pytest.approx(825.0 * 0.03, rel=1e-12)
+    assert metrics.max_error_at == pytest.approx(0.03)
+    assert metrics.tangent == pytest.approx(9075.0)
+    assert metrics.tangent_reference == pytest.approx(8250.0)
+    assert metrics.iso_rating < 1.0
+
+
+def test_range_is_the_common_one_and_ends_at_the_reference_load() -> None:
+    metrics = compare_curves(_line(9000.0, end=0.02, start=0.005), _line(8000.0))
+    assert (metrics.start, metrics.end) == (0.005, 0.02)
+    assert compare_curves(_line(9000.0), _line(8000.0), max_load=160.0).end == pytest.approx(0.02)
+
+
+def test_curves_that_share_nothing_are_refused() -> None:
+    with pytest.raises(InputError, match="share no range"):
+        compare_curves(_line(1.0, end=0.01), _line(1.0, end=0.03, start=0.02))
+    with pytest.raises(InputError, match="is zero"):
+        compare_curves(_line(1.0), _line(0.0))
+
+
+def test_iso_rating_falls_with_distance() -> None:
+    x = np.linspace(0.0, 1.0, 201)
+    reference = np.sin(2.0 * np.pi * x)
+    ratings = [iso_18571_rating(reference * (1.0 + e), reference) for e in (0.0, 0.1, 0.3, 1.0)]
+    assert ratings[0] == 1.0
+    assert ratings == sorted(ratings, reverse=True)
+    assert ratings[-1] < 0.8
+
+
+def test_spread_of_two_lines() -> None:
+    assert largest_spread([_line(9000.0), _line(7000.0)], 0.02) == pytest.approx(0.25)

@@ -1,0 +1,139 @@
+"""Files the user gets: schema of summary and JUnit, whole files only, other people's files left alone."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from contracts.records import Check, Timing
+from workbench.number_format import displayed, displayed_reference
+from workbench.outputs import check_folder, curve_file, junit, publish, summary, to_json
+from workbench.report import verdict
+
+
+def _check(name: str, role: str = "gate", status: str = "pass", value: float | None = 8.0) -> Check:
+    return Check(
+        id=name,
+        title="A <title> & more",
+        quantity="initial tangent",
+        unit="N/m",
+        value=value,
+        reference=(1.0, 2.0),
+        tolerance="3 %",
+        status=status,  # type: ignore[arg-type]
+        role=role,  # type: ignore[arg-type]
+        source="a source",
+    )
+
+
+CHECKS = [
+    _check("a"),
+    _check("b", status="fail"),
+    _check("c", status="error", value=None),
+    _check("d", role="finding", status="fail"),
+]
+
+
+def _curve(model: str, orientation: float | None) -> StiffnessCurve:
+    d = np.array([0.0, 0.01])
+    return StiffnessCurve(model=model, orientation_deg=orientation, deflection=d, load=8250.0 * d)
+
+
+def test_summary_has_exactly_the_agreed_fields() -> None:
+    made = json.loads(to_json(summary("s", CHECKS, [Timing(task="t", wall_s=1.0, dofs=3)], {"commit": None})))
+    assert list(made) == ["schema", "study", "status", "checks", "timings", "provenance"]
+    assert (made["schema"], made["study"], made["status"]) == (1, "s", "fail")
+    fields = ["id", "title", "quantity", "unit", "value", "reference", "tolerance", "status", "role", "source"]
+    assert all(list(c) == fields for c in made["checks"])
+    assert made["checks"][0]["reference"] == [1.0, 2.0]
+    assert made["checks"][2]["value"] is None
+    assert made["timings"] == [{"task": "t", "wall_s": 1.0, "dofs": 3}]
+
+
+def test_junit_counts_gates_only_and_names_every_check() -> None:
+    root = ElementTree.fromstring(junit("s", CHECKS))
+    (suite,) = root
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("4", "1", "1")
+    assert [case.get("name") for case in suite] == ["a", "b", "c", "d"]
+    kinds = [next(iter(case)).tag for case in suite]
+    assert kinds == ["system-out", "failure", "error", "system-out"]
+    assert "A <title> & more" in suite[1][0].get("message", "")
+
+
+@pytest.mark.parametrize(
+    ("model", "orientation", "name"),
+    [
+        ("fe", 0.0, "fe_phi000.csv"),
+        ("fe", 15.0, "fe_phi015.csv"),
+        ("ancf", 345.0, "ancf_phi345.csv"),
+        ("fe", 22.5, "fe_phi022.5.csv"),
+        ("ancf", None, "ancf_average.csv"),
+        ("brush", None, "brush_average.csv"),
+    ],
+)
+def test_curve_file_names(model: str, orientation: float | None, name: str) -> None:
+    assert curve_file(_curve(model, orientation)) == name
+
+
+def test_publish_replaces_ours_and_leaves_the_rest(tmp_path: Path) -> None:
+    out = tmp_path / "report"
+    field = tmp_path / "field"
+    field.write_text("field", encoding="utf-8")
+    publish(out, {"report.html": "one"}, [_curve("fe", 0.0), _curve("fe", 30.0)], {"fe_phi000_200N.vtu": field})
+    (out / ".new-0").mkdir()
+    assert (out / "fields" / "fe_phi000_200N.vtu").read_text(encoding="utf-8") == "field"
+    (out / "notes.txt").write_text("mine", encoding="utf-8")
+    (out / "curves" / "digitised.csv").write_text("mine", encoding="utf-8")
+    publish(out, {"report.html": "two"}, [_curve("fe", 0.0)], {})
+    assert list((out / "fields").iterdir()) == []
+    assert (out / "report.html").read_text(encoding="utf-8") == "two"
+    assert sorted(p.name for p in (out / "curves").iterdir()) == ["digitised.csv", "fe_phi000.csv"]
+    assert sorted(p.name for p in out.iterdir()) == ["curves", "fields", "notes.txt", "report.html"]
+
+
+def test_a_publish_that_fails_leaves_the_earlier_set(tmp_path: Path) -> None:
+    publish(tmp_path, {"report.html": "one"}, [_curve("fe", 0.0)])
+    with pytest.raises(TypeError):
+        publish(tmp_path, {"report.html": "two", "summary.json": None}, [_curve("fe", 30.0)])  # type: ignore[dict-item]
+    assert (tmp_path / "report.html").read_text(encoding="utf-8") == "one"
+    assert [p.name for p in (tmp_path / "curves").iterdir()] == ["fe_phi000.csv"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["curves", "report.html"]
+
+
+def test_output_folder_that_cannot_be_made_is_refused_early(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    check_folder(tmp_path / "new" / "deep")
+    for bad in (tmp_path / "file", tmp_path / "file" / "below"):
+        with pytest.raises(InputError, match="--out"):
+            check_folder(bad)
+
+
+def test_verdict_is_one_sentence() -> None:
+    assert verdict([_check("a")]) == "All 1 gates passed; every finding lies inside its limits."
+    assert verdict(CHECKS) == "2 of 3 gates did not pass; 1 of 1 findings lie outside their limits."
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "quantity", "text"),
+    [
+        (8250.0, "N/m", "tangent", "8.25 N/mm"),
+        (0.0196, "m", "deflection", "19.6 mm"),
+        (0.0316, "-", "spread", "3.16 %"),
+        (3.47e-15, "-", "residual", "3.47·10⁻¹⁵"),
+        (0.0, "-", "residual", "0"),
+        (None, "N", "load", "–"),
+        (36.28, "N", "load", "36.28 N"),
+    ],
+)
+def test_numbers_as_a_reader_wants_them(value: float | None, unit: str, quantity: str, text: str) -> None:
+    assert displayed(value, unit, quantity) == text
+
+
+def test_reference_interval() -> None:
+    assert displayed_reference(_check("a")) == "0.001 … 0.002 N/mm"

@@ -1,0 +1,59 @@
+"""Numbers with units: converted to SI, refused when the dimension is another one or the number is not finite."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from pydantic_core import PydanticCustomError
+
+from workbench.quantities import to_si
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "expected"),
+    [
+        ("0.6 mm", "m", 0.6e-3),
+        ("142.5mm", "m", 0.1425),
+        (0.1425, "m", 0.1425),
+        (3, "m", 3.0),
+        ("113.8 GPa", "Pa", 113.8e9),
+        ("4430 kg/m^3", "kg/m**3", 4430.0),
+        ("8.25 N/mm", "N/m", 8250.0),
+        ("8140 N*s/m", "N*s/m", 8140.0),
+        ("1e11 N/m^3", "N/m**3", 1e11),
+        ("180 deg", "rad", math.pi),
+        ("0.26 rad", "rad", 0.26),
+        ("0.3", "", 0.3),
+        ("50 %", "", 0.5),
+    ],
+)
+def test_converts_to_si(text: object, unit: str, expected: float) -> None:
+    assert to_si(text, unit) == pytest.approx(expected, rel=1e-15, abs=0.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "rule"),
+    [
+        ("0.6 kg", "m", "must be a length"),
+        ("0.6", "m", "needs its unit"),
+        ("mm", "m", "begin with a number"),
+        ("0.6 furlongz", "m", "cannot be read"),
+        ("__import__('os')", "m", "begin with a number"),
+        ("nan mm", "m", "finite"),
+        ("1e999 mm", "m", "finite"),
+        (math.nan, "m", "finite"),
+        (math.inf, "", "finite"),
+        (math.nan, "rad", "finite"),
+        (15.0, "rad", "needs its unit"),
+        (True, "m", "must be a length"),
+        ([1.0], "m", "must be a length"),
+        ("3 mm", "", "must be a plain number"),
+    ],
+)
+def test_refuses_with_rule_and_hint(value: object, unit: str, rule: str) -> None:
+    with pytest.raises(PydanticCustomError) as caught:
+        to_si(value, unit)
+    assert rule in str(caught.value)
+    assert caught.value.context is not None
+    assert caught.value.context["hint"]

@@ -1,0 +1,140 @@
+"""The runner: needs before users, nothing twice, failures as one message with finished results kept."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from workbench.errors import RunError
+from workbench.runner import run_tasks
+from workbench.store import Entry, Store
+from workbench.task import Task, task_keys
+
+PROBE = "tests.unit.workbench_probe_tasks"
+
+
+class Recorder:
+    """A listener that remembers."""
+
+    def __init__(self) -> None:
+        self.events: list[tuple[str, str]] = []
+
+    def started(self, name: str) -> None:
+        self.events.append(("started", name))
+
+    def progressed(self, name: str, fraction: float) -> None:
+        assert 0.0 <= fraction <= 1.0
+        self.events.append(("progressed", name))
+
+    def finished(self, name: str, entry: Entry, reused: bool) -> None:
+        self.events.append(("reused" if reused else "computed", name))
+
+
+def _sum(tmp_path: Path, name: str, value: float, needs: tuple[str, ...] = ()) -> Task:
+    inputs = {"name": name, "value": value, "log": str(tmp_path / "log.txt")}
+    return Task(name=name, function=f"{PROBE}:add", inputs=inputs, needs=needs)
+
+
+def _graph(tmp_path: Path, a: float = 1.0) -> list[Task]:
+    tasks = [_sum(tmp_path, "a", a), _sum(tmp_path, "b", 10.0), _sum(tmp_path, "c", 100.0, ("a", "b"))]
+    return [*tasks, _sum(tmp_path, "d", 1000.0, ("b",))]
+
+
+def _runs(tmp_path: Path) -> list[str]:
+    log = tmp_path / "log.txt"
+    return sorted(log.read_text(encoding="utf-8").split()) if log.exists() else []
+
+
+def test_computes_in_order_and_then_reuses(tmp_path: Path) -> None:
+    store, recorder = Store(tmp_path / "store"), Recorder()
+    entries = run_tasks(_graph(tmp_path), store, recorder)
+    assert (entries["c"].path / "sum.txt").read_text(encoding="utf-8") == "111.0"
+    assert (entries["d"].path / "sum.txt").read_text(encoding="utf-8") == "1010.0"
+    assert entries["c"].dofs == 3
+    assert ("progressed", "c") in recorder.events
+    again = Recorder()
+    run_tasks(_graph(tmp_path), store, again)
+    assert again.events == [("reused", name) for name in "abcd"]
+    assert _runs(tmp_path) == ["a", "b", "c", "d"]
+
+
+def test_a_changed_input_recomputes_what_depends_on_it_only(tmp_path: Path) -> None:
+    store = Store(tmp_path / "store")
+    run_tasks(_graph(tmp_path), store, Recorder())
+    recorder = Recorder()
+    entries = run_tasks(_graph(tmp_path, a=2.0), store, recorder)
+    assert (entries["c"].path / "sum.txt").read_text(encoding="utf-8") == "112.0"
+    assert {name for kind, name in recorder.events if kind == "computed"} == {"a", "c"}
+
+
+def test_key_depends_on_inputs_needs_source_and_libraries() -> None:
+    def key(**changes: object) -> str:
+        values = {"name": "t", "function": f"{PROBE}:add", "inputs": {"value": 1.0}, "libraries": ("numpy",)}
+        return task_keys((Task(**(values | changes)),))["t"]  # type: ignore[arg-type]
+
+    keys = [
+        key(),
+        key(inputs={"value": 1.0000000000000002}),
+        key(function=f"{PROBE}:crash"),
+        key(sources=("contracts",)),
+        key(libraries=("numpy", "scipy")),
+    ]
+    assert len(set(keys)) == len(keys)
+    assert key() == key(cost=5.0)
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        ("refuse", r"task bad failed: load = -1 N: must be > 0; press harder"),
+        ("crash", r"task bad failed: unexpected ZeroDivisionError: by zero; the traceback is in .*\.log"),
+        ("die", r"worker of task bad ended with signal 9 \(SIGKILL\); finished results are kept"),
+    ],
+)
+def test_a_failure_is_one_message_and_keeps_finished_results(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], function: str, message: str
+) -> None:
+    store = Store(tmp_path / "store")
+    good = _sum(tmp_path, "a", 1.0)
+    bad = Task(name="bad", function=f"{PROBE}:{function}", inputs={}, needs=("a",))
+    with pytest.raises(RunError, match=message):
+        run_tasks([good, bad], store, Recorder())
+    assert store.get(task_keys((good,))["a"]) is not None
+    assert list((store.root / "tmp").iterdir()) == []
+    assert capfd.readouterr() == ("", "")
+    if function == "crash":
+        log = next((store.root / "log").iterdir()).read_text(encoding="utf-8")
+        assert "chatter of a solver" in log
+        assert "ZeroDivisionError" in log
+
+
+def test_workers_have_one_thread_and_the_parent_keeps_its_setting(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    task = Task(name="t", function=f"{PROBE}:threads", inputs={})
+    entry = run_tasks([task], Store(tmp_path), Recorder())["t"]
+    assert (entry.path / "threads.txt").read_text(encoding="utf-8") == "1"
+    assert os.environ["OMP_NUM_THREADS"] == "3"
+
+
+def test_interrupt_is_one_message_and_ends_the_workers(tmp_path: Path) -> None:
+    pid_file = tmp_path / "pid"
+    task = Task(name="t", function=f"{PROBE}:wait", inputs={"pid": str(pid_file)})
+
+    def interrupt() -> None:
+        while not (pid_file.exists() and pid_file.read_text(encoding="utf-8")):
+            time.sleep(0.02)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(RunError, match="interrupted; finished results are kept"):
+        run_tasks([task], Store(tmp_path / "store"), Recorder())
+    thread.join()
+    assert not Path(f"/proc/{pid_file.read_text(encoding='utf-8')}").exists()

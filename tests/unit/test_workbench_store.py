@@ -1,0 +1,124 @@
+"""The store: an entry is whole or absent; damage is recognised; two runs at once leave one whole entry."""
+
+from __future__ import annotations
+
+import multiprocessing
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contracts.errors import InputError
+from workbench.fingerprint import canonical_json, source_hash, text_sha256
+from workbench.store import MANIFEST, Store
+
+KEY = text_sha256("a task")
+RECORD = {"task": "t", "wall_s": 1.5, "dofs": 7}
+
+
+def _put(store: Store, text: str = "result") -> None:
+    folder = store.scratch()
+    (folder / "a.txt").write_text(text, encoding="utf-8")
+    (folder / "sub").mkdir()
+    (folder / "sub" / "b.txt").write_text("more", encoding="utf-8")
+    store.put(KEY, folder, RECORD)
+
+
+def test_what_is_put_is_found_again(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    assert store.get(KEY) is None
+    _put(store)
+    entry = Store(tmp_path).get(KEY)
+    assert entry is not None
+    assert (entry.path / "a.txt").read_text(encoding="utf-8") == "result"
+    assert (entry.wall_s, entry.dofs) == (1.5, 7)
+    assert sorted(entry.manifest["files"]) == ["a.txt", "sub/b.txt"]
+    assert list((tmp_path / "tmp").iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "damage", ["edit", "truncate", "remove file", "remove manifest", "cut manifest", "odd manifest"]
+)
+def test_a_damaged_entry_is_not_trusted_and_is_replaced(tmp_path: Path, damage: str) -> None:
+    store = Store(tmp_path)
+    _put(store)
+    folder = store.folder(KEY)
+    manifest = folder / MANIFEST
+    if damage == "edit":
+        (folder / "a.txt").write_text("resulT", encoding="utf-8")
+    elif damage == "truncate":
+        (folder / "a.txt").write_text("", encoding="utf-8")
+    elif damage == "remove file":
+        (folder / "sub" / "b.txt").unlink()
+    elif damage == "remove manifest":
+        manifest.unlink()
+    elif damage == "cut manifest":
+        manifest.write_bytes(manifest.read_bytes()[:40])
+    else:
+        manifest.write_text("[1, 2]", encoding="utf-8")
+    assert store.get(KEY) is None
+    _put(store)
+    assert store.get(KEY) is not None
+    assert list((tmp_path / "tmp").iterdir()) == []
+
+
+def test_a_folder_left_by_a_killed_run_is_no_entry_and_is_swept(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    process = multiprocessing.get_context("spawn").Process(target=_leave_scratch, args=(tmp_path,))
+    process.start()
+    process.join()
+    assert len(list((tmp_path / "tmp").iterdir())) == 1
+    mine = store.scratch()
+    store.sweep()
+    assert list((tmp_path / "tmp").iterdir()) == [mine]
+    assert store.get(KEY) is None
+
+
+def _leave_scratch(root: Path) -> None:
+    (Store(root).scratch() / "half.txt").write_text("torn", encoding="utf-8")
+
+
+def _put_often(root: Path, text: str) -> None:
+    store = Store(root)
+    for _ in range(30):
+        _put(store, text)
+
+
+def test_two_runs_at_once_leave_one_whole_entry(tmp_path: Path) -> None:
+    context = multiprocessing.get_context("spawn")
+    processes = [context.Process(target=_put_often, args=(tmp_path, "result")) for _ in range(2)]
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join()
+    assert [p.exitcode for p in processes] == [0, 0]
+    entry = Store(tmp_path).get(KEY)
+    assert entry is not None
+    assert (entry.path / "a.txt").read_text(encoding="utf-8") == "result"
+    assert list((tmp_path / "tmp").iterdir()) == []
+
+
+def test_a_file_in_the_way_is_one_clear_error(tmp_path: Path) -> None:
+    (tmp_path / "store").write_text("", encoding="utf-8")
+    with pytest.raises(InputError, match="--store"):
+        Store(tmp_path / "store")
+
+
+def test_canonical_json_does_not_depend_on_order_and_refuses_nan() -> None:
+    assert canonical_json({"b": 1.0, "a": [0.1]}) == canonical_json({"a": [0.1], "b": 1.0})
+    assert canonical_json({"a": 0.1}) != canonical_json({"a": float(np.nextafter(0.1, 1.0))})
+    with pytest.raises(ValueError, match="JSON"):
+        canonical_json({"a": float("nan")})
+
+
+def test_source_hash_sees_a_changed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "probe_package"
+    package.mkdir()
+    (package / "__init__.py").write_text("", encoding="utf-8")
+    (package / "a.py").write_text("x = 1\n", encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    before = source_hash.__wrapped__("probe_package")
+    (package / "a.py").write_text("x = 2\n", encoding="utf-8")
+    assert source_hash.__wrapped__("probe_package") != before
+    with pytest.raises(ModuleNotFoundError):
+        source_hash.__wrapped__("no_such_package")

@@ -1,0 +1,161 @@
+"""Study files: the built-in one is read as it stands; each bad one gives one message with file, key, value and rule."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from pathlib import Path
+
+import pytest
+
+from contracts.errors import StudyError
+from workbench.study_file import built_in_study, read_study
+from workbench.study_models import ancf_preset, brush_parameters, wheel_design
+
+TEXT = built_in_study().read_text(encoding="utf-8")
+
+
+THICKNESS = r'thickness = "[^"]*"'
+SHAPE = r'shape = "hoop"'
+USER = '[[compare.curves]]\nfile = "none.csv"\nlabel = "a"\n'
+
+
+def _write(tmp_path: Path, old: str, new: str) -> Path:
+    """The built-in study with the first match of a pattern replaced."""
+    text, count = re.subn(old, lambda _: new, TEXT, count=1)
+    assert count == 1, f"the study no longer contains {old!r}: mend this test"
+    path = tmp_path / "study.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_built_in_study_is_read_in_si() -> None:
+    study = read_study(built_in_study())
+    assert study.name == "exomars"
+    assert study.wheel.tire.outer_radius == 0.1425
+    assert study.materials["Ti-6Al-4V"].young_modulus == 113.8e9
+    assert study.fe.orientations == pytest.approx([math.radians(d) for d in (0, 15, 30, 45, 60)], abs=1e-14)
+    assert study.reference.initial_tangent == 8250.0
+
+
+def test_models_take_the_study_values() -> None:
+    study = read_study(built_in_study())
+    design = wheel_design(study)
+    assert [s.name for s in design.spring_sets] == ["springs_outer", "springs_inner"]
+    assert design.tire.material.density == 4430.0
+    assert ancf_preset(study).contact_points == (10, 10)
+    assert brush_parameters(study).cornering_stiffness == pytest.approx(850.0 * 180.0 / math.pi)
+
+
+def test_shipped_ancf_and_brush_numbers_are_the_thesis_ones() -> None:
+    """The study repeats the library's thesis presets; a slip in either file shows here."""
+    from ancf_reduced.tire_preset import thesis_preset
+    from rover_dynamics.brush_tire import THESIS_BRUSH
+
+    study = read_study(built_in_study())
+    assert ancf_preset(study) == thesis_preset()
+    assert brush_parameters(study) == THESIS_BRUSH
+
+
+BAD: dict[str, tuple[str, str, list[str]]] = {
+    "negative thickness": (THICKNESS, 'thickness = "-0.6 mm"', ["wheel.tire.thickness = '-0.6 mm'", "greater than 0"]),
+    "zero thickness": (THICKNESS, "thickness = 0", ["wheel.tire.thickness = 0", "greater than 0"]),
+    "wrong unit": (THICKNESS, 'thickness = "0.6 kg"', ["wheel.tire.thickness = '0.6 kg'", "must be a length"]),
+    "string without unit": (THICKNESS, 'thickness = "0.6"', ["wheel.tire.thickness", "needs its unit"]),
+    "not a number": (THICKNESS, 'thickness = "thin"', ["wheel.tire.thickness = 'thin'", "must be a length"]),
+    "nan with unit": (THICKNESS, 'thickness = "nan mm"', ["wheel.tire.thickness", "finite"]),
+    "infinite": (THICKNESS, "thickness = inf", ["wheel.tire.thickness = inf", "finite"]),
+    "boolean": (THICKNESS, "thickness = true", ["wheel.tire.thickness", "must be a length"]),
+    "unknown key": (THICKNESS, 'thicknes = "0.6 mm"', ["wheel.tire.thicknes = '0.6 mm'", "not a known key"]),
+    "missing key": (THICKNESS, "", ["wheel.tire.thickness", "is missing"]),
+    "unknown section": (r"\[wheel.tire\]", "[wheel.tyre]", ["wheel.tyre", "not a known key"]),
+    "hub larger than rim": (
+        r'outer_radius = "50 mm"',
+        'outer_radius = "150 mm"',
+        ["wheel.outer_hub.outer_radius = 150 mm", "must be smaller than the tire's inner radius"],
+    ),
+    "orientation nan": ('"0 deg", "15 deg"', 'nan, "15 deg"', ["fe.orientations[0] = nan", "finite"]),
+    "angle without unit": ('"0 deg", "15 deg"', '0, "15 deg"', ["fe.orientations[0] = 0", "needs its unit"]),
+    "orientation out of range": ('"0 deg", "15 deg"', '"400 deg", "15 deg"', ["fe.orientations[0] = '400 deg'"]),
+    "springs of a set overlap": ("count = 3", "count = 40", ["wheel.springs[0].count = 40", "overlap"]),
+    "unknown key in a set": (SHAPE, 'shape = "hoop"\ncolour = 1', ["wheel.springs[0].colour = 1", "not a known key"]),
+    "unknown shape": (SHAPE, 'shape = "coil"', ["wheel.springs[0].shape = 'coil'", "arc"]),
+    "fractional count": ("count = 3", "count = 2.5", ["wheel.springs[0].count = 2.5"]),
+    "unknown material": (r'material = "[^"]*"', 'material = "cheese"', ["wheel.tire.material = cheese", "[materials]"]),
+    "incompressible": ("poisson_ratio = 0.342", "poisson_ratio = 0.5", ["poisson_ratio = 0.5", "less than 0.5"]),
+    "ancf hub larger than rim": (
+        r'hub_radius = "50 mm"',
+        'hub_radius = "130 mm"',
+        ["ancf.hub_radius = 130 mm", "rim's inner radius"],
+    ),
+    "fine orientation nobody solves": (
+        r'fine_orientation = "[^"]*"',
+        'fine_orientation = "7 deg"',
+        ["fe.fine_orientation = 7 deg", "must be one of the orientations"],
+    ),
+    "fine deflection off the curve": (
+        r'fine_deflection = "[^"]*"',
+        'fine_deflection = "70 mm"',
+        ["fe.fine_deflection = 0.07", "must not exceed max_deflection"],
+    ),
+    "not toml": ('name = "exomars"', "name = exomars", ["not valid TOML", "line"]),
+    "no curve file": (r"\[tolerances\]", USER + 'source = "b"\n[tolerances]', ["compare.curves[0].file = none.csv"]),
+    "curve without source": (r"\[tolerances\]", USER + "[tolerances]", ["compare.curves[0].source", "is missing"]),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "wanted"), BAD.values(), ids=BAD.keys())
+def test_bad_study_names_file_key_value_and_rule(tmp_path: Path, old: str, new: str, wanted: list[str]) -> None:
+    path = _write(tmp_path, old, new)
+    with pytest.raises(StudyError) as caught:
+        read_study(path)
+    message = str(caught.value)
+    assert str(path) in message
+    assert "\n" not in message
+    for text in wanted:
+        assert text in message, message
+
+
+SPLINE = """shape = "spline"
+points = [[0.5, "70 deg"], [RADIUS, "100 deg"]]
+"""
+
+
+def test_spring_that_crosses_the_hub_is_refused(tmp_path: Path) -> None:
+    new = SPLINE.replace("RADIUS", "1.3")
+    path = _write(tmp_path, SHAPE, new)
+    with pytest.raises(StudyError, match=r"wheel\.springs\[0\]\.shape = .*crosses the hub"):
+        read_study(path)
+
+
+def test_sets_that_overlap_are_refused(tmp_path: Path) -> None:
+    path = _write(tmp_path, re.escape('[["-20 mm", "20 mm"]]'), '[["-50 mm", "50 mm"]]')
+    path.write_text(path.read_text(encoding="utf-8").replace('phase = "60 deg"', 'phase = "0 deg"'), encoding="utf-8")
+    with pytest.raises(StudyError, match=r"wheel\.springs.*overlap or cross"):
+        read_study(path)
+
+
+def test_files_that_are_no_study(tmp_path: Path) -> None:
+    empty, binary = tmp_path / "empty.toml", tmp_path / "binary.toml"
+    empty.write_text("\n", encoding="utf-8")
+    binary.write_bytes(b"name = \xff\xfe")
+    for path, rule in (
+        (tmp_path / "none.toml", "does not exist"),
+        (tmp_path, "is a folder"),
+        (empty, "is empty"),
+        (binary, "not UTF-8"),
+        (empty / "below", "cannot be read"),
+    ):
+        with pytest.raises(StudyError, match=rule) as caught:
+            read_study(path)
+        assert str(path) in str(caught.value)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+def test_unreadable_file(tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(TEXT, encoding="utf-8")
+    path.chmod(0)
+    with pytest.raises(StudyError, match="cannot be read"):
+        read_study(path)

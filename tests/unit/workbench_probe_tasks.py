@@ -1,0 +1,54 @@
+"""Tiny tasks for the runner's tests: they leave a mark outside the store each time they run."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from contracts.errors import InputError
+from workbench.task import Progress
+
+
+def add(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Sum of its input and of the tasks it needs."""
+    with Path(inputs["log"]).open("a", encoding="utf-8") as log:
+        log.write(f"{inputs['name']}\n")
+    progress(0.5)
+    total = inputs["value"] + sum(float((p / "sum.txt").read_text(encoding="utf-8")) for p in needs.values())
+    (out / "sum.txt").write_text(repr(total), encoding="utf-8")
+    return 3
+
+
+def refuse(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Raise one of our errors."""
+    raise InputError("load", "-1 N", "must be > 0", "press harder")
+
+
+def crash(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Raise an error nobody foresaw, after printing."""
+    print("chatter of a solver")
+    raise ZeroDivisionError("by zero")
+
+
+def die(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Kill the worker, as the system does when memory runs out."""
+    (out / "torn.txt").write_text("half", encoding="utf-8")
+    os.kill(os.getpid(), signal.SIGKILL)
+    return 0
+
+
+def threads(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Write what the worker may use."""
+    (out / "threads.txt").write_text(os.environ["OMP_NUM_THREADS"], encoding="utf-8")
+    return 0
+
+
+def wait(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Take longer than any test lets it."""
+    Path(inputs["pid"]).write_text(str(os.getpid()), encoding="utf-8")
+    time.sleep(120.0)
+    return 0

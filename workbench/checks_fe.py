@@ -1,0 +1,174 @@
+"""Checks of the continuum model: mesh, solver, curve against the band.
+
+Verified by tests/unit/test_workbench_checks.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from contracts.curves import StiffnessCurve
+from contracts.records import Check, Role
+from workbench.check_rules import Claim, at_least, at_most, near, within
+from workbench.metrics import largest_spread
+from workbench.results import ModelCurves
+from workbench.study import Band
+from workbench.study_sections import ToleranceSection
+
+__all__ = ["band_checks", "mesh_checks", "solver_checks", "spread_checks", "yield_check"]
+
+_OURS = "project's own requirement"
+_SPREAD_AT = (0.005, 0.020, 0.030)
+_LARGEST_WHEEL_LOAD = 250.0
+
+
+def band_checks(fe: ModelCurves, band: Band, tolerances: ToleranceSection) -> list[Check]:
+    """Average curve against the band: tangent near first contact, deflection at each of the band's loads."""
+    up_to = tolerances.initial_tangent_up_to
+    title = f"Average FE curve: slope from first contact to {up_to * 1e3:g} mm"
+    claim = _claim("fe.initial_tangent", title, "initial tangent", "N/m", "gate", band.source)
+    checks = [near(claim, lambda: fe.average.initial_tangent(up_to), band.initial_tangent, tolerances.initial_tangent)]
+    for point in band.points:
+        name, title = f"fe.deflection_at_{point.load:g}N", f"Average FE curve: deflection at {point.load:g} N"
+        claim = _claim(name, title, "deflection", "m", "finding", band.source)
+        checks.append(within(claim, partial(fe.average.deflection_at, point.load), point.low, point.high))
+    return checks
+
+
+def spread_checks(fe: ModelCurves, tolerances: ToleranceSection) -> list[Check]:
+    """How much the load varies around the wheel at three deflections."""
+    curves = list(fe.by_orientation.values())
+    return [
+        at_most(
+            _claim(
+                f"fe.spread_{d * 1e3:g}mm",
+                f"FE: (largest - smallest) / mean load over the orientations at {d * 1e3:g} mm",
+                "spread",
+                "-",
+                "finding",
+                "the thesis says that stiffness varies around the wheel, not how much; the limit is ours",
+            ),
+            partial(largest_spread, curves, d),
+            tolerances.orientation_spread,
+        )
+        for d in _SPREAD_AT
+    ]
+
+
+def solver_checks(
+    fe: ModelCurves, fine: StiffnessCurve, fine_at: tuple[float, float], tol: ToleranceSection
+) -> list[Check]:
+    """Residual, balance and reach of every orientation, and the distance from the fine mesh at ``(deg, m)``."""
+    orientation, deflection = fine_at
+    coarse = fe.by_orientation[orientation]
+
+    def uncertainty() -> float:
+        load = float(fine.load_at(deflection))
+        return abs(float(coarse.load_at(deflection)) - load) / load
+
+    def reach() -> float:
+        ends = [
+            (c.deflection[-1] / tol.reach_deflection, c.load.max() / tol.reach_load) for c in fe.by_orientation.values()
+        ]
+        return float(min(max(pair) for pair in ends))
+
+    goal = f"{tol.reach_deflection * 1e3:g} mm or {tol.reach_load:g} N"
+    uncertain = f"FE: load at {deflection * 1e3:g} mm, {orientation:g} deg, against a finer mesh"
+    return [
+        at_most(
+            _claim(
+                "fe.residual",
+                "FE: largest relative residual of any converged increment",
+                "residual",
+                "-",
+                "gate",
+                _OURS,
+            ),
+            lambda: largest_residual(fe.numbers),
+            tol.fe_residual,
+        ),
+        at_most(
+            _claim("fe.balance", "FE: largest imbalance of forces over contact force", "imbalance", "-", "gate", _OURS),
+            lambda: max(float(np.abs(c.columns["force_imbalance"]).max()) for c in fe.by_orientation.values()),
+            tol.fe_balance,
+        ),
+        at_least(
+            _claim("fe.reach", f"FE: every orientation reaches {goal}", "part reached", "-", "gate", _OURS), reach, 1.0
+        ),
+        at_most(
+            _claim("fe.mesh_uncertainty", uncertain, "difference", "-", "gate", _OURS),
+            uncertainty,
+            tol.mesh_uncertainty,
+        ),
+    ]
+
+
+def largest_residual(numbers: Mapping[float, Mapping[str, Any]]) -> float:
+    """Largest relative residual at the end of any converged increment of any orientation [-]."""
+    records = [r for n in numbers.values() for r in n["increments"] if r["converged"]]
+    return max(float(r["residuals"][-1]) for r in records)
+
+
+def yield_check(fe: ModelCurves, yield_strength: Mapping[str, float]) -> Check:
+    """Largest von Mises stress over yield strength in any part, up to the largest wheel load of the thesis' sweep."""
+
+    def utilisation() -> float:
+        return max(
+            _largest_up_to(curve, f"max_von_mises_{part}_Pa", _LARGEST_WHEEL_LOAD) / strength
+            for curve in fe.by_orientation.values()
+            for part, strength in yield_strength.items()
+            if f"max_von_mises_{part}_Pa" in curve.columns
+        )
+
+    title = f"FE: largest von Mises stress over yield strength up to {_LARGEST_WHEEL_LOAD:g} N"
+    claim = _claim("fe.yield", title, "stress / yield", "-", "finding", "yield strengths of the study's materials")
+    return at_most(claim, utilisation, 1.0)
+
+
+def _largest_up_to(curve: StiffnessCurve, column: str, load: float) -> float:
+    inside = curve.load <= load
+    inside[: min(int(inside.sum()) + 1, len(inside))] = True
+    return float(curve.columns[column][inside].max())
+
+
+def mesh_checks(mesh: Mapping[str, Any], whole: Mapping[str, Any], tolerances: ToleranceSection) -> list[Check]:
+    """Volume and mass of the whole wheel against closed form; the worst cell of both meshes."""
+    form = "closed form of the design"
+
+    def worst() -> float:
+        return min(float(m["quality"]["min_scaled_jacobian"]) for m in (mesh, whole))
+
+    return [
+        near(
+            _claim("mesh.volume", "Mesh of the whole wheel: volume", "volume", "m^3", "gate", form),
+            lambda: float(whole["total_volume"]),
+            float(whole["total_volume_closed_form"]),
+            tolerances.mesh_mass,
+        ),
+        near(
+            _claim("mesh.mass", "Mesh of the whole wheel: mass", "mass", "kg", "gate", form),
+            lambda: float(whole["total_mass"]),
+            float(whole["total_mass_closed_form"]),
+            tolerances.mesh_mass,
+        ),
+        at_least(
+            _claim(
+                "mesh.min_scaled_jacobian",
+                "Smallest scaled Jacobian of any cell",
+                "scaled Jacobian",
+                "-",
+                "gate",
+                _OURS,
+            ),
+            worst,
+            tolerances.min_scaled_jacobian,
+        ),
+    ]
+
+
+def _claim(id: str, title: str, quantity: str, unit: str, role: Role, source: str) -> Claim:
+    return Claim(id=id, title=title, quantity=quantity, unit=unit, role=role, source=source)

@@ -1,0 +1,159 @@
+"""Checks of the reduced models, and of each model against the continuum.
+
+Verified by tests/unit/test_workbench_checks.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache, partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from contracts.records import Check
+from workbench.check_rules import Claim, at_least, at_most, near
+from workbench.results import ModelCurves, UserCurve
+from workbench.study_sections import ToleranceSection
+
+__all__ = ["agreement_checks", "ancf_checks", "plate_checks", "preset_error", "user_checks"]
+
+_PRESET_SOURCE = "two independent codes computed for this project, which agree (workbench/data/ancf_thesis_preset.csv)"
+_PLATE_SOURCE = "exact quadrature of thesis eq. 2.13; Project Chrono's reference matrices to 1e-11"
+_THESIS_WHEEL_MASS = 4.44157
+
+
+@cache
+def _preset_table() -> NDArray[np.float64]:
+    path = Path(__file__).parent / "data" / "ancf_thesis_preset.csv"
+    return np.loadtxt(path, delimiter=",", comments="#", skiprows=3)
+
+
+def preset_error(ancf: ModelCurves, orientation_deg: float) -> float:
+    """Largest |F - F_table| over the largest load of the table, at the table's deflections [-]."""
+    if orientation_deg not in ancf.by_orientation:
+        known = ", ".join(f"{o:g}" for o in ancf.by_orientation)
+        rule = f"was not computed (only {known} deg)"
+        raise InputError("orientation", f"{orientation_deg:g} deg", rule, "add it to ancf.orientations")
+    table = _preset_table()
+    column = {0.0: 1, 45.0: 2}[orientation_deg]
+    found = ancf.by_orientation[orientation_deg].load_at(table[:, 0])
+    return float(np.abs(found - table[:, column]).max() / table[:, column].max())
+
+
+def ancf_checks(ancf: ModelCurves, tolerances: ToleranceSection) -> list[Check]:
+    """The thesis preset's curves against their table, and its flexible mass against Table I."""
+    checks = [
+        at_most(
+            Claim(
+                id=f"ancf.preset_phi{o:03.0f}",
+                title=f"ANCF thesis preset at {o:g} deg against its known table, 2 to 35 mm",
+                quantity="largest difference / largest load",
+                unit="-",
+                role="gate",
+                source=_PRESET_SOURCE,
+            ),
+            partial(preset_error, ancf, o),
+            tolerances.ancf_preset,
+        )
+        for o in (0.0, 45.0)
+    ]
+    mass = Claim(
+        id="ancf.flexible_mass",
+        title="ANCF thesis preset: mass of the flexible plates against the wheel of Table I",
+        quantity="mass",
+        unit="kg",
+        role="gate",
+        source="Samarini 2020, Table I",
+    )
+    first = next(iter(ancf.numbers.values()))
+    return [
+        *checks,
+        near(mass, lambda: float(first["flexible_mass_kg"]), _THESIS_WHEEL_MASS, tolerances.flexible_mass),
+    ]
+
+
+def plate_checks(errors: Mapping[str, float], tolerances: ToleranceSection) -> list[Check]:
+    """One ANCF plate against exact mass, gravity and elastic force."""
+    return [
+        at_most(
+            Claim(
+                id=f"ancf.plate_{name}",
+                title=f"ANCF plate element: {name.replace('_', ' ')} against exact reference",
+                quantity="largest difference / largest entry",
+                unit="-",
+                role="gate",
+                source=_PLATE_SOURCE,
+            ),
+            partial(float, error),
+            tolerances.plate_element,
+        )
+        for name, error in errors.items()
+    ]
+
+
+def agreement_checks(metrics: Mapping[str, Mapping[str, Any]], tolerances: ToleranceSection) -> list[Check]:
+    """ANCF and brush against the FE average over 0 to 250 N: findings."""
+    ancf, brush, agree = metrics["ancf_average"], metrics["brush"], tolerances.model_agreement
+    span = f"0 to {ancf['end'] * 1e3:.1f} mm"
+
+    def claim(id: str, title: str, quantity: str, unit: str) -> Claim:
+        source = "comparison over 0 to 250 N of the FE average; the limit is ours"
+        return Claim(id=id, title=title, quantity=quantity, unit=unit, role="finding", source=source)
+
+    return [
+        at_most(
+            claim("ancf_vs_fe.relative_l2", f"ANCF average against FE average, {span}", "relative L2 difference", "-"),
+            lambda: ancf["relative_l2"],
+            agree,
+        ),
+        at_most(
+            claim("ancf_vs_fe.max_error", "ANCF average against FE average: largest difference", "load", "N"),
+            lambda: ancf["max_error"],
+            agree * 250.0,
+        ),
+        near(
+            claim("ancf_vs_fe.tangent", "ANCF average against FE average: mean slope", "tangent", "N/m"),
+            lambda: ancf["tangent"],
+            ancf["tangent_reference"],
+            agree,
+        ),
+        at_least(
+            claim("ancf_vs_fe.iso_18571", "ANCF average against FE average: ISO/TS 18571 rating", "rating", "-"),
+            lambda: ancf["iso_rating"],
+            tolerances.iso_rating,
+        ),
+        at_most(
+            claim("brush_vs_fe.relative_l2", "Brush line against FE average", "relative L2 difference", "-"),
+            lambda: brush["relative_l2"],
+            agree,
+        ),
+    ]
+
+
+def user_checks(
+    users: Sequence[UserCurve], metrics: Mapping[str, Mapping[str, Any]], tolerances: ToleranceSection
+) -> list[Check]:
+    """The FE curve against each curve the user dropped in: findings."""
+    return [
+        at_most(
+            Claim(
+                id=f"user_{i}.relative_l2",
+                title=f"FE {_place(user)} against the user's curve '{user.label}'",
+                quantity="relative L2 difference",
+                unit="-",
+                role="finding",
+                source=user.curve.source,
+            ),
+            partial(float, metrics[f"user_{i}"]["relative_l2"]),
+            tolerances.model_agreement,
+        )
+        for i, user in enumerate(users)
+    ]
+
+
+def _place(user: UserCurve) -> str:
+    return "average" if user.orientation_deg is None else f"at {user.orientation_deg:g} deg"

@@ -1,0 +1,134 @@
+"""The command line ``workbench``. Heavy libraries are imported by the command that needs them, never on ``--help``.
+
+Exit status: 0 every gate passed, 1 a gate failed, 2 bad input or a failed run. Verified by
+tests/end_to_end/test_commands.py.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from typer.exceptions import TyperException
+
+from contracts.errors import WorkbenchError
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    name="workbench",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    help="Verify the airless wheel of a Mars rover: continuum finite elements against ANCF and brush tires.",
+)
+
+StudyArgument = Annotated[Path, typer.Argument(help="Study file (TOML).", show_default=False)]
+StudyOrBuiltIn = Annotated[
+    Path | None, typer.Argument(help="Study file (TOML); the built-in ExoMars study if left out.", show_default=False)
+]
+Store = Annotated[Path, typer.Option(envvar="WORKBENCH_STORE", help="Folder where results are kept and found again.")]
+Workers = Annotated[int, typer.Option(min=1, max=256, help="Tasks that run at once, one core each.")]
+DEFAULT_STORE = Path("build/store")
+DEFAULT_WORKERS = min(2, os.cpu_count() or 1)
+
+
+@app.command()
+def report(
+    study: StudyOrBuiltIn = None,
+    out: Annotated[Path, typer.Option(help="Folder of report.html, summary.json, junit.xml and curves.")] = Path(
+        "build/report"
+    ),
+    store: Store = DEFAULT_STORE,
+    workers: Workers = DEFAULT_WORKERS,
+) -> None:
+    """Compute everything a study asks for, compare, and write the report."""
+    from workbench.commands import run_report
+
+    raise typer.Exit(run_report(study, out, store, workers))
+
+
+@app.command()
+def mesh(
+    study: StudyArgument,
+    out: Annotated[Path, typer.Option(help="Folder of the mesh files.")] = Path("build/mesh"),
+    store: Store = DEFAULT_STORE,
+) -> None:
+    """Build and check the mesh; write .msh, .vtu, .step, a summary and a picture."""
+    from workbench.commands import run_mesh
+
+    raise typer.Exit(run_mesh(study, out, store))
+
+
+@app.command()
+def stiffness(
+    study: StudyArgument,
+    model: Annotated[str, typer.Option(help="fe, ancf or brush.")] = "fe",
+    orientation: Annotated[
+        list[float] | None, typer.Option(help="Degrees; may be given several times. Default: those of the study.")
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
+    store: Store = DEFAULT_STORE,
+    workers: Workers = DEFAULT_WORKERS,
+) -> None:
+    """Stiffness curves of one model."""
+    from workbench.commands import run_stiffness
+
+    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, workers))
+
+
+@app.command()
+def compare(
+    curve: Annotated[Path, typer.Argument(help="CSV with deflection_m,load_N.", show_default=False)],
+    reference: Annotated[Path, typer.Argument(help="CSV it is held against.", show_default=False)],
+    max_load: Annotated[float | None, typer.Option(help="End where the reference reaches this load [N].")] = None,
+) -> None:
+    """Compare two curves, from anywhere, with metrics."""
+    from workbench.commands import run_compare
+
+    raise typer.Exit(run_compare(curve, reference, max_load))
+
+
+@app.command()
+def doctor() -> None:
+    """Show the versions found, what is missing and how to install it."""
+    from workbench.commands import run_doctor
+
+    raise typer.Exit(run_doctor())
+
+
+def main() -> None:
+    """Entry point: turns every error into one message on stderr and an exit status."""
+    sys.exit(_run(sys.argv[1:]))
+
+
+def _run(arguments: list[str]) -> int:
+    try:
+        status = app(arguments, standalone_mode=False)
+    except TyperException as error:  # wrong usage of the command line
+        show = getattr(error, "show", None)
+        if show is None:
+            return _complain(error.format_message())
+        show()
+        return 2
+    except (KeyboardInterrupt, typer.Abort):
+        return _complain("interrupted; finished results are kept, start again to go on")
+    except WorkbenchError as error:
+        return _complain(str(error))
+    except OSError as error:
+        return _complain(f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights")
+    except Exception as error:
+        if os.environ.get("WORKBENCH_TRACEBACK"):
+            raise
+        text = f"{type(error).__name__}: {error}; this is a defect of the workbench, please report it"
+        return _complain(f"{text} (set WORKBENCH_TRACEBACK=1 to see where)")
+    return int(status or 0)
+
+
+def _complain(message: str) -> int:
+    sys.stderr.write(f"workbench: error: {message}\n")
+    return 2

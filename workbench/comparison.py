@@ -1,0 +1,118 @@
+"""The comparison: stored results in, checks and verdict out. Verified by tests/unit/test_workbench_checks.py."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from contracts.curves import StiffnessCurve, read_curve
+from contracts.records import Check, Status
+from workbench.checks_fe import band_checks, mesh_checks, solver_checks, spread_checks, yield_check
+from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, user_checks
+from workbench.graph import degrees
+from workbench.result_files import read_result
+from workbench.results import CURVE, ModelCurves, UserCurve, model_curves
+from workbench.study import Study
+
+__all__ = ["Comparison", "compare", "exit_status", "overall_status"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Comparison:
+    """Everything the report shows that came out of the results.
+
+    Attributes
+    ----------
+    fe, ancf : curves of both wheel models
+    brush, fine : the brush line; the FE curve on the fine mesh
+    users : the user's own curves
+    mesh, mesh_whole : numbers of both meshes
+    metrics : distances between curves by pair
+    checks : the verdict, line by line
+    """
+
+    fe: ModelCurves
+    ancf: ModelCurves
+    brush: StiffnessCurve
+    fine: StiffnessCurve
+    users: tuple[UserCurve, ...]
+    mesh: Mapping[str, Any]
+    mesh_whole: Mapping[str, Any]
+    metrics: Mapping[str, Any]
+    checks: tuple[Check, ...]
+
+    @property
+    def mesh_uncertainty(self) -> float | None:
+        """Relative difference of load between the mesh and the finer one [-]; None if it could not be found."""
+        return next((c.value for c in self.checks if c.id == "fe.mesh_uncertainty"), None)
+
+
+def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
+    """Read the results of ``report_tasks`` and hold them against their references.
+
+    Parameters
+    ----------
+    study : supplies references and tolerances
+    folders : result folder of each task by name
+    """
+    fe, ancf = model_curves("fe", folders), model_curves("ancf", folders)
+    metrics = read_result(folders["metrics"])
+    comparison = Comparison(
+        fe=fe,
+        ancf=ancf,
+        brush=read_curve(folders["brush"] / CURVE, model="brush"),
+        fine=read_curve(folders["fe_fine"] / CURVE, model="fe"),
+        users=_users(study, folders["metrics"]),
+        mesh=read_result(folders["mesh"]),
+        mesh_whole=read_result(folders["mesh_whole"]),
+        metrics=metrics,
+        checks=(),
+    )
+    plate = read_result(folders["ancf_plate"])
+    return replace(comparison, checks=tuple(_checks(study, comparison, plate)))
+
+
+def _checks(study: Study, found: Comparison, plate: Mapping[str, float]) -> list[Check]:
+    tol, fe = study.tolerances, found.fe
+    strength = {part: study.materials[name].yield_strength for part, name in _part_materials(study).items()}
+    fine_at = degrees(study.fe.fine_orientation), study.fe.fine_deflection
+    checks = band_checks(fe, study.reference, tol)
+    checks += solver_checks(fe, found.fine, fine_at, tol)
+    checks += mesh_checks(found.mesh, found.mesh_whole, tol)
+    checks += plate_checks(plate, tol)
+    checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
+    checks += agreement_checks(found.metrics, tol)
+    checks += [*spread_checks(fe, tol), yield_check(fe, strength)]
+    return checks + user_checks(found.users, found.metrics, tol)
+
+
+def _part_materials(study: Study) -> dict[str, str]:
+    """Material name of each part of the mesh."""
+    wheel = study.wheel
+    single = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
+    parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in wheel.springs}
+    return {name: part.material for name, part in parts.items() if part is not None}
+
+
+def _users(study: Study, folder: Path) -> tuple[UserCurve, ...]:
+    return tuple(
+        UserCurve(
+            label=section.label,
+            curve=replace(read_curve(folder / f"user_{i}.csv", model=section.label), source=section.source),
+            orientation_deg=None if section.orientation is None else degrees(section.orientation),
+        )
+        for i, section in enumerate(study.compare.curves)
+    )
+
+
+def overall_status(checks: Sequence[Check]) -> Status:
+    """``fail`` if a gate failed, else ``error`` if one could not be evaluated, else ``pass``; findings do not count."""
+    gates = {c.status for c in checks if c.role == "gate"}
+    return "fail" if "fail" in gates else "error" if "error" in gates else "pass"
+
+
+def exit_status(checks: Sequence[Check]) -> int:
+    """0 if every gate passed, else 1."""
+    return 0 if overall_status(checks) == "pass" else 1

@@ -1,0 +1,11 @@
+"""Failure of a run, as opposed to a bad study: a branch of the project's one error tree."""
+
+from __future__ import annotations
+
+from contracts.errors import WorkbenchError
+
+__all__ = ["RunError"]
+
+
+class RunError(WorkbenchError):
+    """A task failed, a worker was killed, or the user interrupted the run; finished results are kept."""

@@ -1,0 +1,191 @@
+"""Curves as interactive figures in the page. The one module that imports Plotly.
+
+Verified by tests/unit/test_workbench_report.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import plotly.graph_objects as go  # type: ignore[import-untyped]
+from plotly.offline import get_plotlyjs  # type: ignore[import-untyped]
+
+from contracts.curves import StiffnessCurve
+from workbench.comparison import Comparison
+from workbench.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
+from workbench.results import ModelCurves, UserCurve
+from workbench.study import Band
+
+__all__ = ["ancf_figure", "fe_figure", "models_figure", "plotly_script", "stress_figure"]
+
+_DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+_MARKERS = ("circle", "square", "diamond", "triangle-up", "cross", "x")
+
+
+def plotly_script() -> str:
+    """Plotly's JavaScript, to be put into the page once."""
+    return str(get_plotlyjs())
+
+
+def fe_figure(found: Comparison, band: Band) -> str:
+    """FE at each orientation, their average with the mesh uncertainty, the band."""
+    figure = _empty()
+    _add_band(figure, band)
+    _add_orientations(figure, found.fe, "FE")
+    _add_uncertainty(figure, found.fe.average, found.mesh_uncertainty)
+    _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
+    _add_users(figure, found.users)
+    return _html(figure, "fe-curves")
+
+
+def ancf_figure(found: Comparison) -> str:
+    """ANCF at each orientation and their average, with the FE average behind."""
+    figure = _empty()
+    _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=2.0, dash="dot")
+    _add_orientations(figure, found.ancf, "ANCF", first_colour=1)
+    _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0)
+    return _html(figure, "ancf-curves")
+
+
+def models_figure(found: Comparison, band: Band) -> str:
+    """The averages of all models together, with the band and the user's curves."""
+    figure = _empty()
+    _add_band(figure, band)
+    _add_uncertainty(figure, found.fe.average, found.mesh_uncertainty)
+    _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
+    _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
+    _add_line(figure, found.brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
+    _add_users(figure, found.users)
+    return _html(figure, "model-curves")
+
+
+def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:
+    """Largest von Mises stress of each part against load at one orientation, with the yield strength."""
+    figure = _empty("load on the wheel [N]", "largest von Mises stress [MPa]")
+    parts = [p for p in strengths if f"max_von_mises_{p}_Pa" in curve.columns]
+    for i, part in enumerate(parts):
+        stress = curve.columns[f"max_von_mises_{part}_Pa"] * 1e-6
+        style = {"color": ORIENTATION_COLOURS[i % 6], "width": 2.5, "dash": _DASHES[i % 6]}
+        figure.add_scatter(x=curve.load, y=stress, name=part.replace("_", " "), mode="lines", line=style)
+    for strength in sorted({strengths[p] for p in parts}):
+        figure.add_hline(
+            y=strength * 1e-6,
+            line={"color": INK, "width": 1, "dash": "dash"},
+            annotation={"text": f"yield strength {strength * 1e-6:.0f} MPa", "font": {"size": 12}},
+            annotation_position="top left",
+        )
+    return _html(figure, "stress-curves")
+
+
+def _empty(x: str = "radial deflection [mm]", y: str = "load on the wheel [N]") -> go.Figure:
+    axis = {
+        "showline": True,
+        "linecolor": "#9aa0a6",
+        "gridcolor": "#e8eaed",
+        "zeroline": False,
+        "rangemode": "tozero",
+        "ticks": "outside",
+        "tickcolor": "#9aa0a6",
+    }
+    layout = {
+        "template": "none",
+        "font": {"family": "system-ui, -apple-system, Segoe UI, Roboto, sans-serif", "size": 14, "color": INK},
+        "margin": {"l": 64, "r": 16, "t": 16, "b": 56},
+        "height": 480,
+        "hovermode": "x unified",
+        "legend": {"orientation": "h", "yanchor": "bottom", "y": 1.02, "x": 0.0},
+        "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "rgba(0,0,0,0)",
+        "xaxis": {**axis, "title": {"text": x}},
+        "yaxis": {**axis, "title": {"text": y}},
+    }
+    return go.Figure(layout=layout)
+
+
+def _html(figure: go.Figure, name: str) -> str:
+    options = {"displayModeBar": False, "responsive": True, "plotlyServerURL": ""}
+    return str(figure.to_html(full_html=False, include_plotlyjs=False, div_id=name, config=options))
+
+
+def _add_line(
+    figure: go.Figure, curve: StiffnessCurve, name: str, colour: str, width: float, dash: str = "solid"
+) -> None:
+    figure.add_scatter(
+        x=curve.deflection * 1e3,
+        y=curve.load,
+        name=name + (" (partial)" if curve.partial else ""),
+        mode="lines",
+        line={"color": colour, "width": width, "dash": dash},
+        hovertemplate="%{y:.1f} N",
+    )
+
+
+def _add_orientations(figure: go.Figure, curves: ModelCurves, model: str, first_colour: int = 0) -> None:
+    for i, (orientation, curve) in enumerate(curves.by_orientation.items(), start=first_colour):
+        figure.add_scatter(
+            x=curve.deflection * 1e3,
+            y=curve.load,
+            name=f"{model} {orientation:g}°" + (" (partial)" if curve.partial else ""),
+            mode="lines+markers",
+            line={"color": ORIENTATION_COLOURS[i % 6], "width": 1.6, "dash": _DASHES[i % 6]},
+            marker={"symbol": _MARKERS[i % 6], "size": 5, "maxdisplayed": 12},
+            hovertemplate="%{y:.1f} N",
+        )
+
+
+def _add_uncertainty(figure: go.Figure, average: StiffnessCurve, uncertainty: float | None) -> None:
+    if uncertainty is None:
+        return
+    d = average.deflection * 1e3
+    figure.add_scatter(
+        x=np.concatenate([d, d[::-1]]),
+        y=np.concatenate([average.load * (1.0 + uncertainty), average.load[::-1] * (1.0 - uncertainty)]),
+        fill="toself",
+        fillcolor="rgba(26, 26, 26, 0.14)",
+        line={"width": 0},
+        name=f"mesh uncertainty ±{100.0 * uncertainty:.2g} %",
+        hoverinfo="skip",
+    )
+
+
+def _add_band(figure: go.Figure, band: Band) -> None:
+    """The band as it is known: a slope near the origin and one interval of deflection at each load."""
+    end = 8.0
+    slope = band.initial_tangent * 1e-3
+    figure.add_scatter(
+        x=[0.0, end],
+        y=[0.0, slope * end],
+        mode="lines",
+        line={"color": "#009e73", "width": 7},
+        opacity=0.35,
+        name=f"inferred slope {slope:g} N/mm",
+        hoverinfo="skip",
+    )
+    loads = [p.load for p in band.points]
+    figure.add_scatter(
+        x=[500.0 * (p.low + p.high) for p in band.points],
+        y=loads,
+        mode="markers",
+        marker={"color": "#009e73", "symbol": "line-ns-open", "size": 14},
+        error_x={"type": "data", "array": [500.0 * (p.high - p.low) for p in band.points], "color": "#009e73",
+                 "thickness": 4, "width": 9},
+        name="inferred band",
+        hovertemplate="%{x:.1f} mm",
+    )  # fmt: skip
+    for p in band.points:
+        figure.add_shape(type="rect", x0=1e3 * p.low, x1=1e3 * p.high, y0=p.load - 5.0, y1=p.load + 5.0,
+                         fillcolor=BAND, line={"width": 0}, layer="below")  # fmt: skip
+
+
+def _add_users(figure: go.Figure, users: Sequence[UserCurve]) -> None:
+    for i, user in enumerate(users):
+        figure.add_scatter(
+            x=user.curve.deflection * 1e3,
+            y=user.curve.load,
+            name=user.label,
+            mode="markers+lines",
+            marker={"symbol": "star", "size": 8},
+            line={"color": ("#cc79a7", "#56b4e9", "#f0e442")[i % 3], "width": 1.5},
+            hovertemplate="%{y:.1f} N",
+        )

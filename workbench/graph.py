@@ -1,0 +1,224 @@
+"""From a study to the tasks that compute it. Verified by tests/unit/test_workbench_graph.py."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, TypedDict
+
+import numpy as np
+
+from workbench.study import Study
+from workbench.study_models import ancf_preset, brush_parameters, wheel_design
+from workbench.task import Task
+
+__all__ = ["Model", "degrees", "mesh_tasks", "orientation_name", "report_tasks", "stiffness_tasks"]
+
+type Model = str
+"""``"fe"``, ``"ancf"`` or ``"brush"``."""
+
+
+class Origin(TypedDict):
+    """Which source text and which libraries decide a task's result."""
+
+    sources: tuple[str, ...]
+    libraries: tuple[str, ...]
+
+
+_FILES = ("contracts", "workbench.mesh_file", "workbench.result_files")
+_MESH = Origin(sources=(*_FILES, "geometry", "workbench.study_models"), libraries=("gmsh", "numpy"))
+_FE = Origin(
+    sources=(*_FILES, "reference_fe", "workbench.field_file"),
+    libraries=("dolfinx-solver-real", "fenics-ufl", "fenics-basix", "fenics-ffcx", "numpy"),
+)
+_ANCF = Origin(sources=(*_FILES, "ancf_reduced"), libraries=("numpy", "numba"))
+_BRUSH = Origin(sources=("contracts", "rover_dynamics.brush_tire"), libraries=("numpy",))
+_METRICS = Origin(
+    sources=(*_FILES, "workbench.metrics", "workbench.results"), libraries=("numpy", "objective-rating-metrics")
+)
+_PICTURES = Origin(sources=(*_FILES, "workbench.figures_pyvista", "workbench.palette"), libraries=("pyvista", "vtk"))
+_COMPARED_UP_TO = 250.0
+"""End of the load range over which the models are compared [N]: the upper wheel load of the thesis' sweep."""
+
+
+def degrees(angle: float) -> float:
+    """Angle in degrees, free of the last digits' noise."""
+    return round(math.degrees(angle), 9)
+
+
+def orientation_name(model: Model, orientation_deg: float) -> str:
+    """``fe_phi015``; fractions of a degree as ``fe_phi022.5``."""
+    whole, _, fraction = f"{orientation_deg:.6f}".partition(".")
+    fraction = fraction.rstrip("0")
+    return f"{model}_phi{int(whole):03d}" + (f".{fraction}" if fraction else "")
+
+
+def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
+    """Everything the report shows. ``curve_folder`` is where the study's own curve files lie."""
+    fe = tuple(degrees(o) for o in study.fe.orientations)
+    ancf = tuple(degrees(o) for o in study.ancf.orientations)
+    tasks = [*mesh_tasks(study), *_fe_tasks(study, fe), _fine_mesh_task(study), _fine_task(study)]
+    tasks += [*_ancf_tasks(study, ancf), _brush_task(study), _plate_task()]
+    curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi"))]
+    tasks.append(_metrics_task(study, (*curves, "brush"), curve_folder))
+    tasks.append(_picture_task(study, fe))
+    return tuple(tasks)
+
+
+def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
+    """The mesh that is solved, and the whole wheel with every part for the picture and the mass; their files."""
+    whole = _mesh_task(study, "mesh_whole", {"parts": "all", "half_width": False}, 20.0)
+    solved = _mesh_task(study, "mesh", {}, 15.0)
+    if not with_files:
+        return solved, whole
+    sources = (*_MESH["sources"], *_PICTURES["sources"], "workbench.tasks_mesh")
+    files = Task(
+        name="mesh_files",
+        function="workbench.tasks_mesh_files:write_files",
+        inputs={"wheel": whole.inputs["wheel"]},
+        needs=("mesh", "mesh_whole"),
+        sources=sources,
+        libraries=(*_MESH["libraries"], *_PICTURES["libraries"], "meshio"),
+    )
+    return solved, whole, files
+
+
+def stiffness_tasks(study: Study, model: Model, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
+    """Curves of one model; no orientation means those of the study."""
+    if model == "fe":
+        wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
+        return (_mesh_task(study, "mesh", {}, 15.0), *_fe_tasks(study, wanted))
+    if model == "ancf":
+        return tuple(_ancf_tasks(study, orientations_deg or [degrees(o) for o in study.ancf.orientations]))
+    return (_brush_task(study),)
+
+
+def _mesh_inputs(study: Study, factor: float) -> dict[str, Any]:
+    mesh = study.mesh
+    return {
+        "element_size": mesh.element_size / factor,
+        "axial_size": mesh.axial_size / factor,
+        "thickness_elements": mesh.thickness_elements,
+        "order": mesh.order,
+        "half_width": mesh.half_width,
+        "refinement": {part: size / factor for part, size in mesh.refinement.items()},
+        "parts": "flexible",
+    }
+
+
+def _mesh_task(study: Study, name: str, changes: dict[str, Any], cost: float, factor: float = 1.0) -> Task:
+    wheel = study.model_dump(mode="json", include={"name", "wheel", "materials"})
+    options = _mesh_inputs(study, factor) | changes
+    inputs = {"wheel": wheel, "options": options}
+    return Task(name=name, function="workbench.tasks_mesh:build", inputs=inputs, cost=cost, **_MESH)
+
+
+def _fine_mesh_task(study: Study) -> Task:
+    return _mesh_task(study, "mesh_fine", {}, 1000.0, study.fe.fine_factor)
+
+
+def _fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]) -> dict[str, Any]:
+    fe = study.fe
+    return {
+        "orientation_deg": orientation_deg,
+        "deflections": list(deflections),
+        "max_load": fe.max_load,
+        "snapshot_loads": list(fe.snapshot_loads),
+        "material_law": fe.material_law,
+        "contact_stiffness": fe.contact_stiffness,
+        "relative_tolerance": fe.relative_tolerance,
+        "materials": {part: asdict(m) for part, m in wheel_design(study).materials.items()},
+    }
+
+
+def _fe_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
+    fe = study.fe
+    grid = np.linspace(0.0, fe.max_deflection, fe.points + 1)[1:].round(12).tolist()
+    points = sorted({*grid, round(fe.fine_deflection, 12)})
+    return [
+        Task(
+            name=orientation_name("fe", orientation),
+            function="workbench.tasks_fe:solve_orientation",
+            inputs=_fe_inputs(study, orientation, points),
+            needs=("mesh",),
+            cost=100.0,
+            **_FE,
+        )
+        for orientation in orientations_deg
+    ]
+
+
+def _fine_task(study: Study) -> Task:
+    """The same orientation on the fine mesh, to the one deflection where loads are compared, in two steps."""
+    end = round(study.fe.fine_deflection, 12)
+    inputs = _fe_inputs(study, degrees(study.fe.fine_orientation), (0.5 * end, end)) | {"snapshot_loads": []}
+    function = "workbench.tasks_fe:solve_orientation"
+    return Task(name="fe_fine", function=function, inputs=inputs, needs=("mesh_fine",), cost=500.0, **_FE)
+
+
+def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
+    ancf = study.ancf
+    points = np.linspace(0.0, ancf.max_deflection, ancf.points + 1).round(12).tolist()
+    preset = asdict(ancf_preset(study))
+    return [
+        Task(
+            name=orientation_name("ancf", orientation),
+            function="workbench.tasks_ancf:solve_orientation",
+            inputs={"preset": preset, "orientation_deg": orientation, "deflections": points},
+            cost=10.0,
+            **_ANCF,
+        )
+        for orientation in orientations_deg
+    ]
+
+
+def _brush_task(study: Study) -> Task:
+    end = max(study.fe.max_deflection, study.ancf.max_deflection)
+    inputs = {"parameters": asdict(brush_parameters(study)), "max_deflection": end}
+    return Task(name="brush", function="workbench.tasks_brush:solve", inputs=inputs, **_BRUSH)
+
+
+def _plate_task() -> Task:
+    return Task(
+        name="ancf_plate",
+        function="workbench.tasks_ancf:verify_plate",
+        inputs={"reference_sha256": _plate_reference_hash()},
+        **_ANCF,
+    )
+
+
+def _plate_reference_hash() -> dict[str, str]:
+    from workbench.fingerprint import file_sha256
+
+    folder = Path(__file__).parent / "data" / "ancf_plate"
+    return {path.name: file_sha256(path) for path in sorted(folder.glob("*.csv"))}
+
+
+def _metrics_task(study: Study, curves: Sequence[str], curve_folder: Path) -> Task:
+    """Distances between curves; the text of the user's own curves is part of the inputs."""
+    users = [
+        {
+            **section.model_dump(mode="json"),
+            "orientation": None if section.orientation is None else degrees(section.orientation),
+            "text": (curve_folder / section.file).read_text(encoding="utf-8"),
+        }
+        for section in study.compare.curves
+    ]
+    inputs = {"max_load": _COMPARED_UP_TO, "user_curves": users}
+    function = "workbench.tasks_metrics:measure"
+    return Task(name="metrics", function=function, inputs=inputs, needs=tuple(curves), cost=8.0, **_METRICS)
+
+
+def _picture_task(study: Study, orientations_deg: Sequence[float]) -> Task:
+    first = orientation_name("fe", orientations_deg[0])
+    strength = min(material.yield_strength for material in wheel_design(study).materials.values())
+    return Task(
+        name="pictures",
+        function="workbench.tasks_pictures:draw",
+        inputs={"orientation_deg": orientations_deg[0], "yield_strength": strength},
+        needs=("mesh_whole", "mesh", first),
+        cost=10.0,
+        **_PICTURES,
+    )

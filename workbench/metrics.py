@@ -1,0 +1,111 @@
+"""How far one curve lies from another, as numbers. Verified by tests/unit/test_workbench_metrics.py."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+
+__all__ = ["CurveMetrics", "compare_curves", "iso_18571_rating", "largest_spread"]
+
+_SAMPLES = 401
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CurveMetrics:
+    """Distance of a curve from a reference curve over their common deflections.
+
+    Attributes
+    ----------
+    start, end : range compared [m]
+    relative_l2 : ||F - F_ref|| / ||F_ref||, both at equal deflection on a uniform grid [-]
+    max_error : largest |F - F_ref| [N]
+    max_error_at : where it lies [m]
+    tangent, tangent_reference : mean slope over the range, least squares with free intercept [N/m]
+    iso_rating : ISO/TS 18571 overall rating, 1 is best [-]; its phase part says little for a nearly straight curve
+
+    Verified by tests/unit/test_workbench_metrics.py.
+    """
+
+    start: float
+    end: float
+    relative_l2: float
+    max_error: float
+    max_error_at: float
+    tangent: float
+    tangent_reference: float
+    iso_rating: float
+
+    def as_dict(self) -> dict[str, float]:
+        """The numbers by name, for JSON."""
+        return asdict(self)
+
+
+def compare_curves(curve: StiffnessCurve, reference: StiffnessCurve, max_load: float | None = None) -> CurveMetrics:
+    """Compare two curves at equal deflection over the range they share.
+
+    Parameters
+    ----------
+    curve, reference : the curve under test and the one it is held against
+    max_load : if given, the range ends where ``reference`` reaches this load [N] (or where either curve ends)
+
+    Raises
+    ------
+    InputError
+        If they share no range or the reference is zero over it.
+
+    Verified by tests/unit/test_workbench_metrics.py.
+    """
+    start = max(curve.deflection[0], reference.deflection[0])
+    end = min(curve.deflection[-1], reference.deflection[-1])
+    if max_load is not None and reference.load.max() >= max_load:
+        end = min(end, reference.deflection_at(max_load))
+    if not end > start:
+        rule = "share no range of deflection"
+        raise InputError("curves", f"{curve.model}, {reference.model}", rule, "check their units (metres, newtons)")
+    d = np.linspace(start, end, _SAMPLES)
+    f, f_ref = curve.load_at(d), reference.load_at(d)
+    norm = float(np.linalg.norm(f_ref))
+    if norm == 0.0:
+        raise InputError("reference curve", reference.model, "is zero over the common range", "check its columns")
+    error = np.abs(f - f_ref)
+    worst = int(error.argmax())
+    return CurveMetrics(
+        start=float(start),
+        end=float(end),
+        relative_l2=float(np.linalg.norm(f - f_ref)) / norm,
+        max_error=float(error[worst]),
+        max_error_at=float(d[worst]),
+        tangent=float(np.polyfit(d, f, 1)[0]),
+        tangent_reference=float(np.polyfit(d, f_ref, 1)[0]),
+        iso_rating=iso_18571_rating(f, f_ref),
+    )
+
+
+def iso_18571_rating(signal: NDArray[np.float64], reference: NDArray[np.float64]) -> float:
+    """ISO/TS 18571 overall rating of two equally sampled signals.
+
+    The standard is written for time signals; deflection takes the place of time, which changes no part of the
+    rating, because each part is relative. (n,) float each, same unit.
+    """
+    import numba
+
+    jit_was_off = numba.config.DISABLE_JIT  # type: ignore[attr-defined]
+    numba.config.DISABLE_JIT = True  # type: ignore[attr-defined]  # compiling its loop takes longer than running it
+    try:
+        from objective_rating_metrics.rating import ISO18571  # type: ignore[import-untyped]
+    finally:
+        numba.config.DISABLE_JIT = jit_was_off  # type: ignore[attr-defined]
+    axis = np.arange(len(signal)) * 1e-4
+    rating = ISO18571(np.column_stack([axis, reference]), np.column_stack([axis, signal]), dt=1e-4)
+    return float(rating.overall_rating(ndigits=-1))
+
+
+def largest_spread(curves: list[StiffnessCurve], deflection: float) -> float:
+    """(largest - smallest) / mean load of several curves at one deflection [m]; dimensionless."""
+    loads = np.array([float(c.load_at(deflection)) for c in curves])
+    return float((loads.max() - loads.min()) / loads.mean())

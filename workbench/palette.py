@@ -1,0 +1,12 @@
+"""Colours that remain distinct for colour-blind readers (Okabe and Ito, 2008; black and grey added)."""
+
+from __future__ import annotations
+
+__all__ = ["ABOVE_YIELD", "BAND", "INK", "MODEL_COLOURS", "ORIENTATION_COLOURS", "PART_COLOURS"]
+
+PART_COLOURS = ("#8f8f8f", "#3b3b3b", "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#f0e442")
+ORIENTATION_COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9")
+MODEL_COLOURS = {"fe": "#1a1a1a", "ancf": "#0072b2", "brush": "#d55e00"}
+BAND = "rgba(0, 158, 115, 0.18)"
+INK = "#1a1a1a"
+ABOVE_YIELD = "#d55e00"

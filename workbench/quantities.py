@@ -1,0 +1,116 @@
+"""Numbers with units, as a study file may write them: SI numbers or strings such as ``"0.6 mm"``.
+
+This is the one place where units are parsed; everything behind it is SI. Verified by
+tests/unit/test_workbench_quantities.py.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from functools import cache
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import BeforeValidator, ValidationInfo
+from pydantic_core import PydanticCustomError
+
+if TYPE_CHECKING:
+    import pint
+
+__all__ = ["Angle", "Bedding", "Density", "Force", "Length", "Number", "Pressure", "Stiffness", "Viscosity", "to_si"]
+
+_STARTS_WITH_NUMBER = re.compile(r"^\s*[+-]?(\d|\.\d|nan|inf)", re.IGNORECASE)
+_KINDS = {
+    "m": ("a length", "0.6 mm"),
+    "rad": ("an angle", "15 deg"),
+    "Pa": ("a pressure or modulus", "113.8 GPa"),
+    "N": ("a force", "200 N"),
+    "kg/m**3": ("a density", "4430 kg/m^3"),
+    "N/m**3": ("a stiffness per area", "1e11 N/m^3"),
+    "N/m": ("a stiffness", "8.25 N/mm"),
+    "N*s/m": ("a viscous coefficient", "100 N*s/m"),
+    "": ("a plain number", "0.3"),
+}
+
+
+@cache
+def _registry() -> pint.UnitRegistry:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def _refuse(rule: str, hint: str) -> PydanticCustomError:
+    return PydanticCustomError("quantity", "{rule}; {hint}", {"rule": rule, "hint": hint})
+
+
+def to_si(value: object, unit: str) -> float:
+    """Convert a number or a string with a unit to SI, checking its dimension.
+
+    Parameters
+    ----------
+    value : number taken as SI, or a string such as ``"0.6 mm"``; an angle must be a string, because a plain
+        number could be meant in degrees
+    unit : SI unit wanted, in pint's spelling; ``""`` for a plain number
+
+    Returns
+    -------
+    number : the value in ``unit``, finite
+
+    Raises
+    ------
+    PydanticCustomError
+        If it is not a number, has another dimension, or is NaN or infinite; carries ``rule`` and ``hint``.
+    """
+    kind, example = _KINDS[unit]
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise _refuse(f"must be {kind}", f"write it like {example!r}")
+    number = _from_text(value, unit) if isinstance(value, str) else float(value)
+    if not math.isfinite(number):
+        raise _refuse("must be a finite number", f"write {kind} like {example!r}")
+    if unit == "rad" and not isinstance(value, str):
+        raise _refuse("an angle needs its unit", f"write it like {example!r} or '0.26 rad'")
+    return number
+
+
+def _from_text(text: str, unit: str) -> float:
+    """Parse ``text`` with pint and convert it to ``unit``."""
+    import pint
+
+    kind, example = _KINDS[unit]
+    if not _STARTS_WITH_NUMBER.match(text):
+        raise _refuse(f"must be {kind}", f"begin with a number, like {example!r}")
+    try:
+        quantity = _registry().Quantity(text)
+        if quantity.unitless and unit:
+            raise _refuse(f"{kind} in a string needs its unit", f"write it like {example!r}")
+        number = float(quantity.to(unit or "dimensionless").magnitude)
+        return number if unit == "rad" else float(f"{number:.15g}")  # 142.5 mm is 0.1425 m to the last digit
+    except pint.DimensionalityError as error:
+        raise _refuse(f"must be {kind}, not {error.dim1 or 'a plain number'}", f"write it like {example!r}") from error
+    except PydanticCustomError:
+        raise
+    except Exception as error:  # pint raises many kinds for text it cannot read
+        raise _refuse(f"cannot be read as {kind} ({error})", f"write it like {example!r}") from error
+
+
+def _validator(unit: str) -> Callable[[Any, ValidationInfo], float]:
+    """Validator of one unit; with the context ``{"si": True}`` the values are SI already, angles included."""
+
+    def validate(value: Any, info: ValidationInfo) -> float:
+        already_si = bool(info.context) and isinstance(value, float)
+        return to_si(value, "" if already_si else unit)
+
+    return validate
+
+
+Length = Annotated[float, BeforeValidator(_validator("m"))]
+Angle = Annotated[float, BeforeValidator(_validator("rad"))]
+Pressure = Annotated[float, BeforeValidator(_validator("Pa"))]
+Bedding = Annotated[float, BeforeValidator(_validator("N/m**3"))]
+Force = Annotated[float, BeforeValidator(_validator("N"))]
+Density = Annotated[float, BeforeValidator(_validator("kg/m**3"))]
+Stiffness = Annotated[float, BeforeValidator(_validator("N/m"))]
+Viscosity = Annotated[float, BeforeValidator(_validator("N*s/m"))]
+Number = Annotated[float, BeforeValidator(_validator(""))]

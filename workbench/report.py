@@ -1,0 +1,142 @@
+"""The report: one self-contained page. The one module that imports Jinja2.
+
+Verified by tests/unit/test_workbench_report.py and tests/end_to_end/test_report.py.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jinja2
+
+from contracts.records import Check, Timing
+from workbench.comparison import Comparison, overall_status
+from workbench.figures_plotly import ancf_figure, fe_figure, models_figure, plotly_script, stress_figure
+from workbench.number_format import displayed, displayed_reference
+from workbench.palette import PART_COLOURS
+from workbench.study import Study
+
+__all__ = ["PageContent", "render", "verdict"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PageContent:
+    """What a page is made of.
+
+    Attributes
+    ----------
+    study : the study, for titles and what is inferred
+    found : the comparison
+    pictures : folder with ``wheel.png`` and ``deformed_*N.png``
+    timings : wall time of each task
+    provenance : as in ``summary.json``
+    """
+
+    study: Study
+    found: Comparison
+    pictures: Path
+    timings: Sequence[Timing]
+    provenance: Mapping[str, Any]
+
+
+def render(content: PageContent) -> str:
+    """The page as text: figures, pictures and scripts inside, nothing loaded from elsewhere."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["number"] = displayed
+    environment.filters["reference"] = displayed_reference
+    found, study = content.found, content.study
+    return environment.get_template("report.html.j2").render(
+        study=study,
+        found=found,
+        verdict=verdict(found.checks),
+        status=overall_status(found.checks),
+        counts=_counts(found.checks),
+        plotly=plotly_script(),
+        figures=_figures(content),
+        wheel=_data_uri(content.pictures / "wheel.png"),
+        deformed=[(p.stem.removeprefix("deformed_"), _data_uri(p)) for p in _deformed(content.pictures)],
+        solver=[_solver_row(found, o) for o in found.fe.by_orientation],
+        timings=content.timings,
+        provenance=content.provenance,
+        metrics=_metric_rows(found),
+        colours=PART_COLOURS,
+    )
+
+
+def verdict(checks: Sequence[Check]) -> str:
+    """One sentence: what the gates say, and how many findings lie outside their limits."""
+    gates = [c for c in checks if c.role == "gate"]
+    findings = [c for c in checks if c.role == "finding"]
+    bad = sum(c.status != "pass" for c in gates)
+    outside = sum(c.status != "pass" for c in findings)
+    first = f"All {len(gates)} gates passed" if not bad else f"{bad} of {len(gates)} gates did not pass"
+    second = "every finding lies" if not outside else f"{outside} of {len(findings)} findings lie"
+    third = "inside its limits" if not outside else "outside their limits"
+    return f"{first}; {second} {third}."
+
+
+def _counts(checks: Sequence[Check]) -> list[tuple[str, str, int]]:
+    """(role, status, number) in a fixed order, without empty ones."""
+    pairs = [(r, s) for r in ("gate", "finding") for s in ("pass", "fail", "error")]
+    counted = [(r, s, sum(c.role == r and c.status == s for c in checks)) for r, s in pairs]
+    return [row for row in counted if row[2]]
+
+
+def _figures(content: PageContent) -> dict[str, str]:
+    found, study = content.found, content.study
+    first = next(iter(found.fe.by_orientation.values()))
+    parts = found.mesh["parts"]
+    strengths = {p: study.materials[n["material"]].yield_strength for p, n in parts.items() if p != "outer_hub"}
+    return {
+        "fe": fe_figure(found, study.reference),
+        "ancf": ancf_figure(found),
+        "models": models_figure(found, study.reference),
+        "stress": stress_figure(first, strengths),
+    }
+
+
+def _deformed(pictures: Path) -> list[Path]:
+    return sorted(pictures.glob("deformed_*N.png"), key=lambda p: float(p.stem.removeprefix("deformed_")[:-1]))
+
+
+def _data_uri(path: Path) -> str:
+    return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+
+
+def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:
+    """One orientation's line in the table of increments."""
+    curve, numbers = found.fe.by_orientation[orientation], found.fe.numbers[orientation]
+    records = numbers["increments"]
+    return {
+        "orientation": orientation,
+        "increments": sum(r["converged"] for r in records),
+        "cuts": sum(not r["converged"] for r in records),
+        "iterations": int(sum(len(r["residuals"]) - 1 for r in records)),
+        "residual": max(r["residuals"][-1] for r in records if r["converged"]),
+        "imbalance": float(abs(curve.columns["force_imbalance"]).max()),
+        "deflection": float(curve.deflection[-1]),
+        "load": float(curve.load[-1]),
+        "dofs": numbers["dofs"],
+        "solve_s": numbers["solve_s"],
+    }
+
+
+def _metric_rows(found: Comparison) -> list[tuple[str, Mapping[str, float]]]:
+    """Pairs of curves and their distances, with readable names."""
+    names = {"ancf_average": "ANCF average, FE average", "brush": "brush line, FE average"}
+    names |= {f"user_{i}": f"FE, {user.label}" for i, user in enumerate(found.users)}
+    rows = []
+    for key, numbers in found.metrics.items():
+        name = names.get(key) or f"ANCF {key.removeprefix('ancf_phi')}°, FE {key.removeprefix('ancf_phi')}°"
+        rows.append((name, numbers))
+    return rows

@@ -1,0 +1,61 @@
+"""Reads stored results into typed records; the comparison and the report see nothing else.
+
+Verified by tests/unit/test_workbench_checks.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from contracts.curves import StiffnessCurve, average_curve, read_curve
+from contracts.records import Timing
+from workbench.result_files import read_result
+from workbench.store import Entry
+
+__all__ = ["CURVE", "ModelCurves", "UserCurve", "model_curves", "task_timings"]
+
+CURVE = "curve.csv"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelCurves:
+    """Curves of one model: one per orientation, by orientation [deg], and their average."""
+
+    model: str
+    by_orientation: Mapping[float, StiffnessCurve]
+    average: StiffnessCurve
+    numbers: Mapping[float, Mapping[str, Any]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UserCurve:
+    """A curve the user dropped in, and what it is held against."""
+
+    label: str
+    curve: StiffnessCurve
+    orientation_deg: float | None
+
+
+def model_curves(model: str, folders: Mapping[str, Path]) -> ModelCurves:
+    """Curves of ``fe`` or ``ancf`` from the tasks ``{model}_phi...`` among ``folders``, in order of orientation."""
+    found = {}
+    for name, folder in folders.items():
+        if name.startswith(f"{model}_phi"):
+            orientation = float(name.removeprefix(f"{model}_phi"))
+            curve = read_curve(folder / CURVE, model=model, orientation_deg=orientation)
+            found[orientation] = (curve, read_result(folder))
+    ordered = dict(sorted(found.items()))
+    return ModelCurves(
+        model=model,
+        by_orientation={o: curve for o, (curve, _) in ordered.items()},
+        average=average_curve([curve for curve, _ in ordered.values()]),
+        numbers={o: numbers for o, (_, numbers) in ordered.items()},
+    )
+
+
+def task_timings(entries: Mapping[str, Entry]) -> tuple[Timing, ...]:
+    """Wall time of the computation behind each stored result, in the order of the graph."""
+    return tuple(Timing(task=name, wall_s=entry.wall_s, dofs=entry.dofs) for name, entry in entries.items())

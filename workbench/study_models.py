@@ -1,0 +1,109 @@
+"""From study sections to the models' own parameters: the only place where the two vocabularies meet.
+
+Verified by tests/unit/test_workbench_study.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from contracts.errors import InputError
+from contracts.materials import Material
+from workbench.study import Study, WheelStudy
+from workbench.study_sections import Section
+
+if TYPE_CHECKING:
+    from ancf_reduced.tire_preset import TirePreset
+    from geometry.wheel import WheelDesign
+    from rover_dynamics.brush_tire import BrushTireParameters
+
+__all__ = ["SectionInputError", "ancf_preset", "brush_parameters", "materials", "wheel_design"]
+
+
+class SectionInputError(InputError):
+    """An InputError and the study section it came from, so that the message can name file and key."""
+
+    def __init__(self, section: str, error: InputError) -> None:
+        super().__init__(error.what, error.value, error.rule, error.hint)
+        self.section = section
+
+
+def _in_section[T](section: str, build: Callable[[], T]) -> T:
+    try:
+        return build()
+    except InputError as error:
+        raise SectionInputError(section, error) from error
+
+
+def materials(study: WheelStudy) -> dict[str, Material]:
+    """Materials of the study by name, SI."""
+    return {
+        name: _in_section(f"materials.{name}", partial(Material, name=name, **section.model_dump()))
+        for name, section in study.materials.items()
+    }
+
+
+def wheel_design(study: WheelStudy) -> WheelDesign:
+    """Build the wheel, so that geometry checks whether its parts fit together.
+
+    Raises
+    ------
+    SectionInputError
+        If a part breaks a rule or names a material the study does not have; its section is the part's key.
+    """
+    from geometry.wheel import WheelDesign
+
+    parts = _WheelParts(study).build()
+    return _in_section("wheel", lambda: WheelDesign(name=study.name, **parts))
+
+
+class _WheelParts:
+    """Turns each part's section into geometry's class."""
+
+    def __init__(self, study: WheelStudy) -> None:
+        self.wheel, self.known = study.wheel, materials(study)
+
+    def build(self) -> dict[str, Any]:
+        """Keyword arguments of WheelDesign."""
+        from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+
+        wheel = self.wheel
+        impact = wheel.impact_springs
+        return {
+            "tire": self._part(Tire, "tire", wheel.tire),
+            "grousers": wheel.grousers and self._part(Grousers, "grousers", wheel.grousers),
+            "spring_sets": tuple(self._part(SpringSet, f"springs[{i}]", s) for i, s in enumerate(wheel.springs)),
+            "outer_hub": self._part(HubRing, "outer_hub", wheel.outer_hub),
+            "cone": wheel.cone and self._part(Cone, "cone", wheel.cone),
+            "impact_springs": impact and self._part(SpringSet, "impact_springs", impact, name="impact_springs"),
+            "inner_hub": wheel.inner_hub and self._part(HubRing, "inner_hub", wheel.inner_hub),
+        }
+
+    def _part[T](self, kind: Callable[..., T], key: str, section: Section, **more: object) -> T:
+        values = section.model_dump()
+        material = values.pop("material")
+        if material not in self.known:
+            rule = f"is not in [materials], which has {', '.join(self.known) or 'none'}"
+            error = InputError("material", material, rule, f"add [materials.{material}] or correct the name")
+            raise SectionInputError(f"wheel.{key}", error)
+        return _in_section(f"wheel.{key}", lambda: kind(**values, **more, material=self.known[material]))
+
+
+def ancf_preset(study: Study) -> TirePreset:
+    """Parameters of the ANCF tire; raises SectionInputError if they do not fit together."""
+    from ancf_reduced.tire_preset import TirePreset
+
+    values = study.ancf.model_dump(exclude={"orientations", "max_deflection", "points", "thesis_preset"})
+    return _in_section("ancf", lambda: TirePreset(**values))
+
+
+def brush_parameters(study: Study) -> BrushTireParameters:
+    """Parameters of the brush tire; raises SectionInputError if they break a rule."""
+    from rover_dynamics.brush_tire import BrushTireParameters
+
+    values = study.brush.model_dump()
+    values["cornering_stiffness"] = values.pop("cornering_stiffness_per_degree") * 180.0 / math.pi
+    return _in_section("brush", lambda: BrushTireParameters(**values))

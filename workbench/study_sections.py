@@ -1,0 +1,166 @@
+"""Sections of a study file other than the wheel: materials, mesh, solvers, brush, comparison.
+
+Every model is frozen and refuses unknown keys. All values are SI after parsing. Verified by
+tests/unit/test_workbench_study.py.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, model_validator
+from pydantic_core import PydanticCustomError
+
+from workbench.quantities import Angle, Bedding, Density, Force, Length, Number, Pressure, Stiffness, Viscosity
+
+__all__ = [
+    "AncfSection",
+    "BrushSection",
+    "CurveSection",
+    "FeSection",
+    "MaterialSection",
+    "MeshSection",
+    "Section",
+    "ToleranceSection",
+    "in_key",
+]
+
+Positive = Field(gt=0.0)
+NotNegative = Field(ge=0.0)
+Orientations = Annotated[tuple[Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)], ...], Field(min_length=1)]
+
+
+def in_key(key: str, value: object, rule: str, hint: str) -> PydanticCustomError:
+    """Error of one key that only its whole section can find."""
+    context = {"key": key, "value": str(value), "rule": rule, "hint": hint}
+    return PydanticCustomError("key_in_section", "{key} {rule}; {hint}", context)
+
+
+class Section(BaseModel):
+    """Base of every section: frozen, no unknown keys."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class MaterialSection(Section):
+    """One material: E [Pa], nu [-], rho [kg/m^3], R_p0.2 [Pa], and where the numbers come from."""
+
+    young_modulus: Annotated[Pressure, Positive]
+    poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
+    density: Annotated[Density, Positive]
+    yield_strength: Annotated[Pressure, Positive]
+    source: Annotated[str, Field(min_length=1)]
+
+
+class MeshSection(Section):
+    """Mesh of the wheel: element lengths along strips and along the axle [m], counts, geometry order, symmetry."""
+
+    element_size: Annotated[Length, Positive]
+    axial_size: Annotated[Length, Positive]
+    thickness_elements: Annotated[StrictInt, Field(ge=1, le=8)] = 1
+    order: Literal[1, 2] = 2
+    half_width: StrictBool = True
+    refinement: dict[str, Annotated[Length, Positive]] = Field(default_factory=dict)
+
+
+class FeSection(Section):
+    """Continuum finite element runs: orientations [rad], deflections [m], loads [N] of the full wheel."""
+
+    orientations: Orientations
+    max_deflection: Annotated[Length, Positive]
+    points: Annotated[StrictInt, Field(ge=2, le=500)]
+    max_load: Annotated[Force, Positive]
+    snapshot_loads: tuple[Annotated[Force, Positive], ...] = ()
+    material_law: Literal["st_venant_kirchhoff", "neo_hookean"] = "st_venant_kirchhoff"
+    contact_stiffness: Annotated[Bedding, Positive] = 1e11
+    relative_tolerance: Annotated[Number, Field(gt=0.0, le=1e-4)] = 1e-8
+    fine_orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)] = 0.0
+    fine_factor: Annotated[Number, Field(gt=1.0, le=8.0)] = 2.0
+    fine_deflection: Annotated[Length, Positive] = 0.020
+
+    @model_validator(mode="after")
+    def _fine_point_is_on_the_curve(self) -> FeSection:
+        if self.fine_deflection > self.max_deflection:
+            raise in_key(
+                "fine_deflection", self.fine_deflection, "must not exceed max_deflection", "choose a smaller one"
+            )
+        if not any(abs(self.fine_orientation - o) < 1e-9 for o in self.orientations):
+            rule, hint = "must be one of the orientations", "add it to orientations or choose one of them"
+            raise in_key("fine_orientation", f"{math.degrees(self.fine_orientation):g} deg", rule, hint)
+        return self
+
+
+class AncfSection(Section):
+    """The thesis' ANCF tire: dimensions [m], material, contact grid, orientations [rad], deflections [m]."""
+
+    outer_radius: Annotated[Length, Positive]
+    hub_radius: Annotated[Length, Positive]
+    width: Annotated[Length, Positive]
+    rim_thickness: Annotated[Length, Positive]
+    spoke_thickness: Annotated[Length, Positive]
+    circumferential_plates: Annotated[StrictInt, Field(ge=3, le=96)]
+    spokes: Annotated[StrictInt, Field(ge=1, le=96)]
+    plates_per_spoke: Annotated[StrictInt, Field(ge=1, le=32)] = 1
+    young_modulus: Annotated[Pressure, Positive]
+    poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
+    density: Annotated[Density, Positive]
+    contact_stiffness: Annotated[Stiffness, Positive]
+    contact_points: tuple[Annotated[StrictInt, Field(ge=2, le=100)], Annotated[StrictInt, Field(ge=2, le=100)]]
+    contact_layout: Literal["edges", "centres"] = "edges"
+    quadrature: tuple[StrictInt, StrictInt, StrictInt] = (5, 5, 3)
+    orientations: Orientations
+    max_deflection: Annotated[Length, Positive]
+    points: Annotated[StrictInt, Field(ge=2, le=500)]
+    thesis_preset: StrictBool = False
+    """True states that these are the thesis' numbers: the curve is then held against its known table."""
+
+
+class BrushSection(Section):
+    """The brush-type tire of Table II; slip stiffnesses read as N and N/rad."""
+
+    radial_stiffness: Annotated[Stiffness, Positive]
+    radial_damping: Annotated[Viscosity, NotNegative]
+    longitudinal_slip_stiffness: Annotated[Force, Positive]
+    cornering_stiffness_per_degree: Annotated[Force, Positive]
+    friction_min: Annotated[Number, Positive]
+    friction_max: Annotated[Number, Positive]
+    rolling_resistance: Annotated[Number, NotNegative]
+    source: Annotated[str, Field(min_length=1)]
+
+
+class CurveSection(Section):
+    """A user's own curve, e.g. digitised from a paper: CSV with ``deflection_m,load_N`` and where it comes from."""
+
+    file: Annotated[str, Field(min_length=1)]
+    label: Annotated[str, Field(min_length=1)]
+    source: Annotated[str, Field(min_length=1)]
+    compare_with: Literal["average", "orientation"] = "average"
+    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)] | None = None
+
+    @model_validator(mode="after")
+    def _orientation_if_wanted(self) -> CurveSection:
+        if (self.compare_with == "orientation") != (self.orientation is not None):
+            rule, hint = 'belongs to compare_with = "orientation", and only there', "give both or neither"
+            raise in_key("orientation", self.orientation, rule, hint)
+        return self
+
+
+class ToleranceSection(Section):
+    """How far a number may lie off; relative unless a unit is named. The gates' defaults are the project's own."""
+
+    initial_tangent: Annotated[Number, Positive] = 0.03
+    initial_tangent_up_to: Annotated[Length, Positive] = 0.005
+    ancf_preset: Annotated[Number, Positive] = 0.01
+    flexible_mass: Annotated[Number, Positive] = 0.01
+    mesh_mass: Annotated[Number, Positive] = 0.001
+    min_scaled_jacobian: Annotated[Number, Positive] = 0.2
+    reach_deflection: Annotated[Length, Positive] = 0.030
+    reach_load: Annotated[Force, Positive] = 300.0
+    fe_residual: Annotated[Number, Positive] = 1e-8
+    fe_balance: Annotated[Number, Positive] = 1e-6
+    mesh_uncertainty: Annotated[Number, Positive] = 0.05
+    plate_element: Annotated[Number, Positive] = 1e-10
+    model_agreement: Annotated[Number, Positive] = 0.10
+    iso_rating: Annotated[Number, Positive] = 0.80
+    orientation_spread: Annotated[Number, Positive] = 0.50

@@ -1,0 +1,71 @@
+"""Tasks of the continuum model: the wheel at one orientation.
+
+Verified by tests/end_to_end/test_report.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from contracts.curves import write_curve
+from contracts.materials import Material
+from contracts.mesh import TaggedMesh
+from reference_fe.hyperelastic import MaterialLaw
+from reference_fe.newton import NewtonSettings
+from reference_fe.wheel import FieldSnapshot, WheelLoadCase, solve_wheel
+from workbench.field_file import write_fields
+from workbench.mesh_file import MESH, read_mesh
+from workbench.result_files import write_result
+from workbench.task import Progress
+
+__all__ = ["solve_orientation"]
+
+
+def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Solve one orientation: ``curve.csv``, ``result.json`` (increments, timings) and fields at chosen loads.
+
+    Needs one task that holds the mesh.
+    """
+    (mesh_folder,) = needs.values()
+    mesh = read_mesh(mesh_folder / MESH)
+    deflections = tuple(inputs["deflections"])
+    case = WheelLoadCase(
+        orientation_deg=inputs["orientation_deg"],
+        deflections=deflections,
+        maximum_load=inputs["max_load"],
+        snapshot_loads=tuple(inputs["snapshot_loads"]),
+        law=MaterialLaw(inputs["material_law"]),
+        contact_stiffness=inputs["contact_stiffness"],
+        newton=NewtonSettings(relative_tolerance=inputs["relative_tolerance"]),
+    )
+    materials = {part: Material(**values) for part, values in inputs["materials"].items()}
+
+    def report(deflection: float, load: float) -> None:
+        progress(max(deflection / deflections[-1], load / inputs["max_load"]))
+
+    result = solve_wheel(mesh, materials, case, report)
+    write_curve(result.curve, out / "curve.csv")
+    for snapshot in result.snapshots:
+        _, wanted = min((abs(load - snapshot.load), load) for load in inputs["snapshot_loads"])
+        _write_fields(mesh, snapshot, out / f"fields_{wanted:.0f}N")
+    numbers = {
+        "dofs": result.dofs,
+        "solve_s": result.wall_s,
+        "cells": len(mesh.cells),
+        "increments": [asdict(record) for record in result.increments],
+        "snapshots": [{"load_N": s.load, "deflection_m": s.deflection} for s in result.snapshots],
+    }
+    write_result(out, numbers)
+    return result.dofs
+
+
+def _write_fields(mesh: TaggedMesh, snapshot: FieldSnapshot, stem: Path) -> None:
+    """Fields at one load: an archive for our own pictures and a VTU for other programs."""
+    archive, vtu = stem.with_suffix(".npz"), stem.with_suffix(".vtu")
+    np.savez_compressed(archive, displacement=snapshot.displacement, von_mises=snapshot.von_mises)
+    write_fields(mesh, snapshot.displacement, snapshot.von_mises, vtu)
