@@ -16,6 +16,8 @@ OUT ?= build/report
 
 # One thread in BLAS: results repeat, and independent tasks share the cores as processes.
 export OMP_NUM_THREADS := 1
+# Certificates of the machine, not uv's own list: works behind a company's proxy too.
+export UV_SYSTEM_CERTS ?= true
 
 .PHONY: help setup report test lint unit bench clean distclean
 
