@@ -79,9 +79,18 @@ def test_started_again_it_finishes_with_the_same_numbers(
 def test_ctrl_c_is_one_message_and_exit_status_2(workspace: Path, tmp_path: Path) -> None:
     """The terminal sends SIGINT to the whole process group; only the parent may speak."""
     arguments = command("report", workspace / "study.toml", "--out", tmp_path / "report", "--store", tmp_path / "store")
-    process = subprocess.Popen(
-        arguments, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
-    )
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job would hand down "ignore"
+    try:
+        process = subprocess.Popen(
+            arguments,
+            env=environment(),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+    finally:
+        signal.signal(signal.SIGINT, before)
     start = time.monotonic()
     while not _manifests(tmp_path / "store"):
         assert time.monotonic() - start < DEADLINE

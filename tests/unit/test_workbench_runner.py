@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -123,6 +124,15 @@ def test_workers_have_one_thread_and_the_parent_keeps_its_setting(
     assert os.environ["OMP_NUM_THREADS"] == "3"
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """SIGINT raises KeyboardInterrupt, also where the tests run as a background job that ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_interrupt_is_one_message_and_ends_the_workers(tmp_path: Path) -> None:
     pid_file = tmp_path / "pid"
     task = Task(name="t", function=f"{PROBE}:wait", inputs={"pid": str(pid_file)})
