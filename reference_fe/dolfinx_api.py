@@ -35,6 +35,7 @@ __all__ = [
     "MeshTags",
     "PETSc",
     "PointEvaluation",
+    "cell_matrix",
     "cell_measure",
     "cell_nodes",
     "compile_form",
@@ -43,10 +44,14 @@ __all__ = [
     "fem",
     "fem_petsc",
     "gauss_rule",
+    "lagrange_gradients",
     "lagrange_points",
     "mesh_from_arrays",
     "meshtags",
     "quadrature_space",
+    "reference_edge",
+    "shared_matrix",
+    "sum_shared",
     "ufl",
     "versions",
 ]
@@ -131,6 +136,25 @@ def lagrange_points(degree: int) -> NDArray[np.float64]:
     return np.asarray(element.points)
 
 
+def lagrange_gradients(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Derivatives of the Lagrange shape functions along the reference axes, (3, n_points, n_nodes) [-]."""
+    element = basix.create_element(basix.ElementFamily.P, basix.CellType.hexahedron, degree)
+    return np.asarray(element.tabulate(1, points))[1:, :, :, 0]
+
+
+def reference_edge(local_edge: int) -> NDArray[np.float64]:
+    """End points of an edge of the reference hexahedron, (2, 3) [-]."""
+    ends = basix.topology(basix.CellType.hexahedron)[1][local_edge]
+    return np.asarray(basix.geometry(basix.CellType.hexahedron))[ends]
+
+
+def sum_shared(function: Function) -> NDArray[np.float64]:
+    """Own values of a function after the other processes' contributions have been added."""
+    function.x.scatter_reverse(dolfinx.la.InsertMode.add)
+    own = function.function_space.dofmap.index_map.size_local * function.function_space.dofmap.index_map_bs
+    return np.array(function.x.array[:own])
+
+
 def compile_form(expression: Expr) -> Any:
     """Compile a UFL form to machine code with this project's compiler flags."""
     return fem.form(expression, jit_options=JIT_OPTIONS)
@@ -142,6 +166,28 @@ def create_matrix(form: Any, diagonal_blocks: NDArray[np.int32]) -> PETSc.Mat:
     pattern.insert_diagonal(diagonal_blocks)
     pattern.finalize()
     matrix: PETSc.Mat = dolfinx.cpp.la.petsc.create_matrix(COMM, pattern)
+    symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
+    matrix.setOption(symmetric, True)
+    return matrix
+
+
+def cell_matrix(V: Any, cell_nodes: NDArray[np.int32], diagonal_blocks: NDArray[np.int32]) -> Any:
+    """Empty DOLFINx CSR matrix that couples the nodes of each cell, with room on the diagonal of further nodes."""
+    index_map = V.dofmap.index_map
+    pattern = dolfinx.cpp.la.SparsityPattern(COMM, [index_map, index_map], [3, 3])
+    for nodes in cell_nodes:
+        pattern.insert(nodes, nodes)
+    pattern.insert_diagonal(diagonal_blocks)
+    pattern.finalize()
+    return dolfinx.la.matrix_csr(pattern, block_mode=dolfinx.la.BlockMode.expanded)
+
+
+def shared_matrix(csr: Any) -> PETSc.Mat:
+    """PETSc matrix on the arrays of a DOLFINx CSR matrix: values written there are seen here after stateIncrease."""
+    size = len(csr.indptr) - 1
+    indptr: Any = np.ascontiguousarray(csr.indptr, dtype=PETSc.IntType)
+    indices: Any = np.ascontiguousarray(csr.indices, dtype=PETSc.IntType)
+    matrix = PETSc.Mat().createAIJWithArrays((size, size), (indptr, indices, csr.data), comm=PETSc.COMM_SELF)
     symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
     matrix.setOption(symmetric, True)
     return matrix

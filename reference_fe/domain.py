@@ -64,6 +64,24 @@ class Domain:
         mask = np.isin(self.facet_tags.values, self.face_tags(names))
         return np.asarray(self.facet_tags.indices[mask], dtype=np.int32)
 
+    def edges_between(self, first: str, second: str) -> NDArray[np.int32]:
+        """Local numbers of this process' own edges that lie in both named faces, ascending."""
+        topology = self.mesh.topology
+        topology.create_entities(1)
+        topology.create_connectivity(2, 1)
+        links = topology.connectivity(2, 1)
+        one, other = ({e for f in self.facets_of([name]) for e in links.links(f)} for name in (first, second))
+        own = topology.index_map(1).size_local
+        return np.array(sorted(e for e in one & other if e < own), dtype=np.int32)
+
+    def cell_of_edge(self, edge: int) -> tuple[int, int]:
+        """A cell that has the edge, and the edge's local number in it."""
+        topology = self.mesh.topology
+        topology.create_connectivity(1, 3)
+        topology.create_connectivity(3, 1)
+        cell = int(topology.connectivity(1, 3).links(edge)[0])
+        return cell, int(np.flatnonzero(topology.connectivity(3, 1).links(cell) == edge)[0])
+
 
 def _look_up(names: Iterable[str], known: dict[str, int], what: str) -> tuple[int, ...]:
     tags = []

@@ -95,14 +95,14 @@ class NewtonSolver:
     def _step(self, residual: NDArray[np.float64], offset: NDArray[np.float64]) -> None:
         """One linear solve; stores the extrapolated stress and moves u."""
         problem = self.problem
-        self._matrix = problem.tangent(self._matrix)
-        if self._ksp is None:
-            self._ksp = _mumps(self._matrix)
         right_hand_side = np.where(self._free, -residual, 0.0)
-        x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
         if offset.any():
             right_hand_side -= self._lifted(offset)
             right_hand_side[problem.supported] = offset[problem.supported]
+        self._matrix = problem.tangent(self._matrix)
+        if self._ksp is None:
+            self._ksp = _mumps(self._matrix)
+        x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
         b.array[:] = right_hand_side
         self._ksp.setOperators(self._matrix)
         self._ksp.solve(b, x)

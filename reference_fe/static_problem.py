@@ -1,7 +1,8 @@
-"""Nonlinear statics of a tagged hexahedral mesh: total Lagrangian, hyperelastic, supports, tractions, plane contact.
+"""Nonlinear statics of a tagged hexahedral mesh: total Lagrangian, hyperelastic, supports, loads, plane contact.
 
 Weak form (Bonet & Wood 2008, ch. 8): find u with
-    int S(E(u)) : DE(u)[v] dV - int t . v dA - int p(g(u)) n . v dA = 0  for every v that vanishes on the supports.
+    int S(E(u)) : DE(u)[v] dV - W(u)[v] - int p(g(u)) n . v dA = 0  for every v that vanishes on the supports,
+with W the work of the loads (see `reference_fe.loads`).
 Tangent with mixed integration points (Magisano, Leonetti, Garcea 2017): the geometric stiffness uses the stress stored
 at the Gauss points, S_m = S(E(u)) + CC : DE(u)[du] of the last solve, in place of S(E(u)); the residual, and with it
 the solution, stay the same. docs/theory.md has the derivation. Verified by tests/verification/test_fe_*.py.
@@ -10,7 +11,6 @@ the solution, stay the same. docs/theory.md has the derivation. Verified by test
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,33 +19,18 @@ from contracts.errors import InputError
 from contracts.materials import Material
 from reference_fe import dolfinx_api as api
 from reference_fe import hyperelastic as law_of
+from reference_fe.compiled_cells import CompiledCells
 from reference_fe.contact_law import plane_pressure
 from reference_fe.contact_patch import contact_faces, distance_at_touch
+from reference_fe.discretisation import Discretisation, ElementFamily
 from reference_fe.dolfinx_api import fem, fem_petsc, ufl
 from reference_fe.domain import Domain
 from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.supports import PlaneContact, Support, Traction
+from reference_fe.loads import edge_load_vector, virtual_work
+from reference_fe.support_dofs import build_supports
+from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, PlaneContact, Support, Traction
 
-__all__ = ["Discretisation", "StaticProblem"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Discretisation:
-    """Choice of law, element and quadrature.
-
-    Attributes
-    ----------
-    law : stored energy
-    degree : degree of the displacement, 1 or 2
-    gauss_points : Gauss points along the cell's three local axes; 27-node hexahedra keep full rank as long as two of
-        them have 3 points. 2 along the curved axis (see `orientation.curved_axis_first`) cures membrane locking
-    mixed_integration_points : store the stress at the points for the geometric stiffness; False is plain Newton
-    """
-
-    law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
-    degree: int = 2
-    gauss_points: tuple[int, int, int] = (2, 3, 3)
-    mixed_integration_points: bool = True
+__all__ = ["Discretisation", "ElementFamily", "StaticProblem"]
 
 
 class StaticProblem:
@@ -55,13 +40,15 @@ class StaticProblem:
     ----------
     domain : mesh with tags
     materials : part name -> material, for every part that deforms; parts left out are rigid and must be supported
-    supports, tractions, contact : boundary conditions
+    supports, tractions, loads, contact : boundary conditions
     discretisation : law, degree, quadrature
 
     Attributes
     ----------
     u : displacement (DOLFINx function) [m]
     du : last Newton step [m]
+    bcs : Dirichlet conditions of the supports (DOLFINx)
+    supported : unknowns held by a support, ascending
     contact_lag : linearise the contact pressure about the gap plus this lag [m]; 0 but in an increment's first solve
     """
 
@@ -72,6 +59,7 @@ class StaticProblem:
         supports: Sequence[Support],
         *,
         tractions: Sequence[Traction] = (),
+        loads: Sequence[BodyForce | EdgeLoad | EndMoment] = (),
         contact: PlaneContact | None = None,
         discretisation: Discretisation | None = None,
     ) -> None:
@@ -80,16 +68,21 @@ class StaticProblem:
         self.materials = dict(materials)
         self._check_parts(supports)
         mesh = domain.mesh
-        self.V = fem.functionspace(mesh, ("Lagrange", self.discretisation.degree, (3,)))
+        self.V = fem.functionspace(mesh, (str(self.discretisation.family), self.discretisation.degree, (3,)))
         self.u, self.du = fem.Function(self.V, name="displacement"), fem.Function(self.V)
         self.lame = self._lame_fields()
-        self.stored_stress = fem.Function(api.quadrature_space(mesh, self.discretisation.gauss_points, (3, 3)))
         self.load_factor = fem.Constant(mesh, 0.0)
         self.plane_normal, self.plane_distance = fem.Constant(mesh, np.zeros(3)), fem.Constant(mesh, 1.0)
         self.penalty = fem.Constant(mesh, 0.0)
         self.contact_lag = fem.Constant(mesh, 0.0)
-        self._build_forms(tractions)
-        self._build_supports(supports)
+        self._build_forms([*tractions, *(load for load in loads if not isinstance(load, EdgeLoad))])
+        edge_loads = [edge_load_vector(domain, self.V, load) for load in loads if isinstance(load, EdgeLoad)]
+        self._edge_force = np.sum(edge_loads, axis=0) if edge_loads else np.zeros(self.dofs)
+        self.bcs, self._prescribed = build_supports(domain, self.V, supports)
+        marked = [bc.dof_indices()[0] for bc in self.bcs]
+        self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
+        if self._compiled is not None:
+            self._compiled.prepare_matrix(self.supported)
         self.set_control(0.0)
 
     @property
@@ -109,14 +102,21 @@ class StaticProblem:
 
     def residual(self) -> NDArray[np.float64]:
         """Internal minus external force at every unknown, supported ones included, (n_dofs,) [N]."""
-        b = fem_petsc.assemble_vector(self._residual_form)
-        b.ghostUpdate(addv=api.PETSc.InsertMode.ADD, mode=api.PETSc.ScatterMode.REVERSE)
-        array = np.array(b.array)
-        b.destroy()
+        array = -float(self.load_factor.value) * self._edge_force
+        if self._residual_form is not None:
+            b = fem_petsc.assemble_vector(self._residual_form)
+            b.ghostUpdate(addv=api.PETSc.InsertMode.ADD, mode=api.PETSc.ScatterMode.REVERSE)
+            array += b.array
+            b.destroy()
+        if self._compiled is not None:
+            array += self._compiled.internal_force(self.u.x.array)
         return array
 
     def tangent(self, matrix: api.PETSc.Mat | None = None) -> api.PETSc.Mat:
-        """Tangent stiffness with unit rows at supported unknowns [N/m]."""
+        """Tangent stiffness with unit rows at supported unknowns [N/m]; give the last one back to spare its set-up."""
+        if self._compiled is not None:
+            self._compiled.assemble(self.u.x.array, self._tangent_form)
+            return self._compiled.supported_matrix()
         if matrix is None:
             matrix = api.create_matrix(self._tangent_form, np.unique(self.supported // 3).astype(np.int32))
         else:
@@ -127,6 +127,9 @@ class StaticProblem:
 
     def unsupported_tangent(self) -> api.PETSc.Mat:
         """Tangent stiffness without regard to the supports [N/m]; a new matrix, to be destroyed by the caller."""
+        if self._compiled is not None:
+            self._compiled.assemble(self.u.x.array, self._tangent_form)
+            return self._compiled.copied_matrix()
         matrix: api.PETSc.Mat = fem_petsc.assemble_matrix(self._tangent_form)
         matrix.assemble()
         return matrix
@@ -145,16 +148,20 @@ class StaticProblem:
 
     def store_stress(self, *, extrapolate: bool) -> None:
         """Store S(E(u)), with CC : DE(u)[du] added if ``extrapolate``, at the Gauss points; call before u changes."""
+        if self._compiled is not None:
+            step = self.du.x.array if extrapolate else np.zeros_like(self.du.x.array)
+            self._compiled.store_stress(self.u.x.array, step)
+            return
         point_stress = self._extrapolated_stress if extrapolate else self._current_stress
         values = point_stress(self.domain.mesh, self._flexible_cells)
-        stored = self.stored_stress.x.array.reshape(-1, values[0].size)
+        stored = self._stored_stress.x.array.reshape(-1, values[0].size)
         stored[self._flexible_cells] = values.reshape(len(values), -1)
 
     def nodal_displacement(self) -> NDArray[np.float64]:
         """Displacement at the nodes of the tagged mesh, (n_points, 3) [m]."""
         mesh, order = self.domain.mesh, self.domain.tagged.order
         u = self.u
-        if order != self.discretisation.degree:
+        if (order, ElementFamily.LAGRANGE) != (self.discretisation.degree, self.discretisation.family):
             u = fem.Function(fem.functionspace(mesh, ("Lagrange", order, (3,))))
             u.interpolate(self.u)
         dofs, nodes = u.function_space.dofmap.list, api.cell_nodes(mesh)
@@ -180,31 +187,48 @@ class StaticProblem:
         self._flexible_cells = self.domain.cells_of(self.materials)
         return lam, mu
 
-    def _build_forms(self, tractions: Sequence[Traction]) -> None:
-        choice, u, mesh = self.discretisation, self.u, self.domain.mesh
+    def _build_forms(self, loads: Sequence[BodyForce | EndMoment | Traction]) -> None:
+        choice, u = self.discretisation, self.u
         v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
+        suits = (choice.law, choice.family) == (MaterialLaw.ST_VENANT_KIRCHHOFF, ElementFamily.LAGRANGE)
+        residual, tangent = None, None
+        self._compiled = None
+        if choice.compiled and suits and choice.mixed_integration_points and self.domain.mesh.comm.size == 1:
+            cells = self._flexible_cells
+            lame = np.column_stack([field.x.array[cells] for field in self.lame])
+            self._compiled = CompiledCells(self.domain, self.V, cells, lame, choice.gauss_points)
+        else:
+            residual, tangent = self._cell_forms(v, w)
+        for load in loads:
+            work = self.load_factor * virtual_work(self.domain, load, u, v)
+            residual = _sum(residual, -work)
+            if isinstance(load, EndMoment):
+                tangent = _sum(tangent, -ufl.derivative(work, u, w))
+        residual, tangent = self._add_contact(residual, tangent, v, w)
+        self._residual_form = None if residual is None else api.compile_form(residual)
+        self._tangent_form = None if tangent is None else api.compile_form(tangent)
+
+    def _cell_forms(self, v: api.Expr, w: api.Expr) -> tuple[api.Expr, api.Expr]:
+        """Residual and tangent of the deformable cells as UFL forms."""
+        choice, u, mesh = self.discretisation, self.u, self.domain.mesh
         parts = self.domain.part_tags(self.materials)
         dx = api.cell_measure(mesh, self.domain.cell_tags, parts, choice.gauss_points)
         S = law_of.second_piola_kirchhoff(choice.law, u, self.lame)
-        S_geo = self.stored_stress if choice.mixed_integration_points else S
+        self._stored_stress = fem.Function(api.quadrature_space(mesh, choice.gauss_points, (3, 3)))
+        S_geo = self._stored_stress if choice.mixed_integration_points else S
         dE_v = law_of.linearised_strain(u, v)
         CC_dE = law_of.stress_increment(choice.law, u, w, self.lame)
-        residual = ufl.inner(S, dE_v) * dx
-        tangent = ufl.inner(CC_dE, dE_v) * dx + ufl.inner(S_geo, ufl.sym(ufl.grad(w).T * ufl.grad(v))) * dx
-        residual, tangent = self._add_boundary(residual, tangent, tractions, v, w)
-        self._residual_form, self._tangent_form = api.compile_form(residual), api.compile_form(tangent)
         points, _ = api.gauss_rule(choice.gauss_points)
         increment = law_of.stress_increment(choice.law, u, self.du, self.lame)
         self._extrapolated_stress = api.PointEvaluation(S + increment, points)
         self._current_stress = api.PointEvaluation(S, points)
+        tangent = ufl.inner(CC_dE, dE_v) * dx + ufl.inner(S_geo, ufl.sym(ufl.grad(w).T * ufl.grad(v))) * dx
+        return ufl.inner(S, dE_v) * dx, tangent
 
-    def _add_boundary(
-        self, residual: api.Expr, tangent: api.Expr, tractions: Sequence[Traction], v: api.Expr, w: api.Expr
+    def _add_contact(
+        self, residual: api.Expr, tangent: api.Expr, v: api.Expr, w: api.Expr
     ) -> tuple[api.Expr, api.Expr]:
         mesh, tags = self.domain.mesh, self.domain.facet_tags
-        for traction in tractions:
-            ds = ufl.ds(domain=mesh, subdomain_data=tags, subdomain_id=self.domain.face_tags(traction.faces))
-            residual -= self.load_factor * ufl.inner(fem.Constant(mesh, traction.vector), v) * ds
         self._contact_form = None
         if self.contact is not None:
             _check_plane(self.domain, self.contact)
@@ -217,31 +241,15 @@ class StaticProblem:
             n = self.plane_normal
             gap = ufl.dot(n, ufl.SpatialCoordinate(mesh) + self.u) + self.plane_distance
             pressure, stiffness = plane_pressure(gap, self.contact_lag, self.penalty, self.contact.ramp)
-            residual -= pressure * ufl.dot(n, v) * ds
-            tangent += stiffness * ufl.dot(n, v) * ufl.dot(n, w) * ds
+            residual = _sum(residual, -pressure * ufl.dot(n, v) * ds)
+            tangent = _sum(tangent, stiffness * ufl.dot(n, v) * ufl.dot(n, w) * ds)
             self._contact_form = api.compile_form(pressure * ds)
         return residual, tangent
 
-    def _build_supports(self, supports: Sequence[Support]) -> None:
-        mesh = self.domain.mesh
-        self.bcs: list[api.DirichletBC] = []
-        self._prescribed: list[tuple[api.Function, float]] = []
-        mesh.topology.create_connectivity(2, 3)
-        mesh.topology.create_connectivity(3, 3)
-        for support in supports:
-            for position, component in enumerate(support.components):
-                subspace, _ = self.V.sub(component).collapse()
-                value = fem.Function(subspace)
-                self._prescribed.append((value, support.value[position] if support.value else 0.0))
-                for dim, entities in (
-                    (2, self.domain.facets_of(support.faces)),
-                    (3, self.domain.cells_of(support.parts)),
-                ):
-                    if len(entities):
-                        dofs = fem.locate_dofs_topological((self.V.sub(component), subspace), dim, entities)
-                        self.bcs.append(fem.dirichletbc(value, dofs, self.V.sub(component)))
-        marked = [bc.dof_indices()[0] for bc in self.bcs]
-        self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
+
+def _sum(form: api.Expr, term: api.Expr) -> api.Expr:
+    """A form plus a term, where the form may not exist yet."""
+    return term if form is None else form + term
 
 
 def _check_plane(domain: Domain, contact: PlaneContact) -> None:

@@ -31,7 +31,7 @@ _FILES = ("contracts", "workbench.mesh_file", "workbench.result_files")
 _MESH = Origin(sources=(*_FILES, "geometry", "workbench.study_models"), libraries=("gmsh", "numpy"))
 _FE = Origin(
     sources=(*_FILES, "reference_fe", "workbench.field_file"),
-    libraries=("dolfinx-solver-real", "fenics-ufl", "fenics-basix", "fenics-ffcx", "numpy"),
+    libraries=("dolfinx-solver-real", "fenics-ufl", "fenics-basix", "fenics-ffcx", "numpy", "numba"),
 )
 _ANCF = Origin(sources=(*_FILES, "ancf_reduced"), libraries=("numpy", "numba"))
 _BRUSH = Origin(sources=("contracts", "rover_dynamics.brush_tire"), libraries=("numpy",))

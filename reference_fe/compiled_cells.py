@@ -1,0 +1,103 @@
+"""Deformable cells of St. Venant-Kirchhoff material, assembled by the compiled loops of `cell_kernels`.
+
+The tangent lives in one CSR matrix whose values PETSc shares: assembling writes them in place and nothing is copied.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reference_fe import cell_kernels
+from reference_fe import dolfinx_api as api
+from reference_fe.domain import Domain
+
+__all__ = ["CompiledCells"]
+
+
+class CompiledCells:
+    """Residual, tangent and stored stress of the deformable cells; one process only.
+
+    Parameters
+    ----------
+    domain : mesh with tags
+    V : displacement space, Lagrange
+    cells : (n_cells,) local numbers of the deformable cells
+    lame : (n_cells, 2) lambda and mu of each [Pa]
+    gauss_points : Gauss points along the cell's local axes
+
+    Verified by tests/verification/test_fe_cells.py against the UFL forms.
+    """
+
+    def __init__(
+        self,
+        domain: Domain,
+        V: api.Expr,
+        cells: NDArray[np.int32],
+        lame: NDArray[np.float64],
+        gauss_points: tuple[int, int, int],
+    ) -> None:
+        self._lame = lame
+        nodes = V.dofmap.list[cells]
+        self._dofs = np.ascontiguousarray(3 * nodes[:, :, None] + np.arange(3), dtype=np.int32)
+        self._gradients, self._weights = _gradients(domain, V, cells, gauss_points)
+        self._stress = np.zeros((*self._weights.shape, 3, 3))
+        self._V, self._nodes = V, nodes
+
+    def internal_force(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
+        """int S(E(u)) : DE(u)[v] dV, (n_dofs,) [N]; u (n_dofs,) [m]."""
+        out = np.zeros_like(u)
+        cell_kernels.internal_force(u, self._gradients, self._weights, self._lame, self._dofs, out)
+        return out
+
+    def store_stress(self, u: NDArray[np.float64], du: NDArray[np.float64]) -> None:
+        """Store S(E(u)) + CC : DE(u)[du] at the Gauss points."""
+        cell_kernels.point_stress(u, du, self._gradients, self._lame, self._dofs, self._stress)
+
+    def prepare_matrix(self, supported: NDArray[np.int32]) -> None:
+        """Lay out the matrix: pattern, place of each cell's blocks, entries that the supports fix."""
+        self._csr = api.cell_matrix(self._V, self._nodes, np.unique(supported // 3).astype(np.int32))
+        indptr, indices = self._csr.indptr, self._csr.indices
+        rows = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
+        self._indptr = np.ascontiguousarray(indptr, dtype=np.int32)
+        held = np.zeros(len(indptr) - 1, dtype=bool)
+        held[supported] = True
+        self._fixed = np.flatnonzero(held[rows] | held[indices])
+        self._fixed_diagonal = np.flatnonzero(held[rows] & (rows == indices))
+        keys = rows * np.int64(len(held)) + indices
+        first = 3 * self._nodes.astype(np.int64)
+        wanted = first[:, :, None] * len(held) + first[:, None, :]
+        self._blocks = (np.searchsorted(keys, wanted) - indptr[first][:, :, None]).astype(np.int32)
+        self._matrix = api.shared_matrix(self._csr)
+
+    def assemble(self, u: NDArray[np.float64], boundary: api.Expr) -> None:
+        """Fill the matrix: the cells' tangent at u with the stored stress, plus a boundary form (or None)."""
+        self._csr.data[:] = 0.0
+        if boundary is not None:
+            api.fem.assemble_matrix(self._csr, boundary)
+        values = (self._gradients, self._weights, self._lame, self._dofs, self._indptr, self._blocks, self._csr.data)
+        cell_kernels.add_tangent(u, self._stress, *values)
+
+    def supported_matrix(self) -> api.PETSc.Mat:
+        """The assembled matrix with unit rows and zero columns at supported unknowns; always the same object."""
+        self._csr.data[self._fixed] = 0.0
+        self._csr.data[self._fixed_diagonal] = 1.0
+        self._matrix.stateIncrease()
+        return self._matrix
+
+    def copied_matrix(self) -> api.PETSc.Mat:
+        """The assembled matrix as it stands, as a new PETSc matrix."""
+        return self._matrix.copy()
+
+
+def _gradients(
+    domain: Domain, V: api.Expr, cells: NDArray[np.int32], gauss_points: tuple[int, int, int]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Reference gradients (n_cells, n_points, 3, n_nodes) [1/m] and weights (n_cells, n_points) [m^3]."""
+    points, weights = api.gauss_rule(gauss_points)
+    geometry = api.lagrange_gradients(domain.tagged.order, points)
+    shape = V.element.basix_element.tabulate(1, points)[1:, :, :, 0]
+    positions = domain.mesh.geometry.x[api.cell_nodes(domain.mesh)[cells]]
+    jacobian = np.einsum("cni,kqn->cqik", positions, geometry)
+    gradients = np.einsum("cqkj,kqn->cqjn", np.linalg.inv(jacobian), shape)
+    return np.ascontiguousarray(gradients), weights * np.abs(np.linalg.det(jacobian))
