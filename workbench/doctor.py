@@ -22,13 +22,11 @@ NEEDED = {
     "pint": "units",
     "typer": "command line",
     "rich": "progress bars",
-    "matplotlib": "figures",
     "plotly": "curves in the report",
     "pyvista": "pictures of meshes",
     "meshio": "mesh files",
     "objective-rating-metrics": "ISO/TS 18571 rating",
     "jinja2": "report page",
-    "filelock": "locks",
 }
 """Distribution -> what it is needed for."""
 
