@@ -10,7 +10,16 @@ from enum import StrEnum
 
 from reference_fe.dolfinx_api import Expr, ufl
 
-__all__ = ["MaterialLaw", "green_lagrange", "linearised_strain", "second_piola_kirchhoff", "von_mises_cauchy"]
+__all__ = [
+    "SMALLEST_STRETCH",
+    "MaterialLaw",
+    "deformation_gradient",
+    "green_lagrange",
+    "linearised_strain",
+    "second_piola_kirchhoff",
+    "stress_increment",
+    "von_mises_cauchy",
+]
 
 
 class MaterialLaw(StrEnum):
@@ -20,6 +29,11 @@ class MaterialLaw(StrEnum):
     """psi = lambda/2 tr(E)^2 + mu E:E (Bonet & Wood 2008, eq. 6.27)."""
     NEO_HOOKEAN = "neo_hookean"
     """psi = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2 (Bonet & Wood 2008, eq. 6.29)."""
+
+
+SMALLEST_STRETCH = 3.0**-0.5
+"""Principal stretch [-] below which St. Venant-Kirchhoff material softens in uniaxial compression: P = E l (l^2 - 1)/2
+is smallest at l = 1/sqrt(3). Equilibria beyond are spurious."""
 
 
 def deformation_gradient(u: Expr) -> Expr:

@@ -100,6 +100,12 @@ def _lag(problem: StaticProblem, step: float, *, first: bool) -> float:
 
 
 def _message(reached: float, goal: float, step: float, outcome: NewtonOutcome) -> str:
+    if outcome.spurious:
+        return (
+            f"the increment to control {goal:.6g} ends in a state compressed below a stretch of 0.577 or inside out, "
+            f"where St. Venant-Kirchhoff material means nothing; last sound state at {reached:.6g}; try smaller "
+            "increments, a finer mesh or the neo-Hookean law"
+        )
     tail = ", ".join(f"{value:.1e}" for value in outcome.residuals[-4:])
     return (
         f"the increment to control {goal:.6g} does not converge; last converged at {reached:.6g}, next step would be "

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe.hyperelastic import SMALLEST_STRETCH, MaterialLaw
 from reference_fe.static_problem import StaticProblem
 
 __all__ = ["NewtonOutcome", "NewtonSettings", "NewtonSolver"]
@@ -41,7 +42,9 @@ class NewtonOutcome:
 
     Attributes
     ----------
-    converged : whether the tolerance was met
+    converged : whether the tolerance was met, by a state the material law can mean
+    spurious : whether the tolerance was met by a state beyond the law's limit of compression, see
+        `hyperelastic.SMALLEST_STRETCH`; a large first increment can find one
     residuals : relative residual at each evaluation [-], one more than the number of linear solves; 1 stands for the
         start of an increment, where nothing balances yet
     residual : (n_dofs,) residual at the last state, supported unknowns included [N]
@@ -50,6 +53,7 @@ class NewtonOutcome:
     converged: bool
     residuals: tuple[float, ...]
     residual: NDArray[np.float64]
+    spurious: bool = False
 
     @property
     def iterations(self) -> int:
@@ -85,12 +89,20 @@ class NewtonSolver:
         while True:
             history.append(self._relative(residual, moved=not history and bool(offset.any())))
             if history[-1] <= self.settings.relative_tolerance:
-                return NewtonOutcome(converged=True, residuals=tuple(history), residual=residual)
+                spurious = self._is_spurious()
+                return NewtonOutcome(
+                    converged=not spurious, residuals=tuple(history), residual=residual, spurious=spurious
+                )
             if not np.isfinite(history[-1]) or len(history) > self.settings.maximum_iterations:
                 return NewtonOutcome(converged=False, residuals=tuple(history), residual=residual)
             self._step(residual, offset)
             offset = np.zeros(0)
             residual = problem.residual()
+
+    def _is_spurious(self) -> bool:
+        """Whether some point is compressed beyond what St. Venant-Kirchhoff material can mean, or inside out."""
+        limit = SMALLEST_STRETCH if self.problem.discretisation.law is MaterialLaw.ST_VENANT_KIRCHHOFF else 0.0
+        return self.problem.smallest_stretch() <= limit
 
     def _step(self, residual: NDArray[np.float64], offset: NDArray[np.float64]) -> None:
         """One linear solve; stores the extrapolated stress and moves u."""

@@ -29,9 +29,17 @@ _LATTICE = np.array(
 _NUMBER = {tuple(position): node for node, position in enumerate(_LATTICE.tolist())}
 
 
-def curved_axis_first(mesh: TaggedMesh) -> TaggedMesh:
+def curved_axis_first(mesh: TaggedMesh, straight: NDArray[np.float64] | None = None) -> TaggedMesh:
     """Renumber each 27-node cell by a cyclic turn of its axes (handedness kept); 8-node meshes come back as they are.
 
+    Parameters
+    ----------
+    mesh : any tagged mesh
+    straight : (3,) direction along which nothing bends, e.g. a wheel's axle, or None; a cell's axis along it never
+        comes first. Give it where strips are flat: a flat cell does not show which way it will bend.
+
+    Notes
+    -----
     The curvature of an axis is the largest distance, over the nine lattice lines along it, between the middle node and
     the middle of its end nodes, relative to the line's length; among straight axes the longest comes first. Two Gauss
     points along this axis and three along the others keep 27-node hexahedra at full rank and free of membrane locking
@@ -41,7 +49,12 @@ def curved_axis_first(mesh: TaggedMesh) -> TaggedMesh:
     """
     if mesh.order == 1:
         return mesh
-    curvature = np.stack([_curvature(mesh.points[mesh.cells], axis) for axis in range(3)], axis=-1)
+    nodes = mesh.points[mesh.cells]
+    curvature = np.stack([_curvature(nodes, axis) for axis in range(3)], axis=-1)
+    if straight is not None:
+        edges = nodes[:, [1, 3, 4]] - nodes[:, [0]]
+        along = np.abs(edges @ straight) / np.linalg.norm(edges, axis=-1)
+        np.put_along_axis(curvature, np.argmax(along, axis=-1)[:, None], -1.0, axis=-1)
     first = np.argmax(curvature, axis=-1)
     turns = np.array([[_NUMBER[tuple(np.roll(position, axis).tolist())] for position in _LATTICE] for axis in range(3)])
     return replace(mesh, cells=np.take_along_axis(mesh.cells, turns[first], axis=1))

@@ -157,6 +157,12 @@ class StaticProblem:
         stored = self._stored_stress.x.array.reshape(-1, values[0].size)
         stored[self._flexible_cells] = values.reshape(len(values), -1)
 
+    def smallest_stretch(self) -> float:
+        """Smallest principal stretch at any Gauss point [-]; zero or less where a cell is turned inside out."""
+        F = self._deformation_gradient(self.domain.mesh, self._flexible_cells)
+        squared = np.linalg.eigvalsh(np.swapaxes(F, -1, -2) @ F)[..., 0]
+        return float(np.min(np.sqrt(np.maximum(squared, 0.0)) * np.sign(np.linalg.det(F))))
+
     def nodal_displacement(self) -> NDArray[np.float64]:
         """Displacement at the nodes of the tagged mesh, (n_points, 3) [m]."""
         mesh, order = self.domain.mesh, self.domain.tagged.order
@@ -205,6 +211,8 @@ class StaticProblem:
             if isinstance(load, EndMoment):
                 tangent = _sum(tangent, -ufl.derivative(work, u, w))
         residual, tangent = self._add_contact(residual, tangent, v, w)
+        points, _ = api.gauss_rule(choice.gauss_points)
+        self._deformation_gradient = api.PointEvaluation(law_of.deformation_gradient(u), points)
         self._residual_form = None if residual is None else api.compile_form(residual)
         self._tangent_form = None if tangent is None else api.compile_form(tangent)
 

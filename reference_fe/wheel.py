@@ -40,6 +40,7 @@ class WheelLoadCase:
     deflections : wanted points of the curve, rise of the plane from first touch [m]
     maximum_load : the run ends at the first point with at least this load [N]
     snapshot_loads : loads of the full wheel at which fields are kept [N]
+    rigid_parts : parts held rigid, of those the mesh has; if the inner hub is not among them, its bore is held instead
     law : stored energy
     contact_stiffness : penalty stiffness per undeformed area [N/m^3]
     contact_ramp : gap at which the contact pressure begins [m], see `contact_law.plane_pressure`
@@ -51,6 +52,7 @@ class WheelLoadCase:
     deflections: tuple[float, ...]
     maximum_load: float = float("inf")
     snapshot_loads: tuple[float, ...] = ()
+    rigid_parts: tuple[str, ...] = HUB_PARTS
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
     contact_stiffness: float = 1e11
     contact_ramp: float = 5e-6
@@ -116,7 +118,8 @@ def solve_wheel(
     ----------
     mesh : wheel in its frame; contact faces ``tire_outer`` and ``grouser_outer``; a face group ``symmetry`` marks a
         half width, whose loads and areas are doubled in the result
-    materials : part name -> material; hub parts (outer_hub, cone, impact_springs, inner_hub) are held rigid
+    materials : part name -> material; parts in ``load_case.rigid_parts`` (by default the hubs and what links them) need
+        none
     progress : called with the deflection reached [m] and the load [N] after each increment
 
     Returns
@@ -152,15 +155,15 @@ class _WheelRun:
 
     def __init__(self, mesh: TaggedMesh, materials: Mapping[str, Material], load_case: WheelLoadCase) -> None:
         self.started, self.load_case = time.perf_counter(), load_case
-        self.mesh = mesh = curved_axis_first(mesh)
-        hub = tuple(part for part in HUB_PARTS if part in mesh.parts)
-        flexible = {part: materials[part] for part in mesh.parts if part not in hub and part in materials}
+        self.mesh = mesh = curved_axis_first(mesh, straight=np.array([0.0, 1.0, 0.0]))
+        rigid = tuple(part for part in load_case.rigid_parts if part in mesh.parts)
+        flexible = {part: materials[part] for part in mesh.parts if part not in rigid and part in materials}
         faces = tuple(face for face in CONTACT_FACES if face in mesh.faces)
         self.facets = contact_faces(mesh, faces)
         self.direction = ground_direction_h(np.deg2rad(load_case.orientation_deg))
         self.touch = distance_at_touch(mesh, self.facets, self.direction)
         self.half_width = "symmetry" in mesh.faces
-        supports = [Support(parts=hub)]
+        supports = _hub_supports(mesh, rigid)
         if self.half_width:
             supports.append(Support(faces=("symmetry",), components=(1,)))
         n = -self.direction
@@ -262,3 +265,14 @@ class _WheelRun:
             )
         problem.u.x.array[:] = here
         problem.set_control(control)
+
+
+def _hub_supports(mesh: TaggedMesh, rigid: tuple[str, ...]) -> list[Support]:
+    """What holds the wheel: its rigid parts, and the bore of an inner hub that is elastic."""
+    supports = [Support(parts=rigid)] if rigid else []
+    if "inner_hub" in mesh.parts and "inner_hub" not in rigid:
+        supports.append(Support(faces=("inner_hub_bore",)))
+    if not supports:
+        rule = "must hold the wheel: the mesh has neither of them nor an inner hub"
+        raise InputError("rigid parts", ", ".join(rigid) or "none", rule, "name a part of the mesh, e.g. outer_hub")
+    return supports

@@ -47,3 +47,12 @@ def test_turning_keeps_handedness_and_middle_nodes() -> None:
 def test_linear_meshes_come_back_unchanged() -> None:
     mesh = block_mesh((2, 1, 1), lambda X: X, order=1)
     assert curved_axis_first(mesh) is mesh
+
+
+def test_flat_strips_turn_away_from_the_straight_direction() -> None:
+    """A flat cell that is wider than long: its longest axis is the width, unless that direction is ruled out."""
+    mesh = block_mesh((2, 1, 1), lambda X: X * np.array([8.0, 20.0, 0.6]))
+    free, ruled = curved_axis_first(mesh), curved_axis_first(mesh, straight=np.array([0.0, 1.0, 0.0]))
+    for turned, axis in ((free, 1), (ruled, 0)):
+        edge = turned.points[turned.cells[:, 1]] - turned.points[turned.cells[:, 0]]
+        assert np.all(np.argmax(np.abs(edge), axis=1) == axis)

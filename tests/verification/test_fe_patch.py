@@ -132,5 +132,19 @@ def test_tangent_is_the_derivative_of_the_residual() -> None:
         np.testing.assert_allclose(y.array, difference, rtol=0.0, atol=1e-6 * np.abs(difference).max())
 
 
+@pytest.mark.parametrize(("law", "spurious"), [("st_venant_kirchhoff", True), ("neo_hookean", False)])
+def test_a_state_beyond_the_law_is_not_taken_for_a_solution(law: str, spurious: bool) -> None:
+    """A cube pressed to half its height balances with either law; St. Venant-Kirchhoff's answer is refused."""
+    supports = [Support(faces=(face,), components=(axis,)) for axis, face in enumerate(("x0", "y0", "z0"))]
+    supports.append(Support(faces=("x1",), components=(0,), value=(-0.5,)))
+    choice = Discretisation(law=MaterialLaw(law), degree=1)
+    problem = StaticProblem(Domain.from_tagged(distorted_cube(1)), {"body": STEEL}, supports, discretisation=choice)
+    problem.set_control(1.0)
+    outcome = NewtonSolver(problem, NewtonSettings()).solve()
+    assert outcome.residuals[-1] < 1e-8
+    assert problem.smallest_stretch() == pytest.approx(0.5, rel=1e-6)
+    assert (outcome.spurious, outcome.converged) == (spurious, not spurious)
+
+
 def test_versions_are_reported() -> None:
     assert set(api.versions()) == {"dolfinx", "petsc", "basix"}
