@@ -29,8 +29,8 @@ setup: $(READY) ## install the pinned environment (the other targets do it when 
 report: $(READY) ## compute the study and write the report (STUDY=file.toml, OUT=build/report)
 	$(VENV)/bin/workbench report $(if $(STUDY),"$(STUDY)") --out "$(OUT)"
 
-test: lint ## lint, then every test
-	$(PYTHON) -m pytest
+test: lint ## lint, then every test, two processes
+	$(PYTHON) -m pytest -n 2 --dist loadfile
 
 lint: $(READY) ## ruff (rules and format) and mypy --strict
 	$(PYTHON) -m ruff check .
