@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from contracts.mesh import TaggedMesh
 
-__all__ = ["ContactPatch", "contact_faces", "distance_at_touch", "measure_patch"]
+__all__ = ["ContactPatch", "contact_faces", "distance_at_touch", "facet_samples", "measure_patch"]
 
 _SAMPLES = 13
+_GAUSS_POINTS = 9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,8 +49,19 @@ def distance_at_touch(mesh: TaggedMesh, facets: NDArray[np.int64], direction: ND
     -------
     distance : largest component of the faces' points along ``direction`` [m], faces sampled on a 13 x 13 lattice
     """
-    shape, _, _ = _lattice(facets.shape[1])
+    shape, _ = _lattice(facets.shape[1])
     return float(np.max(np.einsum("sn,fnk,k->fs", shape, mesh.points[facets], direction)))
+
+
+def facet_samples(
+    points: NDArray[np.float64], facets: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Points on the facets, edges included, and unit normals there, both (n, 3), for node positions ``points`` [m]."""
+    shape, derivatives = _lattice(facets.shape[1])
+    tangents = np.einsum("asn,fnk->afsk", derivatives, points[facets])
+    normals = np.cross(tangents[0], tangents[1]).reshape(-1, 3)
+    positions = np.einsum("sn,fnk->fsk", shape, points[facets]).reshape(-1, 3)
+    return positions, normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
 
 def measure_patch(
@@ -60,7 +72,9 @@ def measure_patch(
     tangent: NDArray[np.float64],
     touch_gap: float = 0.0,
 ) -> ContactPatch:
-    """Contact patch of the deformed faces.
+    """Contact patch of the deformed faces, from 9 x 9 Gauss points on each facet.
+
+    Inner points only: a face that meets the plane at its edge, such as a grouser's flank, adds no area.
 
     Parameters
     ----------
@@ -70,7 +84,7 @@ def measure_patch(
     touch_gap : normal gap below which a point counts as touching [m], e.g. the ramp of the contact law
     """
     normal, distance = plane
-    shape, weights, derivatives = _lattice(facets.shape[1])
+    shape, derivatives, weights = _gauss(facets.shape[1])
     reference = mesh.points[facets]
     current = np.einsum("sn,fnk->fsk", shape, reference + displacement[facets])
     tangents = np.einsum("asn,fnk->afsk", derivatives, reference)
@@ -84,25 +98,26 @@ def measure_patch(
     return ContactPatch(area=area, length=float(np.ptp(along)), penetration=max(0.0, float(-gap.min())))
 
 
-def _lattice(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Midpoint-rule lattice on [-1, 1]^2: shape functions (s, n), weights (s,), derivatives (2, s, n)."""
-    edge = -1.0 + (2.0 * np.arange(_SAMPLES) + 1.0) / _SAMPLES
-    edge = edge * _SAMPLES / (_SAMPLES - 1.0)  # reach the facet's edges, so that patches are not cut short
+def _lattice(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Facet sampled up to its edges: shape functions (s, n) and derivatives (2, s, n)."""
+    return _shapes(np.linspace(-1.0, 1.0, _SAMPLES), nodes)
+
+
+def _gauss(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Gauss points of a facet: shape functions (s, n), derivatives (2, s, n), weights (s,)."""
+    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    return (*_shapes(points, nodes), np.outer(weights, weights).ravel())
+
+
+def _shapes(edge: NDArray[np.float64], nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Shape functions and derivatives on the square lattice over ``edge``."""
     a, b = (grid.ravel() for grid in np.meshgrid(edge, edge, indexing="ij"))
-    spacing = np.ones(_SAMPLES)
-    spacing[[0, -1]] = 0.5
-    weights = np.outer(spacing, spacing).ravel() * (2.0 / (_SAMPLES - 1.0)) ** 2
     la, da = _line(a, nodes)
     lb, db = _line(b, nodes)
     order = _ORDER[nodes]
-    shape = np.stack([la[i] * lb[j] for i, j in order], axis=-1)
-    derivatives = np.stack(
-        [
-            np.stack([da[i] * lb[j] for i, j in order], axis=-1),
-            np.stack([la[i] * db[j] for i, j in order], axis=-1),
-        ]
-    )
-    return shape, weights, derivatives
+    along = np.stack([da[i] * lb[j] for i, j in order], axis=-1)
+    across = np.stack([la[i] * db[j] for i, j in order], axis=-1)
+    return np.stack([la[i] * lb[j] for i, j in order], axis=-1), np.stack([along, across])
 
 
 _ORDER = {

@@ -40,6 +40,7 @@ __all__ = [
     "cell_nodes",
     "compile_form",
     "create_matrix",
+    "facet_midpoints",
     "facet_tags_from_nodes",
     "fem",
     "fem_petsc",
@@ -100,6 +101,11 @@ def cell_nodes(mesh: Mesh) -> NDArray[np.int32]:
     """Geometry nodes of each cell, (n_cells, 8 or 27), local numbering."""
     geometry = mesh.geometry
     return np.asarray(geometry.dofmaps[0] if hasattr(geometry, "dofmaps") else geometry.dofmap)
+
+
+def facet_midpoints(mesh: Mesh, facets: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Midpoints of facets, (n, 3) [m]."""
+    return np.asarray(dolfinx_mesh.compute_midpoints(mesh, 2, facets))
 
 
 def meshtags(mesh: Mesh, dim: int, entities: NDArray[np.int32], values: NDArray[np.int32]) -> MeshTags:

@@ -53,7 +53,8 @@ def solve_increments(
     Raises
     ------
     ConvergenceError
-        When the increment falls below 1/1024 of the first step, or after ``attempt_limit`` attempts; carries history.
+        When the residual stalls at round-off, when the increment falls below 1/1024 of the first step, or after
+        ``attempt_limit`` attempts; carries history.
 
     Verified by tests/unit/test_fe_increments.py and tests/verification/test_fe_ring.py.
     """
@@ -88,7 +89,7 @@ def solve_increments(
                 continue
             problem.u.x.array[:] = good
             step *= 0.5
-            if step < smallest or len(history) >= attempt_limit:
+            if outcome.stalled or step < smallest or len(history) >= attempt_limit:
                 raise ConvergenceError(_message(reached, goal, step, outcome), history)
 
 
@@ -105,6 +106,13 @@ def _message(reached: float, goal: float, step: float, outcome: NewtonOutcome) -
             f"the increment to control {goal:.6g} ends in a state compressed below a stretch of 0.577 or inside out, "
             f"where St. Venant-Kirchhoff material means nothing; last sound state at {reached:.6g}; try smaller "
             "increments, a finer mesh or the neo-Hookean law"
+        )
+    if outcome.stalled:
+        floor = max(outcome.residuals[-4:])
+        return (
+            f"the increment to control {goal:.6g} stalls at a relative residual of {floor:.1e}, the round-off of this "
+            f"mesh and load; last converged at {reached:.6g}; smaller increments do not help: set the relative "
+            f"tolerance to {3.0 * floor:.0e} or more"
         )
     tail = ", ".join(f"{value:.1e}" for value in outcome.residuals[-4:])
     return (

@@ -45,6 +45,7 @@ class NewtonOutcome:
     converged : whether the tolerance was met, by a state the material law can mean
     spurious : whether the tolerance was met by a state beyond the law's limit of compression, see
         `hyperelastic.SMALLEST_STRETCH`; a large first increment can find one
+    stalled : whether the residual stopped falling near the tolerance: round-off, which no smaller increment cures
     residuals : relative residual at each evaluation [-], one more than the number of linear solves; 1 stands for the
         start of an increment, where nothing balances yet
     residual : (n_dofs,) residual at the last state, supported unknowns included [N]
@@ -54,6 +55,7 @@ class NewtonOutcome:
     residuals: tuple[float, ...]
     residual: NDArray[np.float64]
     spurious: bool = False
+    stalled: bool = False
 
     @property
     def iterations(self) -> int:
@@ -93,11 +95,18 @@ class NewtonSolver:
                 return NewtonOutcome(
                     converged=not spurious, residuals=tuple(history), residual=residual, spurious=spurious
                 )
-            if not np.isfinite(history[-1]) or len(history) > self.settings.maximum_iterations:
-                return NewtonOutcome(converged=False, residuals=tuple(history), residual=residual)
+            stalled = self._is_stalled(history)
+            if stalled or not np.isfinite(history[-1]) or len(history) > self.settings.maximum_iterations:
+                return NewtonOutcome(converged=False, residuals=tuple(history), residual=residual, stalled=stalled)
             self._step(residual, offset)
             offset = np.zeros(0)
             residual = problem.residual()
+
+    def _is_stalled(self, history: list[float]) -> bool:
+        """Whether the last four residuals lie within a factor of three, at most 100 tolerances above the goal."""
+        last = history[-4:]
+        near = max(last) <= 100.0 * self.settings.relative_tolerance
+        return len(last) == 4 and near and max(last) < 3.0 * min(last)
 
     def _is_spurious(self) -> bool:
         """Whether some point is compressed beyond what St. Venant-Kirchhoff material can mean, or inside out."""

@@ -20,6 +20,7 @@ from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.increments import ConvergedState, solve_increments
 from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.orientation import curved_axis_first
+from reference_fe.overlap import FaceOverlap
 from reference_fe.static_problem import Discretisation, StaticProblem
 from reference_fe.stress import StressRecovery
 from reference_fe.supports import PlaneContact, Support
@@ -126,7 +127,8 @@ def solve_wheel(
     -------
     result : the curve's columns are ``contact_length_m`` (extent along the ground), ``contact_area_m2``,
         ``penetration_m``, ``force_imbalance`` (support plus contact force over contact force),
-        ``relative_residual``, ``newton_iterations`` and ``max_von_mises_{part}_Pa``
+        ``relative_residual``, ``newton_iterations``, ``spring_rim_gap_m`` (smallest distance of the springs from the
+        rim's inside; negative is overlap: their contact is not modelled) and ``max_von_mises_{part}_Pa``
 
     Raises
     ------
@@ -182,6 +184,8 @@ class _WheelRun:
         )
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress = StressRecovery(self.problem)
+        springs = tuple(part for part in flexible if part not in ("tire", "grousers", *HUB_PARTS))
+        self.overlap = FaceOverlap(mesh, springs, "tire_inner") if springs and "tire_inner" in mesh.faces else None
         self.history: list[IncrementRecord] = []
         self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
         self.snapshots: list[FieldSnapshot] = []
@@ -206,6 +210,8 @@ class _WheelRun:
         row = self._row(state.control, load, patch)
         row["force_imbalance"], row["relative_residual"] = imbalance, state.outcome.residuals[-1]
         row["newton_iterations"] = float(state.outcome.iterations)
+        if self.overlap is not None:
+            row["spring_rim_gap_m"] = self.overlap.smallest_gap(displacement)
         row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
         self.rows.append(row)
         return load

@@ -68,6 +68,17 @@ def test_a_hopeless_problem_raises_with_its_history() -> None:
     assert len(caught.value.history) == len(history) > 5
 
 
+def test_a_residual_at_round_off_is_not_cut_back() -> None:
+    """Halving cannot lower round-off: one attempt, then the message says which tolerance can be met."""
+    solver: Any = ScriptedSolver(0.0)
+    stalled = NewtonOutcome(converged=False, residuals=(1.0, 2e-8, 2e-8), residual=np.zeros(1), stalled=True)
+    solver.solve = lambda rise=0.0: stalled
+    history: list[IncrementRecord] = []
+    with pytest.raises(ConvergenceError, match=r"stalls at a relative residual.*tolerance to"):
+        list(solve_increments(solver, [1.0], history))
+    assert len(history) == 1
+
+
 @pytest.mark.parametrize("targets", [[], [2.0, 1.0], [0.0, 1.0], [1.0, float("nan")]])
 def test_bad_targets_are_refused(targets: list[float]) -> None:
     with pytest.raises(InputError):

@@ -7,6 +7,7 @@ only round-off and the Newton tolerance (1e-8) separate the results: 1e-6 relati
 from __future__ import annotations
 
 import functools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from contracts.errors import ConvergenceError
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
 from reference_fe.newton import NewtonOutcome, NewtonSolver
+from reference_fe.static_problem import StaticProblem
 from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
 
 DEFLECTIONS = (0.002, 0.005)
@@ -28,9 +30,46 @@ def coarse_wheel(orientation_deg: float, *, half_width: bool = True) -> WheelRes
 
 
 def test_half_and_full_width_carry_the_same_load() -> None:
-    np.testing.assert_allclose(
-        coarse_wheel(0.0).curve.load, coarse_wheel(0.0, half_width=False).curve.load, rtol=1e-6, atol=1e-9
-    )
+    half, full = coarse_wheel(0.0).curve, coarse_wheel(0.0, half_width=False).curve
+    np.testing.assert_allclose(half.load, full.load, rtol=1e-6, atol=1e-9)
+    for name in ("contact_area_m2", "contact_length_m", "max_von_mises_springs_outer_Pa", "spring_rim_gap_m"):
+        np.testing.assert_allclose(half.columns[name], full.columns[name], rtol=1e-4, atol=1e-9, err_msg=name)
+
+
+def test_a_grouser_tip_is_the_contact_area() -> None:
+    """Standing on one grouser the patch is its tip, 1 mm x 120 mm, flanks excluded."""
+    assert coarse_wheel(0.0).curve.columns["contact_area_m2"][-1] == pytest.approx(120e-6, rel=0.02)
+
+
+def test_parts_keep_their_own_material_and_stress() -> None:
+    """Stress by part differs; with springs twice as stiff the load rises, by less than twice."""
+    curve = coarse_wheel(0.0).curve
+    largest = [curve.columns[f"max_von_mises_{part}_Pa"][-1] for part in ("tire", "springs_outer", "springs_inner")]
+    assert len(set(largest)) == 3
+    assert largest[1] > 1.5 * largest[2]  # the outer springs stand over the ground
+    stiff = replace(TI_6AL_4V, young_modulus=2.0 * TI_6AL_4V.young_modulus)
+    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    materials = dict.fromkeys(mesh.parts, TI_6AL_4V) | {"springs_outer": stiff, "springs_inner": stiff}
+    other = solve_wheel(mesh, materials, WheelLoadCase(orientation_deg=0.0, deflections=DEFLECTIONS)).curve
+    assert 1.1 < other.load[-1] / curve.load[-1] < 1.9
+
+
+def test_the_run_ends_at_its_maximum_load() -> None:
+    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    case = WheelLoadCase(orientation_deg=0.0, deflections=(0.001, 0.002, 0.003, 0.006), maximum_load=15.0)
+    result = solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
+    assert result.curve.load[-2] < 15.0 <= result.curve.load[-1]
+    assert result.curve.deflection[-1] < 0.006
+
+
+def test_force_balance_is_measured_not_assumed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Negative control of the balance: a contact force that is one per cent off shows as one per cent."""
+    measured = StaticProblem.contact_force
+    monkeypatch.setattr(StaticProblem, "contact_force", lambda self: 1.01 * measured(self))
+    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    case = WheelLoadCase(orientation_deg=0.0, deflections=(0.002,))
+    result = solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
+    assert result.curve.columns["force_imbalance"][-1] == pytest.approx(0.01 / 1.01, rel=0.01)
 
 
 @pytest.mark.parametrize("equal", [-15.0, 135.0])
@@ -57,7 +96,9 @@ def test_a_snapshot_is_taken_at_its_load() -> None:
     lowest = np.argmin(snapshot.displacement[:, 2])
     assert np.abs(snapshot.displacement).max() < 2.0 * snapshot.deflection
     assert snapshot.displacement[lowest, 2] < 0.0 < snapshot.deflection
-    assert snapshot.von_mises.max() > 1e7
+    curve = coarse_wheel(0.0).curve
+    largest = np.max([curve.columns[f"max_von_mises_{part}_Pa"] for part in ("tire", "springs_outer")], axis=0)
+    assert snapshot.von_mises.max() == pytest.approx(np.interp(20.0, curve.load, largest), rel=0.15)
 
 
 def test_a_run_that_does_not_converge_keeps_its_partial_curve(monkeypatch: pytest.MonkeyPatch) -> None:

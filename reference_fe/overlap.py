@@ -1,0 +1,50 @@
+"""How far one part of a body has passed through the inside of another: a measure of contact that is not modelled."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from contracts.mesh import TaggedMesh
+from reference_fe.contact_patch import contact_faces, facet_samples
+
+__all__ = ["FaceOverlap"]
+
+
+class FaceOverlap:
+    """Depth of the nodes of some parts behind a named face, e.g. of a wheel's springs behind the rim's inner face.
+
+    A node counts with its distance to the nearest sampled point of the face, along the face's normal there: negative
+    (overlap) where the node lies behind. Nodes that belong to the face's own part, such as a weld's, are left out.
+
+    Parameters
+    ----------
+    mesh : tagged mesh
+    parts : parts whose nodes are followed
+    face : face group; its facets' normal points to the side where the parts belong
+
+    Verified by tests/unit/test_fe_overlap.py.
+    """
+
+    def __init__(self, mesh: TaggedMesh, parts: tuple[str, ...], face: str) -> None:
+        self._mesh, self._facets = mesh, contact_faces(mesh, [face])
+        tags = [mesh.parts[part] for part in parts]
+        mine = np.isin(mesh.cell_tags, tags)
+        others = np.unique(mesh.cells[~mine])
+        self._nodes = np.setdiff1d(np.unique(mesh.cells[mine]), others)
+        points, normals = facet_samples(mesh.points, self._facets)
+        _, nearest = cKDTree(points).query(mesh.points[self._nodes])
+        inward = np.einsum("ni,ni->n", normals[nearest], mesh.points[self._nodes] - points[nearest])
+        self._sign = 1.0 if np.median(inward) >= 0.0 else -1.0
+
+    def smallest_gap(self, displacement: NDArray[np.float64]) -> float:
+        """Smallest signed distance between the nodes and the face [m]; negative is overlap.
+
+        displacement : (n_points, 3) at the mesh's nodes [m]
+        """
+        current = self._mesh.points + displacement
+        points, normals = facet_samples(current, self._facets)
+        _, nearest = cKDTree(points).query(current[self._nodes])
+        gap = np.einsum("ni,ni->n", normals[nearest], current[self._nodes] - points[nearest])
+        return float(np.min(self._sign * gap))
