@@ -8,17 +8,19 @@ from __future__ import annotations
 import math
 import os
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
 from contracts.curves import StiffnessCurve, average_curve, read_curve
-from contracts.errors import InputError
+from contracts.errors import InputError, StudyError
 from contracts.records import Check
+from workbench.errors import InterruptedRunError, RunError
 from workbench.graph import mesh_tasks, report_tasks, stiffness_tasks
-from workbench.outputs import check_folder, junit, publish, summary, to_json
+from workbench.outputs import check_folder, check_targets, junit, publish, summary, to_json
 from workbench.progress import RunDisplay
 from workbench.runner import run_tasks
 from workbench.store import Entry, Store
@@ -36,14 +38,15 @@ def run_report(study_path: Path | None, out: Path, store: Path, workers: int) ->
     path = study_path or built_in_study()
     study = read_study(path)
     check_folder(out)
-    entries = _compute(report_tasks(study, path.parent), store, workers)
+    entries = _compute(path, report_tasks(study, path.parent), store, workers)
 
     from workbench.comparison import compare, exit_status
     from workbench.provenance import provenance
     from workbench.report import PageContent, render
     from workbench.results import task_timings
 
-    found = compare(study, {name: entry.path for name, entry in entries.items()})
+    with _naming(path):
+        found = compare(study, {name: entry.path for name, entry in entries.items()})
     timings, origin = task_timings(entries), provenance(path, entries)
     content = PageContent(
         study=study, found=found, pictures=entries["pictures"].path, timings=timings, provenance=origin
@@ -71,8 +74,9 @@ def run_mesh(study_path: Path, out: Path, store: Path) -> int:
     """Mesh files, summary and picture of a study's wheel."""
     study = read_study(study_path)
     check_folder(out)
-    entries = _compute(mesh_tasks(study, with_files=True), store, 1)
+    entries = _compute(study_path, mesh_tasks(study, with_files=True), store, 1)
     out.mkdir(parents=True, exist_ok=True)
+    check_targets(out, entries["mesh_files"].manifest["files"])
     for path in sorted(entries["mesh_files"].path.iterdir()):
         if path.name in entries["mesh_files"].manifest["files"]:
             fresh = out / f".{path.name}.new-{os.getpid()}"
@@ -95,8 +99,9 @@ def run_stiffness(
     study = read_study(study_path)
     check_folder(out)
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
-    entries = _compute(tasks, store, workers)
-    curves = _curves(model, entries)
+    entries = _compute(study_path, tasks, store, workers)
+    with _naming(study_path):
+        curves = _curves(model, entries)
     publish(out, {}, curves)
     for curve in curves:
         label = "average" if curve.orientation_deg is None else f"{curve.orientation_deg:g} deg"
@@ -133,7 +138,7 @@ def run_compare(curve_path: Path, reference_path: Path, max_load: float | None) 
         ("largest difference", f"{metrics.max_error:.3f} N at {metrics.max_error_at * 1e3:.2f} mm"),
         ("mean slope", f"{metrics.tangent * 1e-3:.4f} N/mm"),
         ("mean slope of the reference", f"{metrics.tangent_reference * 1e-3:.4f} N/mm"),
-        ("ISO/TS 18571 rating", f"{metrics.iso_rating:.4f}"),
+        ("ISO/TS 18571 rating", "not defined" if metrics.iso_rating is None else f"{metrics.iso_rating:.4f}"),
     ):
         table.add_row(name, text)
     console.print(table)
@@ -154,10 +159,22 @@ def run_doctor() -> int:
     return 2 if any(f.advice for f in findings) else 0
 
 
-def _compute(tasks: Sequence[Task], store: Path, workers: int) -> dict[str, Entry]:
-    """Run a graph with a display; entries in the order of the graph."""
-    with RunDisplay(console, len(tasks)) as display:
-        entries = run_tasks(tasks, Store(store), display, workers)
+@contextmanager
+def _naming(study_path: Path) -> Iterator[None]:
+    """Put the study's path in front of what a task of it complains of."""
+    try:
+        yield
+    except (StudyError, InterruptedRunError):
+        raise
+    except (InputError, RunError) as error:
+        raise RunError(f"{study_path}: {error}") from error
+
+
+def _compute(study_path: Path, tasks: Sequence[Task], store: Path, workers: int) -> dict[str, Entry]:
+    """Run a study's graph with a display; entries in the order of the graph."""
+    results = Store(store)
+    with _naming(study_path), RunDisplay(console, len(tasks)) as display:
+        entries = run_tasks(tasks, results, display, workers)
     console.print(
         f"{len(tasks) - display.reused} tasks computed, {display.reused} reused", highlight=False, markup=False
     )

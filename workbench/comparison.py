@@ -9,7 +9,16 @@ from typing import Any
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Check, Status
-from workbench.checks_fe import band_checks, mesh_checks, solver_checks, spread_checks, yield_check
+from workbench.checks_fe import (
+    FineRun,
+    band_checks,
+    mesh_checks,
+    reach_check,
+    solver_checks,
+    spread_checks,
+    yield_check,
+)
+from workbench.checks_limits import circumferential_tangent_check, overlap_checks
 from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, user_checks
 from workbench.graph import degrees
 from workbench.result_files import read_result
@@ -71,20 +80,26 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
         checks=(),
     )
     plate = read_result(folders["ancf_plate"])
-    return replace(comparison, checks=tuple(_checks(study, comparison, plate)))
+    fine = FineRun(
+        curve=comparison.fine,
+        numbers=read_result(folders["fe_fine"]),
+        orientation_deg=degrees(study.fe.fine_orientation),
+        deflection=study.fe.fine_deflection,
+    )
+    return replace(comparison, checks=tuple(_checks(study, comparison, plate, fine)))
 
 
-def _checks(study: Study, found: Comparison, plate: Mapping[str, float]) -> list[Check]:
+def _checks(study: Study, found: Comparison, plate: Mapping[str, float], fine: FineRun) -> list[Check]:
     tol, fe = study.tolerances, found.fe
     strength = {part: study.materials[name].yield_strength for part, name in _part_materials(study).items()}
-    fine_at = degrees(study.fe.fine_orientation), study.fe.fine_deflection
     checks = band_checks(fe, study.reference, tol)
-    checks += solver_checks(fe, found.fine, fine_at, tol)
+    checks += [*solver_checks(fe, fine, tol), reach_check(fe, tol)]
     checks += mesh_checks(found.mesh, found.mesh_whole, tol)
     checks += plate_checks(plate, tol)
     checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
     checks += agreement_checks(found.metrics, tol)
-    checks += [*spread_checks(fe, tol), yield_check(fe, strength)]
+    checks += [*spread_checks(fe, tol), yield_check(fe, strength), *overlap_checks(fe)]
+    checks.append(circumferential_tangent_check(fe, study.reference, tol))
     return checks + user_checks(found.users, found.metrics, tol)
 
 

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from contracts.errors import WorkbenchError
 
-__all__ = ["RunError"]
+__all__ = ["InterruptedRunError", "RunError"]
 
 
 class RunError(WorkbenchError):
     """A task failed, a worker was killed, or the user interrupted the run; finished results are kept."""
+
+
+class InterruptedRunError(RunError):
+    """The user interrupted the run: nothing is wrong with the study."""

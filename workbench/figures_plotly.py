@@ -1,6 +1,6 @@
 """Curves as interactive figures in the page. The one module that imports Plotly.
 
-Verified by tests/unit/test_workbench_report.py.
+Verified by tests/end_to_end/test_report.py.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Stills of meshes: parts in colour, deformed shape with stress. The one module that imports PyVista; needs no display.
 
-Verified by tests/unit/test_workbench_pictures.py.
+Verified by tests/end_to_end/test_report.py.
 """
 
 from __future__ import annotations

@@ -10,6 +10,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from workbench.preset_table import preset_table
 from workbench.study import Study
 from workbench.study_models import ancf_preset, brush_parameters, wheel_design
 from workbench.task import Task
@@ -160,7 +161,8 @@ def _fine_task(study: Study) -> Task:
 
 def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
     ancf = study.ancf
-    points = np.linspace(0.0, ancf.max_deflection, ancf.points + 1).round(12).tolist()
+    grid = np.linspace(0.0, ancf.max_deflection, ancf.points + 1).round(12).tolist()
+    points = sorted({*grid, *_table_deflections(study)})
     preset = asdict(ancf_preset(study))
     return [
         Task(
@@ -172,6 +174,13 @@ def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
         )
         for orientation in orientations_deg
     ]
+
+
+def _table_deflections(study: Study) -> list[float]:
+    """Deflections of the preset's table [m] that the study reaches, solved themselves and never interpolated."""
+    if not study.ancf.thesis_preset:
+        return []
+    return [d for d in preset_table()[:, 0].round(12).tolist() if d <= study.ancf.max_deflection]
 
 
 def _brush_task(study: Study) -> Task:

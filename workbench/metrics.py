@@ -13,6 +13,7 @@ from contracts.errors import InputError
 __all__ = ["CurveMetrics", "compare_curves", "iso_18571_rating", "largest_spread"]
 
 _SAMPLES = 401
+_LARGEST_LOAD = 1e12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,7 +27,9 @@ class CurveMetrics:
     max_error : largest |F - F_ref| [N]
     max_error_at : where it lies [m]
     tangent, tangent_reference : mean slope over the range, least squares with free intercept [N/m]
-    iso_rating : ISO/TS 18571 overall rating, 1 is best [-]; its phase part says little for a nearly straight curve
+    reference_load : largest load of the reference over the range [N]
+    iso_rating : ISO/TS 18571 overall rating, 1 is best [-], or None where it is not defined; its phase part says
+        little for a nearly straight curve
 
     Verified by tests/unit/test_workbench_metrics.py.
     """
@@ -38,9 +41,10 @@ class CurveMetrics:
     max_error_at: float
     tangent: float
     tangent_reference: float
-    iso_rating: float
+    reference_load: float
+    iso_rating: float | None
 
-    def as_dict(self) -> dict[str, float]:
+    def as_dict(self) -> dict[str, float | None]:
         """The numbers by name, for JSON."""
         return asdict(self)
 
@@ -56,7 +60,7 @@ def compare_curves(curve: StiffnessCurve, reference: StiffnessCurve, max_load: f
     Raises
     ------
     InputError
-        If they share no range or the reference is zero over it.
+        If they share no range, the reference is zero over it, or a load is beyond 1e12 N.
 
     Verified by tests/unit/test_workbench_metrics.py.
     """
@@ -69,6 +73,10 @@ def compare_curves(curve: StiffnessCurve, reference: StiffnessCurve, max_load: f
         raise InputError("curves", f"{curve.model}, {reference.model}", rule, "check their units (metres, newtons)")
     d = np.linspace(start, end, _SAMPLES)
     f, f_ref = curve.load_at(d), reference.load_at(d)
+    for name, loads in ((curve.model, f), (reference.model, f_ref)):
+        if np.abs(loads).max() > _LARGEST_LOAD:
+            rule = f"must not exceed {_LARGEST_LOAD:g} N"
+            raise InputError(f"load of {name}", f"{np.abs(loads).max():g} N", rule, "check its unit (newtons)")
     norm = float(np.linalg.norm(f_ref))
     if norm == 0.0:
         raise InputError("reference curve", reference.model, "is zero over the common range", "check its columns")
@@ -82,16 +90,20 @@ def compare_curves(curve: StiffnessCurve, reference: StiffnessCurve, max_load: f
         max_error_at=float(d[worst]),
         tangent=float(np.polyfit(d, f, 1)[0]),
         tangent_reference=float(np.polyfit(d, f_ref, 1)[0]),
+        reference_load=float(f_ref.max()),
         iso_rating=iso_18571_rating(f, f_ref),
     )
 
 
-def iso_18571_rating(signal: NDArray[np.float64], reference: NDArray[np.float64]) -> float:
+def iso_18571_rating(signal: NDArray[np.float64], reference: NDArray[np.float64]) -> float | None:
     """ISO/TS 18571 overall rating of two equally sampled signals.
 
     The standard is written for time signals; deflection takes the place of time, which changes no part of the
-    rating, because each part is relative. (n,) float each, same unit.
+    rating, because each part is relative. (n,) float each, same unit. None where it is not defined: its parts divide
+    by the variation of both signals, so that a constant one has no rating.
     """
+    if any(float(np.ptp(values)) <= 1e-9 * float(np.abs(values).max()) for values in (signal, reference)):
+        return None
     import numba
 
     jit_was_off = numba.config.DISABLE_JIT  # type: ignore[attr-defined]
@@ -101,8 +113,10 @@ def iso_18571_rating(signal: NDArray[np.float64], reference: NDArray[np.float64]
     finally:
         numba.config.DISABLE_JIT = jit_was_off  # type: ignore[attr-defined]
     axis = np.arange(len(signal)) * 1e-4
-    rating = ISO18571(np.column_stack([axis, reference]), np.column_stack([axis, signal]), dt=1e-4)
-    return float(rating.overall_rating(ndigits=-1))
+    pair = (np.column_stack([axis, values]) for values in (reference, signal))
+    with np.errstate(all="ignore"):
+        rating = float(ISO18571(*pair, dt=1e-4).overall_rating(ndigits=-1))
+    return rating if np.isfinite(rating) else None
 
 
 def largest_spread(curves: list[StiffnessCurve], deflection: float) -> float:

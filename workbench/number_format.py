@@ -1,6 +1,6 @@
 """Numbers as a reader wants them: mm instead of m, percent instead of fractions where that is the habit.
 
-Verified by tests/unit/test_workbench_report.py.
+Verified by tests/unit/test_workbench_outputs.py.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from contracts.records import Check
 __all__ = ["PERCENT_QUANTITIES", "displayed", "displayed_reference"]
 
 _SCALES = {"m": (1e3, "mm"), "N/m": (1e-3, "N/mm"), "Pa": (1e-6, "MPa"), "m^3": (1e6, "cm³")}
-PERCENT_QUANTITIES = ("spread", "difference", "relative L2 difference", "largest difference / largest load")
+PERCENT_QUANTITIES = ("spread", "difference", "relative L2 difference", "largest difference / load, 5 N at least")
 """Quantities shown in percent."""
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -18,16 +18,31 @@ from contracts.errors import InputError
 from contracts.records import Check, Timing
 from workbench.comparison import overall_status
 
-__all__ = ["check_folder", "curve_file", "junit", "publish", "summary", "to_json"]
+__all__ = ["check_folder", "check_targets", "curve_file", "junit", "publish", "summary", "to_json"]
 
 
 def check_folder(out: Path) -> None:
     """Make sure before any computing that ``out`` can be a folder of ours."""
+    for folder in (out, *out.absolute().parents):
+        if folder.is_symlink() and not folder.exists():
+            rule = f"cannot be made: {folder} is a link to nothing"
+            raise InputError("output folder", out, rule, "mend the link or choose another with --out")
     probe = next(p for p in (out, *out.absolute().parents) if p.exists())
     if not probe.is_dir():
         raise InputError("output folder", out, f"cannot be made: {probe} is a file", "choose another with --out")
     if not os.access(probe, os.W_OK):
         raise InputError("output folder", out, "cannot be written", "choose another with --out")
+
+
+def check_targets(out: Path, names: Iterable[str]) -> None:
+    """Make sure that each file of these names (with ``/`` for folders in it) can take its place in ``out``."""
+    for name in names:
+        target = out / name
+        hint = "move it away or choose another folder with --out"
+        if target.is_dir():
+            raise InputError("output file", target, "is a folder", hint)
+        if (target.parent.exists() or target.parent.is_symlink()) and not target.parent.is_dir():
+            raise InputError("output folder", target.parent, "is not a folder", hint)
 
 
 def curve_file(curve: StiffnessCurve) -> str:
@@ -53,8 +68,15 @@ def publish(
     texts : file name -> content; the last one is moved last and so marks a complete set
     curves : written to ``out/curves``
     fields : file name -> file to copy to ``out/fields``
+
+    Raises
+    ------
+    InputError
+        If a folder stands where a file belongs, or a file where a folder belongs; nothing was moved then.
     """
     out.mkdir(parents=True, exist_ok=True)
+    names = [*texts, *(f"curves/{curve_file(curve)}" for curve in curves), *(f"fields/{name}" for name in fields or {})]
+    check_targets(out, names if fields is None else [*names, "fields/.vtu"])
     _sweep(out)
     fresh = out / f".new-{os.getpid()}"
     try:

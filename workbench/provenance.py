@@ -1,6 +1,6 @@
 """Where a report's numbers come from: versions, machine, commit, hashes of tasks.
 
-Verified by tests/unit/test_workbench_report.py.
+Verified by tests/end_to_end/test_report.py.
 """
 
 from __future__ import annotations

@@ -20,7 +20,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Angle", "Bedding", "Density", "Force", "Length", "Number", "Pressure", "Stiffness", "Viscosity", "to_si"]
 
-_STARTS_WITH_NUMBER = re.compile(r"^\s*[+-]?(\d|\.\d|nan|inf)", re.IGNORECASE)
+_TEXT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)\b)\s*(.*)", re.IGNORECASE | re.ASCII)
+"""A number, then whatever follows: nothing or a unit."""
+_EXPONENT = r"(?:(?:\^|\*\*)-?\d)?"
+_FACTOR = rf"\(?(?:[^\W\d_]+|%|°){_EXPONENT}(?:\){_EXPONENT})?"
+_UNIT = re.compile(rf"{_FACTOR}(?:\s*[*/\s]\s*{_FACTOR})*")
+"""Names of units with one-digit exponents, joined by ``*``, ``/`` or spaces: no arithmetic reaches pint."""
+_LONGEST_UNIT = 40
 _KINDS = {
     "m": ("a length", "0.6 mm"),
     "rad": ("an angle", "15 deg"),
@@ -75,24 +81,37 @@ def to_si(value: object, unit: str) -> float:
 
 
 def _from_text(text: str, unit: str) -> float:
-    """Parse ``text`` with pint and convert it to ``unit``."""
+    """Split ``text`` into one number and its unit, and convert it to ``unit``; only the unit is read by pint."""
     import pint
 
     kind, example = _KINDS[unit]
-    if not _STARTS_WITH_NUMBER.match(text):
-        raise _refuse(f"must be {kind}", f"begin with a number, like {example!r}")
+    number, given = _split(text, unit)
+    if not given and unit and math.isfinite(number):
+        raise _refuse(f"{kind} in a string needs its unit", f"write it like {example!r}")
+    if not given or not math.isfinite(number):
+        return number
     try:
-        quantity = _registry().Quantity(text)
-        if quantity.unitless and unit:
-            raise _refuse(f"{kind} in a string needs its unit", f"write it like {example!r}")
-        number = float(quantity.to(unit or "dimensionless").magnitude)
+        number = float(_registry().Quantity(number, given).to(unit or "dimensionless").magnitude)
         return number if unit == "rad" else float(f"{number:.15g}")  # 142.5 mm is 0.1425 m to the last digit
     except pint.DimensionalityError as error:
         raise _refuse(f"must be {kind}, not {error.dim1 or 'a plain number'}", f"write it like {example!r}") from error
-    except PydanticCustomError:
-        raise
     except Exception as error:  # pint raises many kinds for text it cannot read
         raise _refuse(f"cannot be read as {kind} ({error})", f"write it like {example!r}") from error
+
+
+def _split(text: str, unit: str) -> tuple[float, str]:
+    """The number that ``text`` begins with, and the text of the unit behind it."""
+    kind, example = _KINDS[unit]
+    if "," in text:
+        raise _refuse(f"must be {kind} without a comma", f"use a point, not a comma, like {example!r}")
+    found = _TEXT.fullmatch(text.strip())
+    if found is None:
+        raise _refuse(f"must be {kind}", f"begin with a number, like {example!r}")
+    given = found[2]
+    if len(given) > _LONGEST_UNIT or (given and not _UNIT.fullmatch(given)):
+        rule = f"cannot be read as {kind}: it must be one number and at most one unit"
+        raise _refuse(rule, f"write it like {example!r}, without arithmetic")
+    return float(found[1]), given
 
 
 def _validator(unit: str) -> Callable[[Any, ValidationInfo], float]:

@@ -1,6 +1,6 @@
 """The report: one self-contained page. The one module that imports Jinja2.
 
-Verified by tests/unit/test_workbench_report.py and tests/end_to_end/test_report.py.
+Verified by tests/unit/test_workbench_outputs.py and tests/end_to_end/test_report.py.
 """
 
 from __future__ import annotations
@@ -74,15 +74,16 @@ def render(content: PageContent) -> str:
 
 
 def verdict(checks: Sequence[Check]) -> str:
-    """One sentence: what the gates say, and how many findings lie outside their limits."""
+    """One sentence: what the gates say, and how many findings lie outside or are unknown."""
     gates = [c for c in checks if c.role == "gate"]
     findings = [c for c in checks if c.role == "finding"]
     bad = sum(c.status != "pass" for c in gates)
-    outside = sum(c.status != "pass" for c in findings)
+    outside, unknown = (sum(c.status == s for c in findings) for s in ("fail", "error"))
     first = f"All {len(gates)} gates passed" if not bad else f"{bad} of {len(gates)} gates did not pass"
-    second = "every finding lies" if not outside else f"{outside} of {len(findings)} findings lie"
-    third = "inside its limits" if not outside else "outside their limits"
-    return f"{first}; {second} {third}."
+    if not outside + unknown:
+        return f"{first}; every finding lies inside its limits."
+    second = f"{outside or 'no'} finding{'s' if outside > 1 else ''} outside {'their' if outside > 1 else 'its'} limits"
+    return f"{first}; {second}{f', {unknown} not evaluated' if unknown else ''}."
 
 
 def _counts(checks: Sequence[Check]) -> list[tuple[str, str, int]]:
@@ -131,7 +132,7 @@ def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:
     }
 
 
-def _metric_rows(found: Comparison) -> list[tuple[str, Mapping[str, float]]]:
+def _metric_rows(found: Comparison) -> list[tuple[str, Mapping[str, Any]]]:
     """Pairs of curves and their distances, with readable names."""
     names = {"ancf_average": "ANCF average, FE average", "brush": "brush line, FE average"}
     names |= {f"user_{i}": f"FE, {user.label}" for i, user in enumerate(found.users)}

@@ -18,7 +18,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Protocol
 
-from workbench.errors import RunError
+from workbench.errors import InterruptedRunError, RunError
 from workbench.store import Entry, Store
 from workbench.task import Task, task_keys
 from workbench.worker import Done, Failed, Job, Progressed, serve
@@ -130,7 +130,7 @@ class _Pool:
                     assert isinstance(pipe, Connection)
                     self._hear(busy[pipe], entries)
         except KeyboardInterrupt:
-            raise RunError("interrupted; finished results are kept, start again to go on") from None
+            raise InterruptedRunError("interrupted; finished results are kept, start again to go on") from None
         finally:
             self._stop()
 

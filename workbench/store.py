@@ -59,9 +59,10 @@ class Store:
     def __init__(self, root: Path) -> None:
         self.root = root
         try:
-            (root / "tmp").mkdir(parents=True, exist_ok=True)
+            for name in ("tmp", "log"):
+                (root / name).mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            rule = f"cannot be used as a folder ({error.strerror})"
+            rule = f"cannot be used: {error.filename} cannot be a folder ({error.strerror})"
             raise InputError("result store", root, rule, "choose another with --store") from error
 
     def folder(self, key: str) -> Path:

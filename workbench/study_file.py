@@ -17,6 +17,7 @@ from contracts.curves import read_curve
 from contracts.errors import InputError, StudyError
 from workbench.study import Study
 from workbench.study_models import SectionInputError, ancf_preset, brush_parameters, wheel_design
+from workbench.study_rules import broken_rules
 
 __all__ = ["built_in_study", "read_study"]
 
@@ -56,6 +57,8 @@ def read_study(path: Path) -> Study:
     except SectionInputError as error:
         key = _key_of(error, table)
         raise StudyError(path, key, error.value, f"{error.what} {error.rule}", error.hint) from error
+    for broken in broken_rules(study):
+        raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
     _check_curves(path, study)
     return study
 

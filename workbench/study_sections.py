@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictInt, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictBool, StrictInt, model_validator
 from pydantic_core import PydanticCustomError
 
 from workbench.quantities import Angle, Bedding, Density, Force, Length, Number, Pressure, Stiffness, Viscosity
@@ -22,13 +22,47 @@ __all__ = [
     "MaterialSection",
     "MeshSection",
     "Section",
+    "Thickness",
     "ToleranceSection",
     "in_key",
 ]
 
 Positive = Field(gt=0.0)
 NotNegative = Field(ge=0.0)
-Orientations = Annotated[tuple[Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)], ...], Field(min_length=1)]
+
+
+def _between(low: float, high: float, words: str, hint: str) -> AfterValidator:
+    """Validator of an interval, both ends included, whose message gives it in the units a user writes."""
+
+    def check(value: float) -> float:
+        if not low <= value <= high:
+            rule = f"must lie between {words}" if math.isfinite(high) else f"must be at least {words}"
+            raise PydanticCustomError("quantity", "{rule}; {hint}", {"rule": rule, "hint": hint})
+        return value
+
+    return AfterValidator(check)
+
+
+def _all_different(orientations: tuple[float, ...]) -> tuple[float, ...]:
+    """Refuse an orientation given twice: it would be computed twice under one name."""
+    seen: set[float] = set()
+    for angle in orientations:
+        shown = round(math.degrees(angle), 6)
+        if shown in seen:
+            context = {"rule": f"holds {shown:g} deg twice", "hint": "give each orientation once"}
+            raise PydanticCustomError("quantity", "{rule}; {hint}", context)
+        seen.add(shown)
+    return orientations
+
+
+Orientations = Annotated[
+    tuple[Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)], ...], Field(min_length=1), AfterValidator(_all_different)
+]
+ElementSize = Annotated[Length, Positive, _between(0.2e-3, 0.5, "0.2 mm and 0.5 m", "8 mm is usual")]
+Thickness = Annotated[Length, Positive, _between(1e-5, math.inf, "0.01 mm", "check its unit; 0.6 mm is usual")]
+Modulus = Annotated[Pressure, Positive, _between(1e3, 1e13, "1e3 Pa and 1e13 Pa", "check its unit, e.g. 113.8 GPa")]
+Drop = Annotated[Length, Positive, _between(1e-3, math.inf, "1 mm", "check its unit; 36 mm is usual")]
+GaussPoints = Annotated[StrictInt, Field(ge=1, le=10)]
 
 
 def in_key(key: str, value: object, rule: str, hint: str) -> PydanticCustomError:
@@ -46,7 +80,7 @@ class Section(BaseModel):
 class MaterialSection(Section):
     """One material: E [Pa], nu [-], rho [kg/m^3], R_p0.2 [Pa], and where the numbers come from."""
 
-    young_modulus: Annotated[Pressure, Positive]
+    young_modulus: Modulus
     poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
     density: Annotated[Density, Positive]
     yield_strength: Annotated[Pressure, Positive]
@@ -56,25 +90,27 @@ class MaterialSection(Section):
 class MeshSection(Section):
     """Mesh of the wheel: element lengths along strips and along the axle [m], counts, geometry order, symmetry."""
 
-    element_size: Annotated[Length, Positive]
-    axial_size: Annotated[Length, Positive]
+    element_size: ElementSize
+    axial_size: ElementSize
     thickness_elements: Annotated[StrictInt, Field(ge=1, le=8)] = 1
     order: Literal[1, 2] = 2
     half_width: StrictBool = True
-    refinement: dict[str, Annotated[Length, Positive]] = Field(default_factory=dict)
+    refinement: dict[str, ElementSize] = Field(default_factory=dict)
 
 
 class FeSection(Section):
     """Continuum finite element runs: orientations [rad], deflections [m], loads [N] of the full wheel."""
 
     orientations: Orientations
-    max_deflection: Annotated[Length, Positive]
+    max_deflection: Drop
     points: Annotated[StrictInt, Field(ge=2, le=500)]
     max_load: Annotated[Force, Positive]
     snapshot_loads: tuple[Annotated[Force, Positive], ...] = ()
     material_law: Literal["st_venant_kirchhoff", "neo_hookean"] = "st_venant_kirchhoff"
-    contact_stiffness: Annotated[Bedding, Positive] = 1e11
-    relative_tolerance: Annotated[Number, Field(gt=0.0, le=1e-4)] = 1e-8
+    contact_stiffness: Annotated[
+        Bedding, Positive, _between(1e6, 1e15, "1e6 N/m^3 and 1e15 N/m^3", "1e11 N/m^3 is usual")
+    ] = 1e11
+    relative_tolerance: Annotated[Number, _between(1e-12, 1e-4, "1e-12 and 1e-4", "1e-8 is usual")] = 1e-8
     fine_orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)] = 0.0
     fine_factor: Annotated[Number, Field(gt=1.0, le=8.0)] = 2.0
     fine_deflection: Annotated[Length, Positive] = 0.020
@@ -102,15 +138,15 @@ class AncfSection(Section):
     circumferential_plates: Annotated[StrictInt, Field(ge=3, le=96)]
     spokes: Annotated[StrictInt, Field(ge=1, le=96)]
     plates_per_spoke: Annotated[StrictInt, Field(ge=1, le=32)] = 1
-    young_modulus: Annotated[Pressure, Positive]
+    young_modulus: Modulus
     poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
     density: Annotated[Density, Positive]
     contact_stiffness: Annotated[Stiffness, Positive]
     contact_points: tuple[Annotated[StrictInt, Field(ge=2, le=100)], Annotated[StrictInt, Field(ge=2, le=100)]]
     contact_layout: Literal["edges", "centres"] = "edges"
-    quadrature: tuple[StrictInt, StrictInt, StrictInt] = (5, 5, 3)
+    quadrature: tuple[GaussPoints, GaussPoints, GaussPoints] = (5, 5, 3)
     orientations: Orientations
-    max_deflection: Annotated[Length, Positive]
+    max_deflection: Drop
     points: Annotated[StrictInt, Field(ge=2, le=500)]
     thesis_preset: StrictBool = False
     """True states that these are the thesis' numbers: the curve is then held against its known table."""
@@ -164,3 +200,5 @@ class ToleranceSection(Section):
     model_agreement: Annotated[Number, Positive] = 0.10
     iso_rating: Annotated[Number, Positive] = 0.80
     orientation_spread: Annotated[Number, Positive] = 0.50
+    reference_wheel: StrictBool = False
+    """True states that this wheel is the one the reference describes: slope and reach of its curves are then gates."""

@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StrictInt
 
 from workbench.quantities import Angle, Length, Number
-from workbench.study_sections import Positive, Section
+from workbench.study_sections import Positive, Section, Thickness
 
 __all__ = [
     "ConeSection",
@@ -33,7 +33,7 @@ class TireSection(Section):
 
     outer_radius: Annotated[Length, Positive]
     width: Annotated[Length, Positive]
-    thickness: Annotated[Length, Positive]
+    thickness: Thickness
     material: MaterialName
 
 
@@ -53,7 +53,7 @@ class ImpactSpringsSection(Section):
     count: Count
     phase: Angle = 0.0
     bands: Bands
-    thickness: Annotated[Length, Positive]
+    thickness: Thickness
     shape: Literal["arc", "hoop", "spline"]
     weld_length: Annotated[Length, Positive]
     direction: Literal[-1, 1] = 1

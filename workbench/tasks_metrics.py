@@ -49,5 +49,5 @@ def _counterpart(fe: ModelCurves, orientation_deg: float | None) -> StiffnessCur
     return fe.by_orientation[orientation_deg]
 
 
-def _distance(pair: tuple[StiffnessCurve, StiffnessCurve], max_load: float) -> dict[str, float]:
+def _distance(pair: tuple[StiffnessCurve, StiffnessCurve], max_load: float) -> dict[str, float | None]:
     return compare_curves(*pair, max_load=max_load).as_dict()

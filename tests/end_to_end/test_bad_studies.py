@@ -22,6 +22,9 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     "springs cross the hub": ('shape = "hoop"', SPLINE, ["wheel.springs[0].shape", "crosses the hub"]),
     "springs overlap": ("count = 3", "count = 40", ["wheel.springs[0].count = 40", "overlap"]),
     "orientation nan": (r'orientations = \["0 deg"\]', "orientations = [nan]", ["fe.orientations[0] = nan", "finite"]),
+    "decimal comma": (THICKNESS, 'thickness = "0,6 mm"', ["wheel.tire.thickness = '0,6 mm'", "not a comma"]),
+    "towers of powers": (THICKNESS, 'thickness = "9**9**9 mm"', ["wheel.tire.thickness", "without arithmetic"]),
+    "deflection to the hub": (r'max_deflection = "6 mm"', 'max_deflection = "99 mm"', ["fe.max_deflection", "the gap"]),
     "not toml": ('name = "exomars"', "name = exomars", ["not valid TOML"]),
     "empty": (r"(?s).*", "", ["is empty"]),
 }
@@ -86,3 +89,25 @@ def test_output_folder_that_is_a_file(earlier: Path, tmp_path: Path) -> None:
     assert "--out" in ended.stderr
     assert out.read_text(encoding="utf-8") == "mine"
     assert not (tmp_path / "store").exists()
+
+
+def test_a_failing_task_names_the_study(tmp_path: Path) -> None:
+    """A contact too stiff for any increment: found only by the run."""
+    study = tmp_path / "my_study.toml"
+    text, count = re.subn(r'contact_stiffness = "1000 N/m"', 'contact_stiffness = "1e30 N/m"', small_study_text())
+    assert count == 1
+    study.write_text(text, encoding="utf-8")
+    ended = run("stiffness", study, "--model", "ancf", "--out", tmp_path / "o", "--store", tmp_path / "s")
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1), ended.stderr
+    assert ended.stderr.startswith(f"workbench: error: {study}: task ancf_phi0")
+
+
+def test_a_file_where_the_log_belongs(tmp_path: Path) -> None:
+    study, store = tmp_path / "study.toml", tmp_path / "store"
+    study.write_text(small_study_text(), encoding="utf-8")
+    store.mkdir()
+    (store / "log").write_text("mine", encoding="utf-8")
+    ended = run("stiffness", study, "--model", "brush", "--out", tmp_path / "o", "--store", store)
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1), ended.stderr
+    assert "--store" in ended.stderr
+    assert "Traceback" not in ended.stdout + ended.stderr

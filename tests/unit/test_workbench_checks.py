@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,14 +11,23 @@ import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.records import Check
-from workbench.checks_fe import band_checks, mesh_checks, solver_checks, spread_checks, yield_check
+from workbench.checks_fe import (
+    FineRun,
+    band_checks,
+    mesh_checks,
+    reach_check,
+    solver_checks,
+    spread_checks,
+    yield_check,
+)
 from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, preset_error, user_checks
 from workbench.comparison import exit_status, overall_status
+from workbench.preset_table import preset_table
 from workbench.results import ModelCurves, UserCurve
 from workbench.study import thesis_band
 from workbench.study_sections import ToleranceSection
 
-TOLERANCES = ToleranceSection()
+TOLERANCES = ToleranceSection(reference_wheel=True)
 D = np.linspace(0.0, 0.036, 37)
 
 
@@ -52,11 +62,19 @@ def test_band_checks_pass_on_a_curve_inside_and_fail_on_a_soft_one() -> None:
     assert good["fe.initial_tangent"].role == "gate"
     assert good["fe.initial_tangent"].value == pytest.approx(8250.0, rel=0.02)
     assert good["fe.deflection_at_160N"].reference == (0.019, 0.021)
+    other = _by_id(band_checks(_fe(), thesis_band(), ToleranceSection()))
+    assert other["fe.initial_tangent"].role == "finding"
     soft = _by_id(band_checks(_fe((5000.0, 5000.0)), thesis_band(), TOLERANCES))
     assert soft["fe.initial_tangent"].status == "fail"
     assert soft["fe.deflection_at_160N"].status == "fail"
     assert soft["fe.deflection_at_250N"].status == "error"
     assert soft["fe.deflection_at_250N"].value is None
+
+
+def _fine(residual: float, imbalance: float) -> FineRun:
+    records = [{"converged": True, "residuals": [1.0, residual], "target": 0.02, "step": 0.01}]
+    curve = _fe_curve(0.0, 8700.0, force_imbalance=imbalance)
+    return FineRun(curve=curve, numbers={"increments": records}, orientation_deg=0.0, deflection=0.02)
 
 
 @pytest.mark.parametrize(
@@ -66,20 +84,22 @@ def test_band_checks_pass_on_a_curve_inside_and_fail_on_a_soft_one() -> None:
         ({"residual": 2e-8}, {"fe.residual"}),
         ({"force_imbalance": 2e-6}, {"fe.balance"}),
         ({"slopes": (3000.0, 8000.0)}, {"fe.mesh_uncertainty"}),
+        ({"fine_residual": 2e-8}, {"fe.residual"}),
+        ({"fine_imbalance": 2e-6}, {"fe.balance"}),
     ],
 )
 def test_solver_checks_catch_each_damage(damage: dict[str, Any], failing: set[str]) -> None:
-    fine = _fe_curve(0.0, 8700.0)
-    checks = _by_id(solver_checks(_fe(**damage), fine, (0.0, 0.02), TOLERANCES))
+    fine = _fine(damage.pop("fine_residual", 1e-9), damage.pop("fine_imbalance", 1e-9))
+    checks = _by_id(solver_checks(_fe(**damage), fine, TOLERANCES))
     assert {c.id for c in checks.values() if c.status == "fail"} == failing
     assert {c.role for c in checks.values()} == {"gate"}
 
 
 def test_reach_fails_for_a_run_that_stopped_early() -> None:
-    short = ToleranceSection(reach_deflection="40 mm", reach_load="400 N")
-    checks = _by_id(solver_checks(_fe(), _fe_curve(0.0, 8600.0), (0.0, 0.02), short))
-    assert checks["fe.reach"].status == "fail"
-    assert checks["fe.reach"].value == pytest.approx(0.9)
+    check = reach_check(_fe(), ToleranceSection(reach_deflection="40 mm", reach_load="400 N"))
+    assert (check.status, check.role) == ("fail", "finding")
+    assert check.value == pytest.approx(0.9)
+    assert reach_check(_fe(), TOLERANCES).role == "gate"
 
 
 def test_spread_and_yield_are_findings() -> None:
@@ -89,6 +109,13 @@ def test_spread_and_yield_are_findings() -> None:
     assert yield_check(_fe(), {"tire": 880e6}).status == "pass"
     over = yield_check(_fe(max_von_mises_tire_Pa=9e8), {"tire": 880e6})
     assert (over.status, over.role) == ("fail", "finding")
+
+
+def test_spread_of_one_orientation_and_yield_of_a_short_curve_are_not_evaluated() -> None:
+    fe = _fe()
+    one = replace(fe, by_orientation={0.0: fe.by_orientation[0.0]})
+    assert {c.status for c in spread_checks(one, TOLERANCES)} == {"error"}
+    assert yield_check(_fe((8600.0, 7000.0)), {"tire": 880e6}).status == "error"  # 234 N at 36 mm
 
 
 def test_mesh_checks_catch_lost_mass_and_bad_cells() -> None:
@@ -107,9 +134,7 @@ def test_mesh_checks_catch_lost_mass_and_bad_cells() -> None:
 
 def _ancf(scale: float = 1.0, mass: float = 4.426) -> ModelCurves:
     """The table itself, times a factor."""
-    from workbench.checks_models import _preset_table
-
-    table = _preset_table()
+    table = preset_table()
     curves = {
         o: StiffnessCurve(model="ancf", orientation_deg=o, deflection=table[:, 0], load=scale * table[:, 1 + i])
         for i, o in enumerate((0.0, 45.0))
@@ -122,6 +147,10 @@ def _ancf(scale: float = 1.0, mass: float = 4.426) -> ModelCurves:
 def test_ancf_preset_is_held_against_its_table() -> None:
     assert {c.status for c in ancf_checks(_ancf(), TOLERANCES)} == {"pass"}
     assert preset_error(_ancf(1.02), 0.0) == pytest.approx(0.02, rel=1e-9)
+    for row, off, error in ((0, 0.06, 0.012), (1, 0.073, 0.01)):  # 0 N counts absolutely, 7.3 N relative to itself
+        ancf = _ancf()
+        ancf.by_orientation[45.0].load[row] += off
+        assert preset_error(ancf, 45.0) == pytest.approx(error, rel=1e-6)
     failing = {c.id for c in ancf_checks(_ancf(1.02, mass=4.0), TOLERANCES) if c.status == "fail"}
     assert failing == {"ancf.preset_phi000", "ancf.preset_phi045", "ancf.flexible_mass"}
 
@@ -143,14 +172,22 @@ def test_plate_checks() -> None:
 
 
 def test_agreement_and_user_checks_are_findings() -> None:
-    numbers = {"end": 0.03, "relative_l2": 0.2, "max_error": 10.0, "tangent": 9000.0, "tangent_reference": 8250.0}
-    metrics = {"ancf_average": numbers | {"iso_rating": 0.9}, "brush": numbers, "user_0": {"relative_l2": 0.05}}
+    numbers = {"start": 0.0, "end": 0.03, "relative_l2": 0.2, "max_error": 10.0, "reference_load": 231.0}
+    numbers |= {"tangent": 9000.0, "tangent_reference": 8250.0}
+    metrics: dict[str, dict[str, Any]] = {
+        "ancf_average": numbers | {"iso_rating": 0.9},
+        "brush": numbers,
+        "user_0": {"relative_l2": 0.05},
+    }
     checks = _by_id(agreement_checks(metrics, TOLERANCES))
     assert {c.role for c in checks.values()} == {"finding"}
     assert {c.id for c in checks.values() if c.status == "fail"} == {
         "ancf_vs_fe.relative_l2",
         "brush_vs_fe.relative_l2",
     }
+    assert all("0.0 to 30.0 mm" in c.title and "up to 231 N" in c.source for c in checks.values())
+    metrics["ancf_average"]["iso_rating"] = None
+    assert _by_id(agreement_checks(metrics, TOLERANCES))["ancf_vs_fe.iso_18571"].status == "error"
     user = UserCurve(label="paper", curve=_fe_curve(0.0, 8000.0), orientation_deg=None)
     (check,) = user_checks([user], metrics, TOLERANCES)
     assert (check.status, check.role) == ("pass", "finding")

@@ -89,3 +89,19 @@ def test_text_of_a_user_curve_is_part_of_the_key(study: Study, tmp_path: Path) -
     before = report_tasks(with_curve, tmp_path)
     (tmp_path / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.01,83\n", encoding="utf-8")
     assert _new_keys(before, report_tasks(with_curve, tmp_path)) == {"metrics"}
+
+
+def test_the_preset_is_solved_at_the_deflections_of_its_table(study: Study) -> None:
+    from workbench.preset_table import preset_table
+
+    def points(changed: Study) -> list[float]:
+        (task,) = (t for t in report_tasks(changed, HERE) if t.name == "ancf_phi000")
+        return list(task.inputs["deflections"])
+
+    table = set(preset_table()[:, 0].round(12).tolist())
+    assert len(points(study)) == 37
+    odd = points(_changed(study, "ancf", points=5))
+    assert table <= set(odd)
+    assert odd == sorted(odd)
+    assert len(points(_changed(study, "ancf", points=5, thesis_preset=False))) == 6
+    assert max(points(_changed(study, "ancf", max_deflection=0.012))) == 0.012

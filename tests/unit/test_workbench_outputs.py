@@ -114,9 +114,44 @@ def test_output_folder_that_cannot_be_made_is_refused_early(tmp_path: Path) -> N
             check_folder(bad)
 
 
+def test_a_link_to_nothing_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to(tmp_path / "nowhere")
+    for bad in (tmp_path / "link", tmp_path / "link" / "below"):
+        with pytest.raises(InputError, match="link to nothing"):
+            check_folder(bad)
+
+
+@pytest.mark.parametrize("name", ["report.html", "summary.json", "curves/fe_phi030.csv"])
+def test_a_folder_in_a_file_s_place_is_found_before_anything_moves(tmp_path: Path, name: str) -> None:
+    publish(tmp_path, {"note.html": "one"}, [_curve("fe", 0.0)])
+    (tmp_path / name).mkdir()
+    texts = {"note.html": "two", "report.html": "two", "summary.json": "two"}
+    with pytest.raises(InputError, match="is a folder"):
+        publish(tmp_path, texts, [_curve("fe", 30.0)])
+    assert (tmp_path / "note.html").read_text(encoding="utf-8") == "one"
+    assert (tmp_path / "curves" / "fe_phi000.csv").is_file()
+    assert not (tmp_path / "curves" / "fe_phi030.csv").is_file()
+
+
+def test_a_file_in_a_folder_s_place_is_found_before_anything_moves(tmp_path: Path) -> None:
+    (tmp_path / "curves").write_text("mine", encoding="utf-8")
+    with pytest.raises(InputError, match="is not a folder"):
+        publish(tmp_path, {"report.html": "two"}, [_curve("fe", 30.0)])
+    assert [p.name for p in tmp_path.iterdir()] == ["curves"]
+    (tmp_path / "curves").unlink()
+    (tmp_path / "fields").symlink_to(tmp_path / "nowhere")
+    with pytest.raises(InputError, match="is not a folder"):
+        publish(tmp_path, {"report.html": "two"}, [_curve("fe", 30.0)], {})
+    assert [p.name for p in tmp_path.iterdir()] == ["fields"]
+
+
 def test_verdict_is_one_sentence() -> None:
     assert verdict([_check("a")]) == "All 1 gates passed; every finding lies inside its limits."
-    assert verdict(CHECKS) == "2 of 3 gates did not pass; 1 of 1 findings lie outside their limits."
+    assert verdict(CHECKS) == "2 of 3 gates did not pass; 1 finding outside its limits."
+    unknown = [_check(f"e{i}", role="finding", status="error", value=None) for i in range(4)]
+    assert verdict([*CHECKS[3:], *unknown]).endswith("; 1 finding outside its limits, 4 not evaluated.")
+    assert verdict([_check("a"), *unknown]).endswith("; no finding outside its limits, 4 not evaluated.")
+    assert verdict([CHECKS[3], CHECKS[3]]).endswith("; 2 findings outside their limits.")
 
 
 @pytest.mark.parametrize(

@@ -26,6 +26,9 @@ from workbench.quantities import to_si
         ("0.26 rad", "rad", 0.26),
         ("0.3", "", 0.3),
         ("50 %", "", 0.5),
+        (" -1.5e-1 m ", "m", -0.15),
+        ("4430 kg m^-3", "kg/m**3", 4430.0),
+        ("1e6 kg/(m*s**2)", "Pa", 1e6),
     ],
 )
 def test_converts_to_si(text: object, unit: str, expected: float) -> None:
@@ -49,6 +52,15 @@ def test_converts_to_si(text: object, unit: str, expected: float) -> None:
         (True, "m", "must be a length"),
         ([1.0], "m", "must be a length"),
         ("3 mm", "", "must be a plain number"),
+        ("0,6 mm", "m", "use a point, not a comma"),
+        ("1,000 mm", "m", "use a point, not a comma"),
+        ("0.6 mm + 0.1 mm", "m", "one number and at most one unit"),
+        ("9**9 mm", "m", "one number and at most one unit"),
+        ("9**9**9 mm", "m", "one number and at most one unit"),
+        ("9 mm**9**9**9", "m", "one number and at most one unit"),
+        ("2 3 mm", "m", "one number and at most one unit"),
+        ("1_0 mm", "m", "one number and at most one unit"),
+        ("1 " + "m*" * 30 + "m", "m", "one number and at most one unit"),
     ],
 )
 def test_refuses_with_rule_and_hint(value: object, unit: str, rule: str) -> None:

@@ -122,3 +122,10 @@ def test_source_hash_sees_a_changed_package(tmp_path: Path, monkeypatch: pytest.
     assert source_hash.__wrapped__("probe_package") != before
     with pytest.raises(ModuleNotFoundError):
         source_hash.__wrapped__("no_such_package")
+
+
+@pytest.mark.parametrize("name", ["tmp", "log"])
+def test_a_file_in_a_folder_s_place_is_one_message(tmp_path: Path, name: str) -> None:
+    (tmp_path / name).write_text("mine", encoding="utf-8")
+    with pytest.raises(InputError, match=rf"result store.*{name} cannot be a folder.*--store"):
+        Store(tmp_path)
