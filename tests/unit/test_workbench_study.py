@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 from pathlib import Path
 
@@ -214,10 +213,14 @@ def test_files_that_are_no_study(tmp_path: Path) -> None:
         assert str(path) in str(caught.value)
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
-def test_unreadable_file(tmp_path: Path) -> None:
+def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file without read permission; refused by hand, since root may read everything."""
     path = tmp_path / "study.toml"
     path.write_text(TEXT, encoding="utf-8")
-    path.chmod(0)
+
+    def refuse(self: Path, encoding: str | None = None) -> str:
+        raise PermissionError(13, "Permission denied", str(self))
+
+    monkeypatch.setattr(Path, "read_text", refuse)
     with pytest.raises(StudyError, match="cannot be read"):
         read_study(path)
