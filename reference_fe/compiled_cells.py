@@ -5,12 +5,15 @@ The tangent lives in one CSR matrix whose values PETSc shares: assembling writes
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe import cell_kernels
 from reference_fe import dolfinx_api as api
 from reference_fe.domain import Domain
+from reference_fe.surface_assembly import SurfaceAssembly
 
 __all__ = ["CompiledCells"]
 
@@ -54,12 +57,17 @@ class CompiledCells:
         """Store S(E(u)) + CC : DE(u)[du] at the Gauss points."""
         cell_kernels.point_stress(u, du, self._gradients, self._lame, self._dofs, self._stress)
 
-    def prepare_matrix(self, supported: NDArray[np.int32]) -> None:
-        """Lay out the matrix: pattern, place of each cell's blocks, entries that the supports fix."""
-        self._csr = api.cell_matrix(self._V, self._nodes, np.unique(supported // 3).astype(np.int32))
+    def prepare_matrix(self, supported: NDArray[np.int32], couplings: Sequence[NDArray[np.int32]] = ()) -> None:
+        """Lay out the matrix: pattern, place of each cell's blocks, entries that the supports fix.
+
+        couplings : further groups of nodes with room for a full block each
+        """
+        groups = [*self._nodes, *couplings]
+        self._csr = api.cell_matrix(self._V, groups, np.unique(supported // 3).astype(np.int32))
         indptr, indices = self._csr.indptr, self._csr.indices
         rows = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
         self._indptr = np.ascontiguousarray(indptr, dtype=np.int32)
+        self._indices = np.ascontiguousarray(indices, dtype=np.int32)
         held = np.zeros(len(indptr) - 1, dtype=bool)
         held[supported] = True
         self._fixed = np.flatnonzero(held[rows] | held[indices])
@@ -70,16 +78,17 @@ class CompiledCells:
         self._blocks = (np.searchsorted(keys, wanted) - indptr[first][:, :, None]).astype(np.int32)
         self._matrix = api.shared_matrix(self._csr)
 
-    def assemble(self, u: NDArray[np.float64], boundary: api.Expr) -> None:
-        """Fill the matrix: the cells' tangent at u with the stored stress, plus a boundary form (or None)."""
+    def assemble(self, u: NDArray[np.float64], boundary: api.Expr, surfaces: SurfaceAssembly) -> None:
+        """Fill the matrix: the cells' tangent at u with the stored stress, plus a boundary form (or None), surfaces."""
         self._csr.data[:] = 0.0
         if boundary is not None:
             api.fem.assemble_matrix(self._csr, boundary)
         values = (self._gradients, self._weights, self._lame, self._dofs, self._indptr, self._blocks, self._csr.data)
         cell_kernels.add_tangent(u, self._stress, *values)
+        surfaces.add_to_csr(self._indptr, self._indices, self._csr.data)
 
     def supported_matrix(self) -> api.PETSc.Mat:
-        """The assembled matrix with unit rows and zero columns at supported unknowns; always the same object."""
+        """The assembled matrix with unit rows and zero columns at supported unknowns; one object for each pattern."""
         self._csr.data[self._fixed] = 0.0
         self._csr.data[self._fixed_diagonal] = 1.0
         self._matrix.stateIncrease()

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Sequence
 from typing import Any
 
 with contextlib.suppress(ModuleNotFoundError):
@@ -35,6 +36,7 @@ __all__ = [
     "MeshTags",
     "PETSc",
     "PointEvaluation",
+    "add_block",
     "cell_matrix",
     "cell_measure",
     "cell_nodes",
@@ -44,6 +46,7 @@ __all__ = [
     "facet_tags_from_nodes",
     "fem",
     "fem_petsc",
+    "flush",
     "gauss_rule",
     "lagrange_gradients",
     "lagrange_points",
@@ -166,10 +169,14 @@ def compile_form(expression: Expr) -> Any:
     return fem.form(expression, jit_options=JIT_OPTIONS)
 
 
-def create_matrix(form: Any, diagonal_blocks: NDArray[np.int32]) -> PETSc.Mat:
-    """Empty matrix for a bilinear form, with room on the diagonal of further nodes that no integral reaches."""
+def create_matrix(
+    form: Any, diagonal_blocks: NDArray[np.int32], couplings: Sequence[NDArray[np.int32]] = ()
+) -> PETSc.Mat:
+    """Empty matrix for a bilinear form, with room for nodes that no integral reaches: diagonal, and coupled groups."""
     pattern = fem.create_sparsity_pattern(form)
     pattern.insert_diagonal(diagonal_blocks)
+    for nodes in couplings:
+        pattern.insert(nodes, nodes)
     pattern.finalize()
     matrix: PETSc.Mat = dolfinx.cpp.la.petsc.create_matrix(COMM, pattern)
     symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
@@ -177,11 +184,23 @@ def create_matrix(form: Any, diagonal_blocks: NDArray[np.int32]) -> PETSc.Mat:
     return matrix
 
 
-def cell_matrix(V: Any, cell_nodes: NDArray[np.int32], diagonal_blocks: NDArray[np.int32]) -> Any:
-    """Empty DOLFINx CSR matrix that couples the nodes of each cell, with room on the diagonal of further nodes."""
+def flush(matrix: PETSc.Mat) -> None:
+    """End a round of insertions, so that additions may follow."""
+    halfway: Any = PETSc.Mat.AssemblyType.FLUSH  # the stubs give it the wrong type
+    matrix.assemble(halfway)
+
+
+def add_block(matrix: Any, rows: NDArray[np.int32], block: NDArray[np.float64]) -> None:
+    """Add a dense block at rows and columns of a PETSc matrix, given by numbers local to this process."""
+    add = PETSc.InsertMode.ADD
+    matrix.setValuesLocal(rows, rows, block, add)
+
+
+def cell_matrix(V: Any, groups: Sequence[NDArray[np.int32]], diagonal_blocks: NDArray[np.int32]) -> Any:
+    """Empty DOLFINx CSR matrix that couples the nodes of each group, with room on the diagonal of further nodes."""
     index_map = V.dofmap.index_map
     pattern = dolfinx.cpp.la.SparsityPattern(COMM, [index_map, index_map], [3, 3])
-    for nodes in cell_nodes:
+    for nodes in groups:
         pattern.insert(nodes, nodes)
     pattern.insert_diagonal(diagonal_blocks)
     pattern.finalize()

@@ -61,7 +61,7 @@ def solve_increments(
     if not len(targets) or np.any(np.diff([0.0, *targets]) <= 0.0) or not np.all(np.isfinite(targets)):
         raise InputError("targets", list(targets), "must increase from above zero", "sort them and drop repeats")
     problem = solver.problem
-    reached, good, step = 0.0, problem.u.x.array.copy(), float(targets[0])
+    reached, good, step = 0.0, problem.state(), float(targets[0])
     smallest = SMALLEST_FRACTION * step
     for target in targets:
         step = max(step, float(target) - reached)
@@ -78,7 +78,8 @@ def solve_increments(
             if on_attempt is not None:
                 on_attempt(record)
             if outcome.converged:
-                reached, good, step = goal, problem.u.x.array.copy(), 2.0 * step
+                problem.surfaces.accept()
+                reached, good, step = goal, problem.state(), 2.0 * step
                 yield ConvergedState(
                     control=goal,
                     wanted=goal == float(target),
@@ -87,7 +88,7 @@ def solve_increments(
                     reaction=problem.reaction(outcome.residual),
                 )
                 continue
-            problem.u.x.array[:] = good
+            problem.restore(good)
             step *= 0.5
             if outcome.stalled or step < smallest or len(history) >= attempt_limit:
                 raise ConvergenceError(_message(reached, goal, step, outcome), history)
@@ -95,7 +96,7 @@ def solve_increments(
 
 def _lag(problem: StaticProblem, step: float, *, first: bool) -> float:
     """Contact lag of an increment [m]: its rise; at first touch only the lowest 2 % of the rise may touch."""
-    if problem.contact is None:
+    if problem.contact is None and not problem.surfaces.terms:
         return 0.0
     return (0.98 if first else 1.0) * step
 

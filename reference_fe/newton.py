@@ -91,6 +91,9 @@ class NewtonSolver:
         while True:
             history.append(self._relative(residual, moved=not history and bool(offset.any())))
             if history[-1] <= self.settings.relative_tolerance:
+                if problem.surfaces.augment() and len(history) <= self.settings.maximum_iterations:
+                    residual = problem.residual()
+                    continue
                 spurious = self._is_spurious()
                 return NewtonOutcome(
                     converged=not spurious, residuals=tuple(history), residual=residual, spurious=spurious
@@ -120,8 +123,8 @@ class NewtonSolver:
         if offset.any():
             right_hand_side -= self._lifted(offset)
             right_hand_side[problem.supported] = offset[problem.supported]
-        self._matrix = problem.tangent(self._matrix)
-        if self._ksp is None:
+        last, self._matrix = self._matrix, problem.tangent(self._matrix)
+        if self._ksp is None or self._matrix is not last:
             self._ksp = _mumps(self._matrix)
         x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
         b.array[:] = right_hand_side

@@ -11,6 +11,7 @@ the solution, stay the same. docs/theory.md has the derivation. Verified by test
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,12 +26,29 @@ from reference_fe.contact_patch import contact_faces, distance_at_touch
 from reference_fe.discretisation import Discretisation, ElementFamily
 from reference_fe.dolfinx_api import fem, fem_petsc, ufl
 from reference_fe.domain import Domain
+from reference_fe.form_cells import FormCells
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.loads import edge_load_vector, virtual_work
 from reference_fe.support_dofs import build_supports
 from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, PlaneContact, Support, Traction
+from reference_fe.surface_assembly import SurfaceAssembly
+from reference_fe.surface_term import SurfaceDescription, TermState
 
-__all__ = ["Discretisation", "ElementFamily", "StaticProblem"]
+__all__ = ["Discretisation", "ElementFamily", "ProblemState", "StaticProblem"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProblemState:
+    """What an increment starts from.
+
+    Attributes
+    ----------
+    displacement : (n_dofs,) [m]
+    surfaces : committed history of each surface term
+    """
+
+    displacement: NDArray[np.float64]
+    surfaces: tuple[TermState, ...]
 
 
 class StaticProblem:
@@ -41,6 +59,7 @@ class StaticProblem:
     domain : mesh with tags
     materials : part name -> material, for every part that deforms; parts left out are rigid and must be supported
     supports, tractions, loads, contact : boundary conditions
+    surfaces : further contacts, see `surface_term`
     discretisation : law, degree, quadrature
 
     Attributes
@@ -61,6 +80,7 @@ class StaticProblem:
         tractions: Sequence[Traction] = (),
         loads: Sequence[BodyForce | EdgeLoad | EndMoment] = (),
         contact: PlaneContact | None = None,
+        surfaces: Sequence[SurfaceDescription] = (),
         discretisation: Discretisation | None = None,
     ) -> None:
         self.domain, self.contact = domain, contact
@@ -81,8 +101,8 @@ class StaticProblem:
         self.bcs, self._prescribed = build_supports(domain, self.V, supports)
         marked = [bc.dof_indices()[0] for bc in self.bcs]
         self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
-        if self._compiled is not None:
-            self._compiled.prepare_matrix(self.supported)
+        self.surfaces = SurfaceAssembly([surface.build(domain, self.V) for surface in surfaces], self.V)
+        self._pattern_version: tuple[int, ...] | None = None
         self.set_control(0.0)
 
     @property
@@ -99,6 +119,7 @@ class StaticProblem:
             self.plane_normal.value = np.asarray(self.contact.normal)
             self.plane_distance.value = self.contact.distance_at_touch - control
             self.penalty.value = self.contact.stiffness
+        self.surfaces.set_control(control)
 
     def residual(self) -> NDArray[np.float64]:
         """Internal minus external force at every unknown, supported ones included, (n_dofs,) [N]."""
@@ -110,36 +131,66 @@ class StaticProblem:
             b.destroy()
         if self._compiled is not None:
             array += self._compiled.internal_force(self.u.x.array)
+        if self.surfaces.terms:
+            array -= self.surfaces.force(self.u.x.array, float(self.contact_lag.value))
         return array
 
     def tangent(self, matrix: api.PETSc.Mat | None = None) -> api.PETSc.Mat:
-        """Tangent stiffness with unit rows at supported unknowns [N/m]; give the last one back to spare its set-up."""
+        """Tangent stiffness with unit rows at supported unknowns [N/m]; give the last one back to spare its set-up.
+
+        Surface terms enter with the stiffness of the last `residual`. Another matrix object than the one given means
+        another pattern.
+        """
         if self._compiled is not None:
-            self._compiled.assemble(self.u.x.array, self._tangent_form)
+            self._assemble_compiled()
             return self._compiled.supported_matrix()
-        if matrix is None:
-            matrix = api.create_matrix(self._tangent_form, np.unique(self.supported // 3).astype(np.int32))
+        if matrix is None or self._pattern_version != self.surfaces.pattern_version:
+            self._pattern_version = self.surfaces.pattern_version
+            supported = np.unique(self.supported // 3).astype(np.int32)
+            matrix = api.create_matrix(self._tangent_form, supported, self.surfaces.couplings())
         else:
             matrix.zeroEntries()
         fem_petsc.assemble_matrix(matrix, self._tangent_form, bcs=self.bcs)
+        api.flush(matrix)
+        self.surfaces.add_to_matrix(matrix, self.supported)
         matrix.assemble()
         return matrix
 
     def unsupported_tangent(self) -> api.PETSc.Mat:
         """Tangent stiffness without regard to the supports [N/m]; a new matrix, to be destroyed by the caller."""
         if self._compiled is not None:
-            self._compiled.assemble(self.u.x.array, self._tangent_form)
+            self._assemble_compiled()
             return self._compiled.copied_matrix()
-        matrix: api.PETSc.Mat = fem_petsc.assemble_matrix(self._tangent_form)
+        matrix = api.create_matrix(self._tangent_form, np.zeros(0, dtype=np.int32), self.surfaces.couplings())
+        fem_petsc.assemble_matrix(matrix, self._tangent_form)
+        api.flush(matrix)
+        self.surfaces.add_to_matrix(matrix, np.zeros(0, dtype=np.int32))
         matrix.assemble()
         return matrix
 
+    def _assemble_compiled(self) -> None:
+        assert self._compiled is not None
+        if self._pattern_version != self.surfaces.pattern_version:
+            self._pattern_version = self.surfaces.pattern_version
+            self._compiled.prepare_matrix(self.supported, self.surfaces.couplings())
+        self._compiled.assemble(self.u.x.array, self._tangent_form, self.surfaces)
+
+    def state(self) -> ProblemState:
+        """Displacement and committed history of the surface terms, to come back to."""
+        return ProblemState(displacement=self.u.x.array.copy(), surfaces=self.surfaces.state())
+
+    def restore(self, state: ProblemState) -> None:
+        """Go back to a state; the control parameter is the caller's."""
+        self.u.x.array[:] = state.displacement
+        self.surfaces.restore(state.surfaces)
+
     def contact_force(self) -> NDArray[np.float64]:
-        """Force of the plane on the body, integral of the contact pressure, (3,) [N]."""
-        if self._contact_form is None:
-            return np.zeros(3)
-        total = self.domain.mesh.comm.allreduce(fem.assemble_scalar(self._contact_form))
-        return np.asarray(self.plane_normal.value * total, dtype=np.float64)
+        """Force of plane and surfaces on the body, integral of the contact pressure, (3,) [N]."""
+        force = self.surfaces.resultant()
+        if self._contact_form is not None:
+            total = self.domain.mesh.comm.allreduce(fem.assemble_scalar(self._contact_form))
+            force = force + self.plane_normal.value * total
+        return np.asarray(force, dtype=np.float64)
 
     def reaction(self, residual: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sum of the support forces on the body, from the residual at supported unknowns, (3,) [N]."""
@@ -152,10 +203,8 @@ class StaticProblem:
             step = self.du.x.array if extrapolate else np.zeros_like(self.du.x.array)
             self._compiled.store_stress(self.u.x.array, step)
             return
-        point_stress = self._extrapolated_stress if extrapolate else self._current_stress
-        values = point_stress(self.domain.mesh, self._flexible_cells)
-        stored = self._stored_stress.x.array.reshape(-1, values[0].size)
-        stored[self._flexible_cells] = values.reshape(len(values), -1)
+        assert self._forms is not None
+        self._forms.store_stress(extrapolate=extrapolate)
 
     def smallest_stretch(self) -> float:
         """Smallest principal stretch at any Gauss point [-]; zero or less where a cell is turned inside out."""
@@ -194,19 +243,20 @@ class StaticProblem:
         return lam, mu
 
     def _build_forms(self, loads: Sequence[BodyForce | EndMoment | Traction]) -> None:
-        choice, u = self.discretisation, self.u
+        domain, choice, u = self.domain, self.discretisation, self.u
         v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
         suits = (choice.law, choice.family) == (MaterialLaw.ST_VENANT_KIRCHHOFF, ElementFamily.LAGRANGE)
         residual, tangent = None, None
-        self._compiled = None
-        if choice.compiled and suits and choice.mixed_integration_points and self.domain.mesh.comm.size == 1:
+        self._compiled, self._forms = None, None
+        if choice.compiled and suits and choice.mixed_integration_points and domain.mesh.comm.size == 1:
             cells = self._flexible_cells
             lame = np.column_stack([field.x.array[cells] for field in self.lame])
-            self._compiled = CompiledCells(self.domain, self.V, cells, lame, choice.gauss_points)
+            self._compiled = CompiledCells(domain, self.V, cells, lame, choice.gauss_points)
         else:
-            residual, tangent = self._cell_forms(v, w)
+            self._forms = FormCells(domain, tuple(self.materials), (u, self.du), self.lame, choice)
+            residual, tangent = self._forms.residual, self._forms.tangent
         for load in loads:
-            work = self.load_factor * virtual_work(self.domain, load, u, v)
+            work = self.load_factor * virtual_work(domain, load, u, v)
             residual = _sum(residual, -work)
             if isinstance(load, EndMoment):
                 tangent = _sum(tangent, -ufl.derivative(work, u, w))
@@ -215,23 +265,6 @@ class StaticProblem:
         self._deformation_gradient = api.PointEvaluation(law_of.deformation_gradient(u), points)
         self._residual_form = None if residual is None else api.compile_form(residual)
         self._tangent_form = None if tangent is None else api.compile_form(tangent)
-
-    def _cell_forms(self, v: api.Expr, w: api.Expr) -> tuple[api.Expr, api.Expr]:
-        """Residual and tangent of the deformable cells as UFL forms."""
-        choice, u, mesh = self.discretisation, self.u, self.domain.mesh
-        parts = self.domain.part_tags(self.materials)
-        dx = api.cell_measure(mesh, self.domain.cell_tags, parts, choice.gauss_points)
-        S = law_of.second_piola_kirchhoff(choice.law, u, self.lame)
-        self._stored_stress = fem.Function(api.quadrature_space(mesh, choice.gauss_points, (3, 3)))
-        S_geo = self._stored_stress if choice.mixed_integration_points else S
-        dE_v = law_of.linearised_strain(u, v)
-        CC_dE = law_of.stress_increment(choice.law, u, w, self.lame)
-        points, _ = api.gauss_rule(choice.gauss_points)
-        increment = law_of.stress_increment(choice.law, u, self.du, self.lame)
-        self._extrapolated_stress = api.PointEvaluation(S + increment, points)
-        self._current_stress = api.PointEvaluation(S, points)
-        tangent = ufl.inner(CC_dE, dE_v) * dx + ufl.inner(S_geo, ufl.sym(ufl.grad(w).T * ufl.grad(v))) * dx
-        return ufl.inner(S, dE_v) * dx, tangent
 
     def _add_contact(
         self, residual: api.Expr, tangent: api.Expr, v: api.Expr, w: api.Expr

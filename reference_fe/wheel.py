@@ -256,7 +256,7 @@ class _WheelRun:
     def _keep_snapshot(self, wanted: float, control: float, load: float) -> None:
         """Solve at the deflection interpolated for the wanted load, keep the fields, and return to ``control``."""
         problem, last = self.problem, self.rows[-1]
-        here = problem.u.x.array.copy()
+        here = problem.state()
         fraction = (wanted - last["load_N"]) / (load - last["load_N"])
         deflection = last["deflection_m"] + fraction * (control - last["deflection_m"])
         problem.set_control(deflection)
@@ -269,7 +269,7 @@ class _WheelRun:
                     von_mises=self.stress.nodal_von_mises(),
                 )
             )
-        problem.u.x.array[:] = here
+        problem.restore(here)
         problem.set_control(control)
 
 

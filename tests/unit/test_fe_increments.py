@@ -21,6 +21,13 @@ class ScriptedSolver:
         self.u = SimpleNamespace(x=SimpleNamespace(array=np.zeros(1)))
         self.problem: Any = self
         self.contact = None
+        self.surfaces = SimpleNamespace(terms=(), accept=lambda: None)
+
+    def state(self) -> np.ndarray:
+        return self.u.x.array.copy()
+
+    def restore(self, state: np.ndarray) -> None:
+        self.u.x.array[:] = state
 
     def set_control(self, control: float) -> None:
         self.control = control

@@ -1,0 +1,126 @@
+"""Adds the surface terms of a problem to its residual and its matrix."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from reference_fe import dolfinx_api as api
+from reference_fe.surface_term import SurfaceForces, SurfaceTerm, TermState
+
+__all__ = ["SurfaceAssembly"]
+
+
+class SurfaceAssembly:
+    """All surface terms of one problem.
+
+    Parameters
+    ----------
+    terms : the terms, in a fixed order
+    V : displacement space
+
+    Verified by tests/unit/test_fe_surface_assembly.py.
+    """
+
+    def __init__(self, terms: Sequence[SurfaceTerm], V: api.Expr) -> None:
+        self.terms, self._dim = tuple(terms), int(V.dofmap.index_map_bs)
+        self._forces = api.fem.Function(V)
+        self._batches: tuple[SurfaceForces, ...] = ()
+
+    @property
+    def pattern_version(self) -> tuple[int, ...]:
+        """Changes when any term couples other nodes than before."""
+        return tuple(term.pattern_version for term in self.terms)
+
+    def couplings(self) -> list[NDArray[np.int32]]:
+        """Groups of nodes that any term may couple."""
+        return [group[group >= 0].astype(np.int32) for term in self.terms for group in term.couplings()]
+
+    def set_control(self, control: float) -> None:
+        """Set every term's control parameter."""
+        for term in self.terms:
+            term.set_control(control)
+
+    def force(self, u: NDArray[np.float64], lag: float) -> NDArray[np.float64]:
+        """Force on the body at every own unknown, (n_own_dofs,) [N]; keeps the blocks for the matrix."""
+        self._batches = tuple(term.evaluate(u, lag) for term in self.terms)
+        total = self._forces.x.array
+        total[:] = 0.0
+        for batch in self._batches:
+            _add_forces(batch.nodes, batch.force, total)
+        return api.sum_shared(self._forces)
+
+    def add_to_csr(self, indptr: NDArray[np.int32], indices: NDArray[np.int32], data: NDArray[np.float64]) -> None:
+        """Add the stiffness of the last evaluation to a CSR matrix that has room for it."""
+        for batch in self._batches:
+            _add_blocks(batch.nodes, batch.stiffness, indptr, indices, data)
+
+    def add_to_matrix(self, matrix: api.PETSc.Mat, supported: NDArray[np.int32]) -> None:
+        """Add the stiffness of the last evaluation to a PETSc matrix, not at supported unknowns."""
+        free = np.ones(len(self._forces.x.array))
+        free[supported] = 0.0
+        for batch in self._batches:
+            for nodes, stiffness in zip(batch.nodes, batch.stiffness, strict=True):
+                here = np.flatnonzero(nodes >= 0)
+                rows = (self._dim * nodes[here, None] + np.arange(self._dim)).ravel().astype(np.int32)
+                block = stiffness[here][:, :, here].reshape(len(rows), len(rows))
+                api.add_block(matrix, rows, free[rows, None] * block * free[rows])
+
+    def resultant(self) -> NDArray[np.float64]:
+        """Sum of all outer surface forces on the body at the last evaluation, (dim,) [N]."""
+        return np.asarray(sum((term.resultant() for term in self.terms), np.zeros(self._dim)))
+
+    def augment(self) -> bool:
+        """Let every term improve its multipliers; True if any asks for another solve."""
+        asked = [term.augment() for term in self.terms]
+        return any(asked)
+
+    def accept(self) -> None:
+        """Commit every term's history."""
+        for term in self.terms:
+            term.accept()
+
+    def state(self) -> tuple[TermState, ...]:
+        """Committed history of every term."""
+        return tuple(term.state() for term in self.terms)
+
+    def restore(self, states: Sequence[TermState]) -> None:
+        """Go back to a committed history."""
+        for term, state in zip(self.terms, states, strict=True):
+            term.restore(state)
+
+
+@numba.njit(cache=True)
+def _add_forces(nodes: NDArray[np.int64], force: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+    dim = force.shape[2]
+    for m in range(nodes.shape[0]):
+        for a in range(nodes.shape[1]):
+            if nodes[m, a] >= 0:
+                for i in range(dim):
+                    out[dim * nodes[m, a] + i] += force[m, a, i]
+
+
+@numba.njit(cache=True)
+def _add_blocks(
+    nodes: NDArray[np.int64],
+    stiffness: NDArray[np.float64],
+    indptr: NDArray[np.int32],
+    indices: NDArray[np.int32],
+    data: NDArray[np.float64],
+) -> None:
+    """Each node pair is found by bisection in its first row; the columns of a node lie side by side in all its rows."""
+    dim = stiffness.shape[2]
+    for m in range(nodes.shape[0]):
+        for a in range(nodes.shape[1]):
+            for b in range(nodes.shape[1]):
+                if nodes[m, a] < 0 or nodes[m, b] < 0:
+                    continue
+                row = dim * nodes[m, a]
+                first, last = indptr[row], indptr[row + 1]
+                place = np.searchsorted(indices[first:last], dim * nodes[m, b])
+                for i in range(dim):
+                    for j in range(dim):
+                        data[indptr[row + i] + place + j] += stiffness[m, a, i, b, j]

@@ -1,0 +1,128 @@
+"""Surface terms in the residual and the matrix, checked with a nonlinear spring between far nodes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from contracts.materials import Material
+from reference_fe.domain import Domain
+from reference_fe.newton import NewtonSettings, NewtonSolver
+from reference_fe.static_problem import Discretisation, StaticProblem
+from reference_fe.supports import Support
+from reference_fe.surface_term import SurfaceForces
+from tests.structured_hexahedra import block_mesh
+
+SOFT = Material(name="a", young_modulus=3.0, poisson_ratio=0.3, density=1.0, yield_strength=1.0, source="test")
+
+
+class SpringTerm:
+    """Force control - k w - k w^3 on the relative displacement w of two nodes; a third place is not used."""
+
+    def __init__(self, nodes: tuple[int, int], k: float = 0.7) -> None:
+        self.nodes, self.k, self.control, self.version, self.solves_left = nodes, k, 0.0, 0, 0
+
+    def build(self, domain: Domain, V: Any) -> SpringTerm:
+        return self
+
+    @property
+    def pattern_version(self) -> int:
+        return self.version
+
+    def couplings(self) -> NDArray[np.int64]:
+        return np.array([[*self.nodes, -1]])
+
+    def set_control(self, control: float) -> None:
+        self.control = control
+
+    def evaluate(self, u: NDArray[np.float64], lag: float) -> SurfaceForces:
+        a, b = (u[3 * n : 3 * n + 3] for n in self.nodes)
+        w = b - a
+        pull = self.k * (w + w**3) - self.control
+        slope = np.diag(self.k * (1.0 + 3.0 * w**2))
+        force, stiffness = np.zeros((1, 3, 3)), np.zeros((1, 3, 3, 3, 3))
+        force[0, 0], force[0, 1] = pull, -pull
+        for i, row in enumerate((1.0, -1.0)):
+            for j, column in enumerate((1.0, -1.0)):
+                stiffness[0, i, :, j] = row * column * slope
+        return SurfaceForces(nodes=self.couplings(), force=force, stiffness=stiffness)
+
+    def resultant(self) -> NDArray[np.float64]:
+        return np.zeros(3)
+
+    def augment(self) -> bool:
+        self.solves_left -= 1
+        return self.solves_left >= 0
+
+    def accept(self) -> None:
+        pass
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        return {}
+
+    def restore(self, state: object) -> None:
+        pass
+
+
+def sprung_block(*, compiled: bool) -> tuple[StaticProblem, SpringTerm]:
+    term = SpringTerm((0, 0))
+    made = StaticProblem(
+        Domain.from_tagged(block_mesh((3, 1, 1), lambda X: X * [3.0, 1.0, 1.0])),
+        {"body": SOFT},
+        [Support(faces=("x0",))],
+        surfaces=[term],
+        discretisation=Discretisation(compiled=compiled),
+    )
+    far = np.argsort(made.V.tabulate_dof_coordinates()[:, 0])
+    term.nodes = int(far[len(far) // 2]), int(far[-1])
+    return made, term
+
+
+def dense(made: StaticProblem) -> NDArray[np.float64]:
+    indptr, indices, values = made.unsupported_tangent().getValuesCSR()
+    out = np.zeros((made.dofs, made.dofs))
+    out[np.repeat(np.arange(made.dofs), np.diff(indptr)), indices] = values
+    return out
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+def test_tangent_is_the_derivative_of_the_residual(compiled: bool) -> None:
+    made, _ = sprung_block(compiled=compiled)
+    rng = np.random.default_rng(5)
+    u = 0.05 * rng.standard_normal(made.dofs)
+    direction = rng.standard_normal(made.dofs)
+    residuals = []
+    for step in (1e-6, -1e-6, 0.0):
+        made.u.x.array[:] = u + step * direction
+        residuals.append(made.residual())
+    made.store_stress(extrapolate=False)
+    slope = (residuals[0] - residuals[1]) / 2e-6
+    np.testing.assert_allclose(dense(made) @ direction, slope, atol=1e-7)
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+def test_newton_solves_with_a_pattern_that_changes(compiled: bool) -> None:
+    made, term = sprung_block(compiled=compiled)
+    solver = NewtonSolver(made, NewtonSettings(relative_tolerance=1e-10))
+    ends = []
+    for nodes in (term.nodes, (term.nodes[0], term.nodes[1] - 1), term.nodes):
+        term.nodes, term.version = nodes, term.version + 1
+        made.set_control(0.05)
+        outcome = solver.solve()
+        assert outcome.converged
+        assert outcome.iterations <= 8
+        ends.append(made.u.x.array.copy())
+    assert np.linalg.norm(ends[0] - ends[1]) > 1e-3 * np.linalg.norm(ends[0])
+    np.testing.assert_allclose(ends[2], ends[0], atol=1e-9)
+
+
+def test_augmentation_asks_for_more_solves() -> None:
+    made, term = sprung_block(compiled=True)
+    term.solves_left = 2
+    made.set_control(0.05)
+    outcome = NewtonSolver(made, NewtonSettings()).solve()
+    assert outcome.converged
+    assert sum(r <= 1e-8 for r in outcome.residuals) == 3
