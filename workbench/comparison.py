@@ -24,6 +24,7 @@ from workbench.graph import degrees
 from workbench.result_files import read_result
 from workbench.results import CURVE, ModelCurves, UserCurve, model_curves
 from workbench.study import Study
+from workbench.topics import topics_of
 
 __all__ = ["Comparison", "compare", "exit_status", "overall_status"]
 
@@ -39,6 +40,7 @@ class Comparison:
     users : the user's own curves
     mesh, mesh_whole : numbers of both meshes
     metrics : distances between curves by pair
+    topics : results of each topic by its name
     checks : the verdict, line by line
     """
 
@@ -50,6 +52,7 @@ class Comparison:
     mesh: Mapping[str, Any]
     mesh_whole: Mapping[str, Any]
     metrics: Mapping[str, Any]
+    topics: Mapping[str, Any]
     checks: tuple[Check, ...]
 
     @property
@@ -77,6 +80,7 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
         mesh=read_result(folders["mesh"]),
         mesh_whole=read_result(folders["mesh_whole"]),
         metrics=metrics,
+        topics={topic.name: topic.read(study, folders) for topic in topics_of(study)},
         checks=(),
     )
     plate = read_result(folders["ancf_plate"])
@@ -100,7 +104,8 @@ def _checks(study: Study, found: Comparison, plate: Mapping[str, float], fine: F
     checks += agreement_checks(found.metrics, tol)
     checks += [*spread_checks(fe, tol), yield_check(fe, strength), *overlap_checks(fe)]
     checks.append(circumferential_tangent_check(fe, study.reference, tol))
-    return checks + user_checks(found.users, found.metrics, tol)
+    checks += user_checks(found.users, found.metrics, tol)
+    return checks + [c for topic in topics_of(study) for c in topic.checks(study, found, found.topics[topic.name])]
 
 
 def _part_materials(study: Study) -> dict[str, str]:

@@ -17,7 +17,7 @@ from workbench.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.results import ModelCurves, UserCurve
 from workbench.study import Band
 
-__all__ = ["ancf_figure", "fe_figure", "models_figure", "plotly_script", "stress_figure"]
+__all__ = ["ancf_figure", "empty_figure", "fe_figure", "figure_html", "models_figure", "plotly_script", "stress_figure"]
 
 _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 _MARKERS = ("circle", "square", "diamond", "triangle-up", "cross", "x")
@@ -30,39 +30,39 @@ def plotly_script() -> str:
 
 def fe_figure(found: Comparison, band: Band) -> str:
     """FE at each orientation, their average with the mesh uncertainty, the band."""
-    figure = _empty()
+    figure = empty_figure()
     _add_band(figure, band)
     _add_orientations(figure, found.fe, "FE")
     _add_uncertainty(figure, found.fe.average, found.mesh_uncertainty)
     _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
     _add_users(figure, found.users)
-    return _html(figure, "fe-curves")
+    return figure_html(figure, "fe-curves")
 
 
 def ancf_figure(found: Comparison) -> str:
     """ANCF at each orientation and their average, with the FE average behind."""
-    figure = _empty()
+    figure = empty_figure()
     _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=2.0, dash="dot")
     _add_orientations(figure, found.ancf, "ANCF", first_colour=1)
     _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0)
-    return _html(figure, "ancf-curves")
+    return figure_html(figure, "ancf-curves")
 
 
 def models_figure(found: Comparison, band: Band) -> str:
     """The averages of all models together, with the band and the user's curves."""
-    figure = _empty()
+    figure = empty_figure()
     _add_band(figure, band)
     _add_uncertainty(figure, found.fe.average, found.mesh_uncertainty)
     _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
     _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
     _add_line(figure, found.brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
     _add_users(figure, found.users)
-    return _html(figure, "model-curves")
+    return figure_html(figure, "model-curves")
 
 
 def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:
     """Largest von Mises stress of each part against load at one orientation, with the yield strength."""
-    figure = _empty("load on the wheel [N]", "largest von Mises stress [MPa]")
+    figure = empty_figure("load on the wheel [N]", "largest von Mises stress [MPa]")
     parts = [p for p in strengths if f"max_von_mises_{p}_Pa" in curve.columns]
     for i, part in enumerate(parts):
         stress = curve.columns[f"max_von_mises_{part}_Pa"] * 1e-6
@@ -75,10 +75,11 @@ def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:
             annotation={"text": f"yield strength {strength * 1e-6:.0f} MPa", "font": {"size": 12}},
             annotation_position="top left",
         )
-    return _html(figure, "stress-curves")
+    return figure_html(figure, "stress-curves")
 
 
-def _empty(x: str = "radial deflection [mm]", y: str = "load on the wheel [N]") -> go.Figure:
+def empty_figure(x: str = "radial deflection [mm]", y: str = "load on the wheel [N]") -> go.Figure:
+    """Axes in the page's style, with these titles; zero is shown."""
     axis = {
         "showline": True,
         "linecolor": "#9aa0a6",
@@ -103,7 +104,8 @@ def _empty(x: str = "radial deflection [mm]", y: str = "load on the wheel [N]") 
     return go.Figure(layout=layout)
 
 
-def _html(figure: go.Figure, name: str) -> str:
+def figure_html(figure: go.Figure, name: str) -> str:
+    """The figure as a piece of the page; ``name`` becomes its id."""
     options = {"displayModeBar": False, "responsive": True, "plotlyServerURL": ""}
     return str(figure.to_html(full_html=False, include_plotlyjs=False, div_id=name, config=options))
 

@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TypedDict
 
 import numpy as np
 
+from workbench.graph_fe import (
+    FILES,
+    MESH,
+    Origin,
+    curve_deflections,
+    degrees,
+    fe_inputs,
+    fe_task,
+    mesh_task,
+    orientation_name,
+)
 from workbench.preset_table import preset_table
 from workbench.study import Study
 from workbench.study_models import ancf_preset, brush_parameters, wheel_design
 from workbench.task import Task
+from workbench.topics import topics_of
 
 __all__ = ["Model", "degrees", "mesh_tasks", "orientation_name", "report_tasks", "stiffness_tasks"]
 
@@ -21,47 +31,23 @@ type Model = str
 """``"fe"``, ``"ancf"`` or ``"brush"``."""
 
 
-class Origin(TypedDict):
-    """Which source text and which libraries decide a task's result."""
-
-    sources: tuple[str, ...]
-    libraries: tuple[str, ...]
-
-
-_FILES = ("contracts", "workbench.mesh_file", "workbench.result_files")
-_MESH = Origin(sources=(*_FILES, "geometry", "workbench.study_models"), libraries=("gmsh", "numpy"))
-_FE = Origin(
-    sources=(*_FILES, "reference_fe", "workbench.field_file"),
-    libraries=("dolfinx-solver-real", "fenics-ufl", "fenics-basix", "fenics-ffcx", "numpy", "numba"),
-)
-_ANCF = Origin(sources=(*_FILES, "ancf_reduced"), libraries=("numpy", "numba"))
+_ANCF = Origin(sources=(*FILES, "ancf_reduced"), libraries=("numpy", "numba"))
 _BRUSH = Origin(sources=("contracts", "rover_dynamics.brush_tire"), libraries=("numpy",))
 _METRICS = Origin(
-    sources=(*_FILES, "workbench.metrics", "workbench.results"), libraries=("numpy", "objective-rating-metrics")
+    sources=(*FILES, "workbench.metrics", "workbench.results"), libraries=("numpy", "objective-rating-metrics")
 )
-_PICTURES = Origin(sources=(*_FILES, "workbench.figures_pyvista", "workbench.palette"), libraries=("pyvista", "vtk"))
+_PICTURES = Origin(sources=(*FILES, "workbench.figures_pyvista", "workbench.palette"), libraries=("pyvista", "vtk"))
 _COMPARED_UP_TO = 250.0
 """End of the load range over which the models are compared [N]: the upper wheel load of the thesis' sweep."""
-
-
-def degrees(angle: float) -> float:
-    """Angle in degrees, free of the last digits' noise."""
-    return round(math.degrees(angle), 9)
-
-
-def orientation_name(model: Model, orientation_deg: float) -> str:
-    """``fe_phi015``; fractions of a degree as ``fe_phi022.5``."""
-    whole, _, fraction = f"{orientation_deg:.6f}".partition(".")
-    fraction = fraction.rstrip("0")
-    return f"{model}_phi{int(whole):03d}" + (f".{fraction}" if fraction else "")
 
 
 def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
     """Everything the report shows. ``curve_folder`` is where the study's own curve files lie."""
     fe = tuple(degrees(o) for o in study.fe.orientations)
     ancf = tuple(degrees(o) for o in study.ancf.orientations)
-    tasks = [*mesh_tasks(study), *_fe_tasks(study, fe), _fine_mesh_task(study), _fine_task(study)]
+    tasks = [*mesh_tasks(study), *_fe_tasks(study, fe), *_fine_tasks(study)]
     tasks += [*_ancf_tasks(study, ancf), _brush_task(study), _plate_task()]
+    tasks += [task for topic in topics_of(study) for task in topic.tasks(study)]
     curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi"))]
     tasks.append(_metrics_task(study, (*curves, "brush"), curve_folder))
     tasks.append(_picture_task(study, fe))
@@ -70,18 +56,18 @@ def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
 
 def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
     """The mesh that is solved, and the whole wheel with every part for the picture and the mass; their files."""
-    whole = _mesh_task(study, "mesh_whole", {"parts": "all", "half_width": False}, 20.0)
-    solved = _mesh_task(study, "mesh", {}, 15.0)
+    whole = mesh_task(study, "mesh_whole", {"parts": "all", "half_width": False}, cost=20.0)
+    solved = mesh_task(study, "mesh", cost=15.0)
     if not with_files:
         return solved, whole
-    sources = (*_MESH["sources"], *_PICTURES["sources"], "workbench.tasks_mesh")
+    sources = (*MESH["sources"], *_PICTURES["sources"], "workbench.tasks_mesh")
     files = Task(
         name="mesh_files",
         function="workbench.tasks_mesh_files:write_files",
         inputs={"wheel": whole.inputs["wheel"]},
         needs=("mesh", "mesh_whole"),
         sources=sources,
-        libraries=(*_MESH["libraries"], *_PICTURES["libraries"], "meshio"),
+        libraries=(*MESH["libraries"], *_PICTURES["libraries"], "meshio"),
     )
     return solved, whole, files
 
@@ -90,73 +76,23 @@ def stiffness_tasks(study: Study, model: Model, orientations_deg: Sequence[float
     """Curves of one model; no orientation means those of the study."""
     if model == "fe":
         wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
-        return (_mesh_task(study, "mesh", {}, 15.0), *_fe_tasks(study, wanted))
+        return (mesh_task(study, "mesh", cost=15.0), *_fe_tasks(study, wanted))
     if model == "ancf":
         return tuple(_ancf_tasks(study, orientations_deg or [degrees(o) for o in study.ancf.orientations]))
     return (_brush_task(study),)
 
 
-def _mesh_inputs(study: Study, factor: float) -> dict[str, Any]:
-    mesh = study.mesh
-    return {
-        "element_size": mesh.element_size / factor,
-        "axial_size": mesh.axial_size / factor,
-        "thickness_elements": mesh.thickness_elements,
-        "order": mesh.order,
-        "half_width": mesh.half_width,
-        "refinement": {part: size / factor for part, size in mesh.refinement.items()},
-        "parts": "flexible",
-    }
-
-
-def _mesh_task(study: Study, name: str, changes: dict[str, Any], cost: float, factor: float = 1.0) -> Task:
-    wheel = study.model_dump(mode="json", include={"name", "wheel", "materials"})
-    options = _mesh_inputs(study, factor) | changes
-    inputs = {"wheel": wheel, "options": options}
-    return Task(name=name, function="workbench.tasks_mesh:build", inputs=inputs, cost=cost, **_MESH)
-
-
-def _fine_mesh_task(study: Study) -> Task:
-    return _mesh_task(study, "mesh_fine", {}, 1000.0, study.fe.fine_factor)
-
-
-def _fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]) -> dict[str, Any]:
-    fe = study.fe
-    return {
-        "orientation_deg": orientation_deg,
-        "deflections": list(deflections),
-        "max_load": fe.max_load,
-        "snapshot_loads": list(fe.snapshot_loads),
-        "material_law": fe.material_law,
-        "contact_stiffness": fe.contact_stiffness,
-        "relative_tolerance": fe.relative_tolerance,
-        "materials": {part: asdict(m) for part, m in wheel_design(study).materials.items()},
-    }
-
-
 def _fe_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
-    fe = study.fe
-    grid = np.linspace(0.0, fe.max_deflection, fe.points + 1)[1:].round(12).tolist()
-    points = sorted({*grid, round(fe.fine_deflection, 12)})
-    return [
-        Task(
-            name=orientation_name("fe", orientation),
-            function="workbench.tasks_fe:solve_orientation",
-            inputs=_fe_inputs(study, orientation, points),
-            needs=("mesh",),
-            cost=100.0,
-            **_FE,
-        )
-        for orientation in orientations_deg
-    ]
+    points = curve_deflections(study)
+    return [fe_task(orientation_name("fe", o), fe_inputs(study, o, points)) for o in orientations_deg]
 
 
-def _fine_task(study: Study) -> Task:
+def _fine_tasks(study: Study) -> tuple[Task, Task]:
     """The same orientation on the fine mesh, to the one deflection where loads are compared, in two steps."""
     end = round(study.fe.fine_deflection, 12)
-    inputs = _fe_inputs(study, degrees(study.fe.fine_orientation), (0.5 * end, end)) | {"snapshot_loads": []}
-    function = "workbench.tasks_fe:solve_orientation"
-    return Task(name="fe_fine", function=function, inputs=inputs, needs=("mesh_fine",), cost=500.0, **_FE)
+    inputs = fe_inputs(study, degrees(study.fe.fine_orientation), (0.5 * end, end)) | {"snapshot_loads": []}
+    mesh = mesh_task(study, "mesh_fine", cost=1000.0, factor=study.fe.fine_factor)
+    return mesh, fe_task("fe_fine", inputs, mesh.name, cost=500.0)
 
 
 def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:

@@ -19,6 +19,7 @@ from workbench.figures_plotly import ancf_figure, fe_figure, models_figure, plot
 from workbench.number_format import displayed, displayed_reference
 from workbench.palette import PART_COLOURS
 from workbench.study import Study
+from workbench.topics import topics_of
 
 __all__ = ["PageContent", "render", "verdict"]
 
@@ -56,6 +57,7 @@ def render(content: PageContent) -> str:
     environment.filters["reference"] = displayed_reference
     found, study = content.found, content.study
     return environment.get_template("report.html.j2").render(
+        sections=_sections(study),
         study=study,
         found=found,
         verdict=verdict(found.checks),
@@ -86,6 +88,24 @@ def verdict(checks: Sequence[Check]) -> str:
     return f"{first}; {second}{f', {unknown} not evaluated' if unknown else ''}."
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Section:
+    """One section of the page: ``templates/section_{name}.html.j2`` and its title in the navigation."""
+
+    name: str
+    title: str
+
+
+_FIRST = {"checks": "Checks", "wheel": "Wheel", "models": "Models compared", "fe": "Finite elements", "ancf": "ANCF"}
+_LAST = {"numerics": "Mesh and solver", "origin": "Timings, provenance", "reading": "How to read this"}
+
+
+def _sections(study: Study) -> list[_Section]:
+    """Sections in the order of the page: the models, the topics, then what is for reference."""
+    titles = _FIRST | {topic.name: topic.title for topic in topics_of(study)} | _LAST
+    return [_Section(name=name, title=title) for name, title in titles.items()]
+
+
 def _counts(checks: Sequence[Check]) -> list[tuple[str, str, int]]:
     """(role, status, number) in a fixed order, without empty ones."""
     pairs = [(r, s) for r in ("gate", "finding") for s in ("pass", "fail", "error")]
@@ -98,12 +118,15 @@ def _figures(content: PageContent) -> dict[str, str]:
     first = next(iter(found.fe.by_orientation.values()))
     parts = found.mesh["parts"]
     strengths = {p: study.materials[n["material"]].yield_strength for p, n in parts.items() if p != "outer_hub"}
-    return {
+    figures = {
         "fe": fe_figure(found, study.reference),
         "ancf": ancf_figure(found),
         "models": models_figure(found, study.reference),
         "stress": stress_figure(first, strengths),
     }
+    for topic in topics_of(study):
+        figures |= topic.figures(study, found.topics[topic.name])
+    return figures
 
 
 def _deformed(pictures: Path) -> list[Path]:

@@ -13,6 +13,7 @@ from workbench.study import Study, WheelStudy
 from workbench.study_file import built_in_study, read_study
 from workbench.study_models import wheel_design
 from workbench.task import Task, task_keys
+from workbench.topics import TOPICS
 
 HERE = built_in_study().parent
 
@@ -37,7 +38,9 @@ def test_report_has_every_task_and_needs_come_first(study: Study) -> None:
     names = [t.name for t in tasks]
     orientations = [f"fe_phi{o:03d}" for o in (0, 15, 30, 45, 60)] + ["ancf_phi000", "ancf_phi045"]
     others = {"mesh", "mesh_whole", "mesh_fine", "fe_fine", "brush", "ancf_plate", "metrics", "pictures"}
-    assert set(names) == {*orientations, *others}
+    topics = {task.name for topic in TOPICS for task in topic.tasks(study)}
+    assert set(names) == {*orientations, *others, *topics}
+    assert len(names) == len(set(names))
     for i, task in enumerate(tasks):
         assert set(task.needs) <= set(names[:i])
 

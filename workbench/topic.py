@@ -1,0 +1,52 @@
+"""A topic: one question the report answers beside the comparison of models, with its tasks, checks and section.
+
+Verified by tests/unit/test_workbench_topics.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from contracts.records import Check
+from workbench.study import Study
+from workbench.task import Task
+
+if TYPE_CHECKING:
+    from workbench.comparison import Comparison
+
+__all__ = ["Topic"]
+
+
+def _always(study: Study) -> bool:
+    return True
+
+
+def _no_figures(study: Study, results: Any) -> Mapping[str, str]:
+    return {}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Topic:
+    """One topic of the report.
+
+    Attributes
+    ----------
+    name : identifier; the section is ``templates/section_{name}.html.j2``, which sees the results as ``topic``
+    title : what the page's navigation calls it
+    tasks : study -> tasks, each after those it needs; "mesh", "mesh_whole" and "fe_phi..." are there already
+    read : study, result folder of every task by name -> the topic's results
+    checks : study, the comparison of the models, the topic's results -> checks
+    figures : study, the topic's results -> HTML of each figure by name; the template sees them as ``figures``
+    applies : False leaves the topic out of this study's graph and report
+    """
+
+    name: str
+    title: str
+    tasks: Callable[[Study], Sequence[Task]]
+    read: Callable[[Study, Mapping[str, Path]], Any]
+    checks: Callable[[Study, Comparison, Any], Sequence[Check]]
+    figures: Callable[[Study, Any], Mapping[str, str]] = _no_figures
+    applies: Callable[[Study], bool] = _always
