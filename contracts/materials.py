@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from contracts.errors import InputError
+from contracts.materials_temperature import REFERENCE_TEMPERATURE, temperature_data
 
-__all__ = ["SPRING_STEEL", "TI_6AL_4V", "Material"]
+__all__ = ["AISI_301", "SPRING_STEEL", "TI_6AL_4V", "Material"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,6 +23,9 @@ class Material:
     density : rho > 0 [kg/m^3]
     yield_strength : R_p0.2 > 0 [Pa]
     source : where the numbers come from
+    temperature_data : name of its data in `contracts.materials_temperature`; None if its change is not known
+    temperature : temperature of these values [K]
+    thermal_strain : relative change of length from 20 C, free of stress [-]
 
     Raises
     ------
@@ -37,12 +41,19 @@ class Material:
     density: float
     yield_strength: float
     source: str
+    temperature_data: str | None = None
+    temperature: float = REFERENCE_TEMPERATURE
+    thermal_strain: float = 0.0
 
     def __post_init__(self) -> None:
+        if self.temperature_data is not None:
+            temperature_data(self.temperature_data)
         for what, value, unit in (
             ("young modulus", self.young_modulus, "Pa"),
             ("density", self.density, "kg/m^3"),
             ("yield strength", self.yield_strength, "Pa"),
+            ("temperature", self.temperature, "K"),
+            ("thermal stretch", self.thermal_stretch, ""),
         ):
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(
@@ -55,6 +66,38 @@ class Material:
                 "must lie in (-1, 0.5)",
                 "metals have about 0.3",
             )
+
+    def at(self, temperature: float) -> Material:
+        """The material at another temperature [K], from its values at 20 C and its temperature data.
+
+        Poisson's ratio and density stay (the mesh, and with it the mass, is that at 20 C). Without a source for the
+        yield strength it stays too; `temperature_data(name).yield_ratio` is then None.
+
+        Raises
+        ------
+        InputError
+            Without temperature data, outside their range, or if these values are not those of 20 C.
+        """
+        if self.temperature_data is None:
+            rule = "has no temperature data"
+            raise InputError("material", self.name, rule, 'give temperature_data = "Ti-6Al-4V" or "AISI 301"')
+        if self.temperature != REFERENCE_TEMPERATURE:
+            rule = "must be that at 20 C, from which the data count"
+            raise InputError("material", f"{self.name} at {self.temperature:g} K", rule, "start from 20 C")
+        data = temperature_data(self.temperature_data)
+        yielding = 1.0 if data.yield_ratio is None else data.yield_ratio.at(temperature)
+        return replace(
+            self,
+            young_modulus=self.young_modulus * data.modulus_ratio.at(temperature),
+            yield_strength=self.yield_strength * yielding,
+            temperature=temperature,
+            thermal_strain=data.thermal_strain.at(temperature),
+        )
+
+    @property
+    def thermal_stretch(self) -> float:
+        """Length over length at 20 C, free of stress [-]."""
+        return 1.0 + self.thermal_strain
 
     @property
     def lame_lambda(self) -> float:
@@ -75,6 +118,16 @@ TI_6AL_4V = Material(
     density=4430.0,
     yield_strength=880.0e6,
     source="MatWeb/ASM data sheet, Ti-6Al-4V grade 5 annealed, 20 C",
+    temperature_data="Ti-6Al-4V",
+)
+AISI_301 = Material(
+    name="AISI 301 full hard",
+    young_modulus=193.0e9,
+    poisson_ratio=0.3,
+    density=7880.0,
+    yield_strength=965.0e6,
+    source="data sheets of AISI 301 full hard (AMS 5519, ASTM A666): 193 GPa, 965 MPa least yield, 20 C",
+    temperature_data="AISI 301",
 )
 SPRING_STEEL = Material(
     name="spring steel",

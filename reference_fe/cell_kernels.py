@@ -1,7 +1,8 @@
 """Compiled loops over 27-node hexahedra of St. Venant-Kirchhoff material: residual, tangent, stored stress.
 
 Letters as in docs/theory.md 2: G reference gradients of the shape functions, H = grad u, F = I + H, S second
-Piola-Kirchhoff stress, w weight times Jacobian; lam, mu Lame parameters. The tangent's 3 x 3 block of nodes a and b is
+Piola-Kirchhoff stress, w weight times Jacobian; lam, mu Lame parameters, s the stress offset of free thermal expansion
+(`hyperelastic.thermal_moduli`). The tangent's 3 x 3 block of nodes a and b is
 
     K_ab = sum_q w [ lam f_a f_b^T + mu (f_b f_a^T + (G_a . G_b) F F^T) + (G_a . S_m G_b) I ],   f_a = F G_a,
 
@@ -33,18 +34,19 @@ def _displacement_gradient(G: Array, u: Array, dofs: Index, H: Array) -> None:
 
 
 @numba.njit(cache=True)
-def _second_piola(H: Array, lam: float, mu: float, S: Array) -> None:
-    """S (3, 3) = lam tr(E) I + 2 mu E with E = (H + H^T + H^T H)/2 [Pa]."""
+def _second_piola(H: Array, moduli: Array, S: Array) -> None:
+    """S (3, 3) = lam tr(E) I + 2 mu E + s I with E = (H + H^T + H^T H)/2 [Pa]; moduli (3,) lam, mu, s [Pa]."""
+    lam, mu, offset = moduli[0], moduli[1], moduli[2]
     for i in range(3):
         for j in range(3):
             S[i, j] = mu * (H[i, j] + H[j, i] + H[0, i] * H[0, j] + H[1, i] * H[1, j] + H[2, i] * H[2, j])
-    pressure = lam / (2.0 * mu) * (S[0, 0] + S[1, 1] + S[2, 2])
+    normal = lam / (2.0 * mu) * (S[0, 0] + S[1, 1] + S[2, 2]) + offset
     for i in range(3):
-        S[i, i] += pressure
+        S[i, i] += normal
 
 
 @numba.njit(cache=True)
-def internal_force(u: Array, G: Array, w: Array, lame: Array, dofs: Index, out: Array) -> None:
+def internal_force(u: Array, G: Array, w: Array, moduli: Array, dofs: Index, out: Array) -> None:
     """Add int S : DE[v] dV of every cell to ``out`` (n_dofs,) [N].
 
     Parameters
@@ -52,14 +54,14 @@ def internal_force(u: Array, G: Array, w: Array, lame: Array, dofs: Index, out: 
     u : (n_dofs,) [m]
     G : (n_cells, n_points, 3, n_nodes) [1/m]
     w : (n_cells, n_points) [m^3]
-    lame : (n_cells, 2) lambda, mu [Pa]
+    moduli : (n_cells, 3) lambda, mu, stress offset [Pa]
     dofs : (n_cells, n_nodes, 3)
     """
     H, S, P = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
     for c in range(G.shape[0]):
         for q in range(G.shape[1]):
             _displacement_gradient(G[c, q], u, dofs[c], H)
-            _second_piola(H, lame[c, 0], lame[c, 1], S)
+            _second_piola(H, moduli[c], S)
             for i in range(3):
                 for J in range(3):
                     P[i, J] = w[c, q] * (S[i, J] + H[i, 0] * S[0, J] + H[i, 1] * S[1, J] + H[i, 2] * S[2, J])
@@ -69,15 +71,15 @@ def internal_force(u: Array, G: Array, w: Array, lame: Array, dofs: Index, out: 
 
 
 @numba.njit(cache=True)
-def point_stress(u: Array, du: Array, G: Array, lame: Array, dofs: Index, out: Array) -> None:
+def point_stress(u: Array, du: Array, G: Array, moduli: Array, dofs: Index, out: Array) -> None:
     """Extrapolated stress S(E(u)) + CC : DE(u)[du] at every point into ``out`` (n_cells, n_points, 3, 3) [Pa]."""
     H, dH, S = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
     for c in range(G.shape[0]):
-        lam, mu = lame[c, 0], lame[c, 1]
+        lam, mu = moduli[c, 0], moduli[c, 1]
         for q in range(G.shape[1]):
             _displacement_gradient(G[c, q], u, dofs[c], H)
             _displacement_gradient(G[c, q], du, dofs[c], dH)
-            _second_piola(H, lam, mu, S)
+            _second_piola(H, moduli[c], S)
             trace = 0.0
             for i in range(3):
                 for j in range(3):
@@ -97,7 +99,7 @@ def add_tangent(
     stress: Array,
     G: Array,
     w: Array,
-    lame: Array,
+    moduli: Array,
     dofs: Index,
     indptr: Index,
     blocks: Index,
@@ -111,7 +113,7 @@ def add_tangent(
     indptr : (n_dofs + 1,) row starts of the matrix
     blocks : (n_cells, n_nodes, n_nodes) place of node b's three columns within the rows of node a
     values : (nnz,) [N/m]
-    u, G, w, lame, dofs : as in `internal_force`
+    u, G, w, moduli, dofs : as in `internal_force`
     """
     n = G.shape[3]
     H, F, B = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
@@ -120,7 +122,7 @@ def add_tangent(
     for c in range(G.shape[0]):
         P[:] = 0.0
         D[:] = 0.0
-        lam, mu = lame[c, 0], lame[c, 1]
+        lam, mu = moduli[c, 0], moduli[c, 1]
         for q in range(G.shape[1]):
             g, S = G[c, q], stress[c, q]
             _displacement_gradient(g, u, dofs[c], H)

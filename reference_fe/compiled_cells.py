@@ -26,7 +26,7 @@ class CompiledCells:
     domain : mesh with tags
     V : displacement space, Lagrange
     cells : (n_cells,) local numbers of the deformable cells
-    lame : (n_cells, 2) lambda and mu of each [Pa]
+    moduli : (n_cells, 3) lambda, mu and thermal stress offset of each, see `hyperelastic.thermal_moduli` [Pa]
     gauss_points : Gauss points along the cell's local axes
 
     Verified by tests/verification/test_fe_cells.py against the UFL forms.
@@ -37,10 +37,10 @@ class CompiledCells:
         domain: Domain,
         V: api.Expr,
         cells: NDArray[np.int32],
-        lame: NDArray[np.float64],
+        moduli: NDArray[np.float64],
         gauss_points: tuple[int, int, int],
     ) -> None:
-        self._lame = lame
+        self._moduli = moduli
         nodes = V.dofmap.list[cells]
         self._dofs = np.ascontiguousarray(3 * nodes[:, :, None] + np.arange(3), dtype=np.int32)
         self._gradients, self._weights = _gradients(domain, V, cells, gauss_points)
@@ -50,12 +50,12 @@ class CompiledCells:
     def internal_force(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
         """int S(E(u)) : DE(u)[v] dV, (n_dofs,) [N]; u (n_dofs,) [m]."""
         out = np.zeros_like(u)
-        cell_kernels.internal_force(u, self._gradients, self._weights, self._lame, self._dofs, out)
+        cell_kernels.internal_force(u, self._gradients, self._weights, self._moduli, self._dofs, out)
         return out
 
     def store_stress(self, u: NDArray[np.float64], du: NDArray[np.float64]) -> None:
         """Store S(E(u)) + CC : DE(u)[du] at the Gauss points."""
-        cell_kernels.point_stress(u, du, self._gradients, self._lame, self._dofs, self._stress)
+        cell_kernels.point_stress(u, du, self._gradients, self._moduli, self._dofs, self._stress)
 
     def prepare_matrix(self, supported: NDArray[np.int32], couplings: Sequence[NDArray[np.int32]] = ()) -> None:
         """Lay out the matrix: pattern, place of each cell's blocks, entries that the supports fix.
@@ -83,7 +83,7 @@ class CompiledCells:
         self._csr.data[:] = 0.0
         if boundary is not None:
             api.fem.assemble_matrix(self._csr, boundary)
-        values = (self._gradients, self._weights, self._lame, self._dofs, self._indptr, self._blocks, self._csr.data)
+        values = (self._gradients, self._weights, self._moduli, self._dofs, self._indptr, self._blocks, self._csr.data)
         cell_kernels.add_tangent(u, self._stress, *values)
         surfaces.add_to_csr(self._indptr, self._indices, self._csr.data)
 

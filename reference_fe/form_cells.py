@@ -25,6 +25,7 @@ class FormCells:
     unknowns : displacement and last Newton step [m]
     lame : Lame parameters lambda, mu [Pa]
     choice : law, quadrature, kind of tangent
+    stretch : free thermal stretch of each cell [-]
 
     Attributes
     ----------
@@ -38,20 +39,22 @@ class FormCells:
         unknowns: tuple[api.Function, api.Function],
         lame: tuple[api.Function, api.Function],
         choice: Discretisation,
+        stretch: Expr = 1.0,
     ) -> None:
         mesh, (u, du) = domain.mesh, unknowns
         V = u.function_space
         v, w = ufl.TestFunction(V), ufl.TrialFunction(V)
         dx = api.cell_measure(mesh, domain.cell_tags, domain.part_tags(parts), choice.gauss_points)
-        S = law_of.second_piola_kirchhoff(choice.law, u, lame)
+        S = law_of.second_piola_kirchhoff(choice.law, u, lame, stretch)
         self._stored = fem.Function(api.quadrature_space(mesh, choice.gauss_points, (3, 3)))
         S_geo: Expr = self._stored if choice.mixed_integration_points else S
         dE_v = law_of.linearised_strain(u, v)
-        CC_dE = law_of.stress_increment(choice.law, u, w, lame)
+        CC_dE = law_of.stress_increment(choice.law, u, w, lame, stretch)
         self.residual = ufl.inner(S, dE_v) * dx
         self.tangent = ufl.inner(CC_dE, dE_v) * dx + ufl.inner(S_geo, ufl.sym(ufl.grad(w).T * ufl.grad(v))) * dx
         points, _ = api.gauss_rule(choice.gauss_points)
-        self._extrapolated = api.PointEvaluation(S + law_of.stress_increment(choice.law, u, du, lame), points)
+        increment = law_of.stress_increment(choice.law, u, du, lame, stretch)
+        self._extrapolated = api.PointEvaluation(S + increment, points)
         self._current = api.PointEvaluation(S, points)
         self._mesh, self._cells = mesh, domain.cells_of(parts)
 

@@ -1,7 +1,14 @@
 """Hyperelastic laws in total Lagrangian form, in UFL.
 
 Both laws agree with isotropic linear elasticity (lambda, mu) at small strain. E is the Green-Lagrange strain,
-C = F^T F, J = det F. Verified by tests/verification/test_fe_patch.py.
+C = F^T F, J = det F.
+
+Free thermal expansion by the stretch theta: F = F_e theta, and the energy per volume at 20 C is theta^3 psi(F_e), so
+that S = theta S_0(C_e) with C_e = C/theta^2 and S_0 the law without expansion (multiplicative split; Lu & Pister, Int.
+J. Solids Struct. 11, 1975). For St. Venant-Kirchhoff this is S = [lambda tr(E - E_th) I + 2 mu (E - E_th)]/theta with
+E_th = (theta^2 - 1)/2 I: the additive form S_0(E - E_th) but for the factor 1/theta.
+
+Verified by tests/verification/test_fe_patch.py and tests/verification/test_fe_thermal.py.
 """
 
 from __future__ import annotations
@@ -18,6 +25,7 @@ __all__ = [
     "linearised_strain",
     "second_piola_kirchhoff",
     "stress_increment",
+    "thermal_moduli",
     "von_mises_cauchy",
 ]
 
@@ -52,33 +60,39 @@ def linearised_strain(u: Expr, du: Expr) -> Expr:
     return ufl.sym(deformation_gradient(u).T * ufl.grad(du))
 
 
-def second_piola_kirchhoff(law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr]) -> Expr:
-    """Second Piola-Kirchhoff stress S = d psi / d E [Pa]; ``lame`` = (lambda, mu) [Pa]."""
+def second_piola_kirchhoff(law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0) -> Expr:
+    """Second Piola-Kirchhoff stress S = d psi / d E [Pa]; ``lame`` = (lambda, mu) [Pa], ``stretch`` = theta [-]."""
     lam, mu = lame
     eye = ufl.Identity(3)
     if law is MaterialLaw.ST_VENANT_KIRCHHOFF:
-        E = green_lagrange(u)
-        return lam * ufl.tr(E) * eye + 2.0 * mu * E
-    F = deformation_gradient(u)
+        E = green_lagrange(u) - 0.5 * (stretch**2 - 1.0) * eye
+        return (lam * ufl.tr(E) * eye + 2.0 * mu * E) / stretch
+    F = deformation_gradient(u) / stretch
     C_inv = ufl.inv(F.T * F)
-    return mu * (eye - C_inv) + lam * ufl.ln(ufl.det(F)) * C_inv
+    return stretch * (mu * (eye - C_inv) + lam * ufl.ln(ufl.det(F)) * C_inv)
 
 
-def stress_increment(law: MaterialLaw, u: Expr, du: Expr, lame: tuple[Expr, Expr]) -> Expr:
+def stress_increment(law: MaterialLaw, u: Expr, du: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0) -> Expr:
     """Material part of the linearised stress, CC(u) : DE(u)[du] [Pa]."""
     lam, mu = lame
-    dE = linearised_strain(u, du)
+    dE = linearised_strain(u, du) / stretch
     if law is MaterialLaw.ST_VENANT_KIRCHHOFF:
         return lam * ufl.tr(dE) * ufl.Identity(3) + 2.0 * mu * dE
-    F = deformation_gradient(u)
+    F = deformation_gradient(u) / stretch
     C_inv = ufl.inv(F.T * F)
     mixed = C_inv * dE * C_inv
     return lam * ufl.inner(C_inv, dE) * C_inv + 2.0 * (mu - lam * ufl.ln(ufl.det(F))) * mixed
 
 
-def von_mises_cauchy(law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr]) -> Expr:
+def thermal_moduli(lam: float, mu: float, stretch: float) -> tuple[float, float, float]:
+    """St. Venant-Kirchhoff with expansion as S = lambda' tr(E) I + 2 mu' E + s I: lambda', mu', s [Pa]."""
+    offset = -(3.0 * lam + 2.0 * mu) * 0.5 * (stretch**2 - 1.0)
+    return lam / stretch, mu / stretch, offset / stretch
+
+
+def von_mises_cauchy(law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0) -> Expr:
     """Von Mises equivalent of the Cauchy stress sigma = F S F^T / J [Pa]."""
     F = deformation_gradient(u)
-    sigma = F * second_piola_kirchhoff(law, u, lame) * F.T / ufl.det(F)
+    sigma = F * second_piola_kirchhoff(law, u, lame, stretch) * F.T / ufl.det(F)
     deviator = ufl.dev(sigma)
     return ufl.sqrt(1.5 * ufl.inner(deviator, deviator))

@@ -64,10 +64,14 @@ class NewtonOutcome:
 
 
 class NewtonSolver:
-    """Solves a `StaticProblem` at its present control parameter; keeps matrix, pattern and symbolic analysis."""
+    """Solves a `StaticProblem` at its present control parameter; keeps matrix, pattern and symbolic analysis.
 
-    def __init__(self, problem: StaticProblem, settings: NewtonSettings) -> None:
-        self.problem, self.settings = problem, settings
+    ``inner_force`` is added to the support and contact forces that residuals are held against [N]: free expansion has
+    neither.
+    """
+
+    def __init__(self, problem: StaticProblem, settings: NewtonSettings, inner_force: float = 0.0) -> None:
+        self.problem, self.settings, self._inner_force = problem, settings, inner_force
         self._matrix: api.PETSc.Mat | None = None
         self._ksp: api.PETSc.KSP | None = None
         self._free = np.ones(problem.dofs, dtype=bool)
@@ -161,6 +165,7 @@ class NewtonSolver:
             return float("inf") if not np.isfinite(residual).all() else 1.0
         out_of_balance = float(np.linalg.norm(residual[self._free]))
         applied = float(np.linalg.norm(residual[~self._free])) + float(np.linalg.norm(self.problem.contact_force()))
+        applied += self._inner_force
         if applied == 0.0:
             return 0.0 if out_of_balance == 0.0 else 1.0
         return out_of_balance / applied

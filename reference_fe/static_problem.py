@@ -65,6 +65,7 @@ class StaticProblem:
     Attributes
     ----------
     u : displacement (DOLFINx function) [m]
+    lame, stretch : Lame parameters [Pa] and free thermal stretch [-] of each cell, as UFL expressions
     du : last Newton step [m]
     bcs : Dirichlet conditions of the supports (DOLFINx)
     supported : unknowns held by a support, ascending
@@ -91,6 +92,7 @@ class StaticProblem:
         self.V = fem.functionspace(mesh, (str(self.discretisation.family), self.discretisation.degree, (3,)))
         self.u, self.du = fem.Function(self.V, name="displacement"), fem.Function(self.V)
         self.lame = self._lame_fields()
+        self.stretch = self._stretch_field()
         self.load_factor = fem.Constant(mesh, 0.0)
         self.plane_normal, self.plane_distance = fem.Constant(mesh, np.zeros(3)), fem.Constant(mesh, 1.0)
         self.penalty = fem.Constant(mesh, 0.0)
@@ -113,8 +115,8 @@ class StaticProblem:
     def set_control(self, control: float) -> None:
         """Set the control parameter: load factor of supports and tractions [-], or rise of the plane [m]."""
         self.load_factor.value = control
-        for function, value in self._prescribed:
-            function.x.array[:] = control * value
+        for prescribed in self._prescribed:
+            prescribed.set_control(control)
         if self.contact is not None:
             self.plane_normal.value = np.asarray(self.contact.normal)
             self.plane_distance.value = self.contact.distance_at_touch - control
@@ -242,6 +244,26 @@ class StaticProblem:
         self._flexible_cells = self.domain.cells_of(self.materials)
         return lam, mu
 
+    def _stretch_field(self) -> api.Expr:
+        """Free thermal stretch of each cell [-]: one number where nothing expands, else a field."""
+        if all(material.thermal_strain == 0.0 for material in self.materials.values()):
+            return 1.0
+        stretch = fem.Function(self.lame[0].function_space)
+        stretch.x.array[:] = 1.0
+        for part, material in self.materials.items():
+            stretch.x.array[self.domain.cells_of([part])] = material.thermal_stretch
+        return stretch
+
+    def _moduli(self) -> NDArray[np.float64]:
+        """Lambda, mu and thermal stress offset of each deformable cell, (n_cells, 3) [Pa]."""
+        cells = self._flexible_cells
+        moduli = np.empty((len(cells), 3))
+        for part, material in self.materials.items():
+            rows = np.searchsorted(cells, self.domain.cells_of([part]))
+            lam, mu = material.lame_lambda, material.lame_mu
+            moduli[rows] = law_of.thermal_moduli(lam, mu, material.thermal_stretch)
+        return moduli
+
     def _build_forms(self, loads: Sequence[BodyForce | EndMoment | Traction]) -> None:
         domain, choice, u = self.domain, self.discretisation, self.u
         v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
@@ -250,10 +272,9 @@ class StaticProblem:
         self._compiled, self._forms = None, None
         if choice.compiled and suits and choice.mixed_integration_points and domain.mesh.comm.size == 1:
             cells = self._flexible_cells
-            lame = np.column_stack([field.x.array[cells] for field in self.lame])
-            self._compiled = CompiledCells(domain, self.V, cells, lame, choice.gauss_points)
+            self._compiled = CompiledCells(domain, self.V, cells, self._moduli(), choice.gauss_points)
         else:
-            self._forms = FormCells(domain, tuple(self.materials), (u, self.du), self.lame, choice)
+            self._forms = FormCells(domain, tuple(self.materials), (u, self.du), self.lame, choice, self.stretch)
             residual, tangent = self._forms.residual, self._forms.tangent
         for load in loads:
             work = self.load_factor * virtual_work(domain, load, u, v)
@@ -272,7 +293,7 @@ class StaticProblem:
         mesh, tags = self.domain.mesh, self.domain.facet_tags
         self._contact_form = None
         if self.contact is not None:
-            _check_plane(self.domain, self.contact)
+            _check_plane(self.domain, self.contact, self.materials)
             ds = ufl.ds(
                 domain=mesh,
                 subdomain_data=tags,
@@ -293,13 +314,14 @@ def _sum(form: api.Expr, term: api.Expr) -> api.Expr:
     return term if form is None else form + term
 
 
-def _check_plane(domain: Domain, contact: PlaneContact) -> None:
-    """Refuse a plane that does not just touch the undeformed body (to a thousandth of its distance)."""
+def _check_plane(domain: Domain, contact: PlaneContact, materials: Mapping[str, Material]) -> None:
+    """Refuse a plane that does not just touch the body at 20 C, to a thousandth of its distance and its expansion."""
     domain.face_tags(contact.faces)
     facets = contact_faces(domain.tagged, contact.faces)
     reach = distance_at_touch(domain.tagged, facets, -np.asarray(contact.normal))
     gap = contact.distance_at_touch - reach
-    if abs(gap) > 1e-3 * max(abs(reach), abs(contact.distance_at_touch)):
+    allowed = 1e-3 + 2.0 * max(abs(material.thermal_strain) for material in materials.values())
+    if abs(gap) > allowed * max(abs(reach), abs(contact.distance_at_touch)):
         raise InputError(
             "contact plane at the start",
             f"{abs(gap) * 1e3:.4g} mm {'off' if gap > 0 else 'inside'} the undeformed body",

@@ -27,7 +27,7 @@ class StressRecovery:
         self.problem = problem
         domain = problem.domain
         self._cells = domain.cells_of(problem.materials)
-        expression = von_mises_cauchy(problem.discretisation.law, problem.u, problem.lame)
+        expression = von_mises_cauchy(problem.discretisation.law, problem.u, problem.lame, problem.stretch)
         points, self._to_nodes = _stations(domain.tagged.order, problem.discretisation.gauss_points[0])
         self._at_stations = api.PointEvaluation(expression, points)
         self._rows = {part: np.searchsorted(self._cells, domain.cells_of([part])) for part in problem.materials}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,22 +14,44 @@ from reference_fe.dolfinx_api import fem
 from reference_fe.domain import Domain
 from reference_fe.supports import Support
 
-__all__ = ["build_supports"]
+__all__ = ["Prescribed", "build_supports"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Prescribed:
+    """One component of a support.
+
+    Attributes
+    ----------
+    function : holds the prescribed displacement [m]
+    at_load_factor_1 : displacement at load factor 1 [m]
+    expansion : (n,) thermal displacement at the function's points, there from the start [m]
+    """
+
+    function: api.Function
+    at_load_factor_1: float
+    expansion: NDArray[np.float64]
+
+    def set_control(self, control: float) -> None:
+        """Set the displacement at a load factor [-]."""
+        self.function.x.array[:] = control * self.at_load_factor_1 + self.expansion
 
 
 def build_supports(
     domain: Domain, V: api.Expr, supports: Sequence[Support]
-) -> tuple[list[api.DirichletBC], list[tuple[api.Function, float]]]:
-    """Conditions, and the function that holds each prescribed component with its value at load factor 1 [m]."""
+) -> tuple[list[api.DirichletBC], list[Prescribed]]:
+    """Conditions, and what each of them prescribes."""
     conditions: list[api.DirichletBC] = []
-    prescribed: list[tuple[api.Function, float]] = []
+    prescribed: list[Prescribed] = []
     for dim in range(4):
         domain.mesh.topology.create_connectivity(dim, 3)
     for support in supports:
         for position, component in enumerate(support.components):
             subspace, _ = V.sub(component).collapse()
             value = fem.Function(subspace)
-            prescribed.append((value, support.value[position] if support.value else 0.0))
+            expansion = (support.stretch - 1.0) * subspace.tabulate_dof_coordinates()[:, component]
+            at_load_factor_1 = support.value[position] if support.value else 0.0
+            prescribed.append(Prescribed(function=value, at_load_factor_1=at_load_factor_1, expansion=expansion))
             spaces = (V.sub(component), subspace)
             conditions += [fem.dirichletbc(value, dofs, spaces[0]) for dofs in _located(domain, support, spaces)]
     return conditions, prescribed

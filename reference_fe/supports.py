@@ -22,6 +22,10 @@ class Support:
     meetings : each names the faces that have the supported nodes in common: two for a line, three for a point
     components : displacement components held, of 0 (x), 1 (y), 2 (z)
     value : displacement at load factor 1, one for each component [m]; zero holds the faces
+    stretch : free thermal stretch theta of what is held [-]: it is displaced by (theta - 1) X from the start, X counted
+        from the origin
+
+    Verified by tests/verification/test_fe_thermal.py (stretch) and the other verification problems.
     """
 
     faces: tuple[str, ...] = ()
@@ -29,8 +33,11 @@ class Support:
     meetings: tuple[tuple[str, ...], ...] = ()
     components: tuple[int, ...] = (0, 1, 2)
     value: tuple[float, ...] | None = None
+    stretch: float = 1.0
 
     def __post_init__(self) -> None:
+        if not self.stretch > 0.0:
+            raise InputError("support stretch", self.stretch, "must be > 0", "1 is no expansion")
         if not self.faces and not self.parts and not self.meetings:
             raise InputError("support", "no face, no part", "must name where it holds", "name a face or a part")
         if any(len(faces) < 2 for faces in self.meetings):

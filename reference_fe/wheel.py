@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,7 @@ from reference_fe.overlap import FaceOverlap
 from reference_fe.static_problem import Discretisation, StaticProblem
 from reference_fe.stress import StressRecovery
 from reference_fe.supports import PlaneContact, Support
+from reference_fe.thermal_state import solve_thermal_state
 
 __all__ = ["FieldSnapshot", "WheelLoadCase", "WheelResult", "solve_wheel"]
 
@@ -120,7 +121,7 @@ def solve_wheel(
     mesh : wheel in its frame; contact faces ``tire_outer`` and ``grouser_outer``; a face group ``symmetry`` marks a
         half width, whose loads and areas are doubled in the result
     materials : part name -> material; parts in ``load_case.rigid_parts`` (by default the hubs and what links them) need
-        none
+        none, but if theirs has a thermal strain they expand by it. First touch is that of the expanded wheel
     progress : called with the deflection reached [m] and the load [N] after each increment
 
     Returns
@@ -163,14 +164,20 @@ class _WheelRun:
         faces = tuple(face for face in CONTACT_FACES if face in mesh.faces)
         self.facets = contact_faces(mesh, faces)
         self.direction = ground_direction_h(np.deg2rad(load_case.orientation_deg))
-        self.touch = distance_at_touch(mesh, self.facets, self.direction)
         self.half_width = "symmetry" in mesh.faces
-        supports = _hub_supports(mesh, rigid)
+        supports = _hub_supports(mesh, rigid, materials)
         if self.half_width:
             supports.append(Support(faces=("symmetry",), components=(1,)))
+        domain = Domain.from_tagged(mesh)
+        discretisation = Discretisation(law=load_case.law, gauss_points=load_case.gauss_points)
+        expanded, shape = None, mesh
+        if any(material.thermal_strain for material in materials.values()):
+            expanded = solve_thermal_state(domain, flexible, supports, discretisation, load_case.newton)
+            shape = replace(mesh, points=mesh.points + expanded.nodal_displacement())
+        self.touch = distance_at_touch(shape, self.facets, self.direction)
         n = -self.direction
         self.problem = StaticProblem(
-            Domain.from_tagged(mesh),
+            domain,
             flexible,
             supports,
             contact=PlaneContact(
@@ -180,8 +187,10 @@ class _WheelRun:
                 stiffness=load_case.contact_stiffness,
                 ramp=load_case.contact_ramp,
             ),
-            discretisation=Discretisation(law=load_case.law, gauss_points=load_case.gauss_points),
+            discretisation=discretisation,
         )
+        if expanded is not None:
+            self.problem.u.x.array[:] = expanded.u.x.array
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress = StressRecovery(self.problem)
         springs = tuple(part for part in flexible if part not in ("tire", "grousers", *HUB_PARTS))
@@ -273,11 +282,12 @@ class _WheelRun:
         problem.set_control(control)
 
 
-def _hub_supports(mesh: TaggedMesh, rigid: tuple[str, ...]) -> list[Support]:
-    """What holds the wheel: its rigid parts, and the bore of an inner hub that is elastic."""
-    supports = [Support(parts=rigid)] if rigid else []
+def _hub_supports(mesh: TaggedMesh, rigid: tuple[str, ...], materials: Mapping[str, Material]) -> list[Support]:
+    """What holds the wheel, expanded as its material is: its rigid parts, and the bore of an elastic inner hub."""
+    stretch = {part: materials[part].thermal_stretch if part in materials else 1.0 for part in mesh.parts}
+    supports = [Support(parts=(part,), stretch=stretch[part]) for part in rigid]
     if "inner_hub" in mesh.parts and "inner_hub" not in rigid:
-        supports.append(Support(faces=("inner_hub_bore",)))
+        supports.append(Support(faces=("inner_hub_bore",), stretch=stretch["inner_hub"]))
     if not supports:
         rule = "must hold the wheel: the mesh has neither of them nor an inner hub"
         raise InputError("rigid parts", ", ".join(rigid) or "none", rule, "name a part of the mesh, e.g. outer_hub")
