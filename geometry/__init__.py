@@ -6,6 +6,7 @@ from geometry.closed_form import closed_form_joint_areas, closed_form_volume, pa
 from geometry.measures import MeshQuality, joint_areas, mesh_quality, mesh_volume
 from geometry.msh import write_msh
 from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+from geometry.planar import build_planar_mesh
 from geometry.step import write_step
 from geometry.summary import MeshSummary, PartSummary, summarize_mesh
 from geometry.vtu import write_vtu
@@ -22,6 +23,7 @@ __all__ = [
     "Tire",
     "WheelDesign",
     "build_mesh",
+    "build_planar_mesh",
     "check_matches_design",
     "check_mesh",
     "closed_form_joint_areas",

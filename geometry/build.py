@@ -28,7 +28,7 @@ from geometry.section import build_section
 from geometry.solids import ConeShape, Solids, add_cone, add_section, mesh_solids
 from geometry.wheel import WheelDesign
 
-__all__ = ["AXIAL_RATIO", "add_cones", "add_extruded", "build_mesh"]
+__all__ = ["AXIAL_RATIO", "add_cones", "add_extruded", "build_mesh", "mesh_size"]
 
 AXIAL_RATIO = 2.5
 """Default axial element size over ``element_size``: nothing varies fast along the axle."""
@@ -75,7 +75,7 @@ def build_mesh(
 
     Verified by tests/verification/test_mesh_volume.py and tests/verification/test_mesh_conformity.py.
     """
-    size = _mesh_size(design, element_size, axial_size, thickness_elements, refinement)
+    size = mesh_size(design, element_size, axial_size, thickness_elements, refinement)
     if order not in _HEXAHEDRON:
         raise InputError("order", order, "must be 1 or 2", "use 2 for curved geometry")
     names = part_names(design, parts)
@@ -127,13 +127,14 @@ def _cone_shape(
     )
 
 
-def _mesh_size(
+def mesh_size(
     design: WheelDesign,
     element_size: float,
     axial_size: float | None,
     thickness_elements: int,
     refinement: Mapping[str, float] | None,
 ) -> MeshSize:
+    """Element sizes, checked; raises InputError for sizes out of range or parts that the wheel does not have."""
     require_positive_length("element size", element_size)
     axial = AXIAL_RATIO * element_size if axial_size is None else axial_size
     require_positive_length("axial size", axial)

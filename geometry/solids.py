@@ -16,7 +16,17 @@ from numpy.typing import NDArray
 from geometry.resolution import Ring
 from geometry.section import Block, Curve, Key, Section
 
-__all__ = ["ConeShape", "Solids", "add_cone", "add_section", "draw_faces", "draw_frustum_section", "mesh_solids"]
+__all__ = [
+    "ConeShape",
+    "Drawn",
+    "Solids",
+    "add_cone",
+    "add_section",
+    "divide_faces",
+    "draw_faces",
+    "draw_frustum_section",
+    "mesh_solids",
+]
 
 Array = NDArray[np.float64]
 
@@ -134,13 +144,18 @@ def add_section(gmsh: Any, solids: Solids, section: Section, band: tuple[float, 
     """
     occ = gmsh.model.occ
     drawn = draw_faces(occ, section, band[0])
+    _note_divisions(solids, drawn)
+    bases = {face for _, face, _ in drawn}
+    occ.extrude([(2, f) for f in bases], 0.0, band[1] - band[0], 0.0, numElements=[band[2]], recombine=True)
+    solids.raised.append((base, drawn))
+
+
+def _note_divisions(solids: Solids, drawn: list[Drawn]) -> None:
+    """Record how drawn blocks are divided along and across."""
     for block, face, sides in drawn:
         solids.faces.append((face, sides["corners"]))
         solids.curves += [(abs(c), block.n_length) for c in (*sides["inner"], *sides["outer"])]
         solids.curves += [(abs(c), block.n_thickness) for c in sides["ends"]]
-    bases = {face for _, face, _ in drawn}
-    occ.extrude([(2, f) for f in bases], 0.0, band[1] - band[0], 0.0, numElements=[band[2]], recombine=True)
-    solids.raised.append((base, drawn))
 
 
 def _name_raised(gmsh: Any, solids: Solids) -> None:
@@ -205,10 +220,26 @@ def mesh_solids(gmsh: Any, solids: Solids, order: int) -> None:
     _name_raised(gmsh, solids)
     for (_, volume), counts in zip(solids.volumes, solids.wedges, strict=False):
         _divide_wedge(gmsh, volume, counts)
+    _divide_bases(gmsh, solids)
+    gmsh.option.setNumber("Mesh.ElementOrder", order)
+    mesh.generate(3)
+
+
+def divide_faces(gmsh: Any, drawn: list[Drawn], order: int) -> None:
+    """Divide drawn blocks into structured quadrilaterals and mesh in two dimensions with the given order."""
+    solids = Solids()
+    _note_divisions(solids, drawn)
+    gmsh.model.occ.synchronize()
+    _divide_bases(gmsh, solids)
+    gmsh.option.setNumber("Mesh.ElementOrder", order)
+    gmsh.model.mesh.generate(2)
+
+
+def _divide_bases(gmsh: Any, solids: Solids) -> None:
+    """Transfinite counts of the base faces and their curves."""
+    mesh = gmsh.model.mesh
     for curve, count in solids.curves:
         mesh.setTransfiniteCurve(curve, count + 1)
     for face, corners in solids.faces:
         mesh.setTransfiniteSurface(face, cornerTags=list(corners))
         mesh.setRecombine(2, face)
-    gmsh.option.setNumber("Mesh.ElementOrder", order)
-    mesh.generate(3)

@@ -38,7 +38,7 @@ class CompiledCells:
         V: api.Expr,
         cells: NDArray[np.int32],
         moduli: NDArray[np.float64],
-        gauss_points: tuple[int, int, int],
+        gauss_points: tuple[int, ...],
     ) -> None:
         self._moduli = moduli
         nodes = V.dofmap.list[cells]
@@ -100,7 +100,7 @@ class CompiledCells:
 
 
 def _gradients(
-    domain: Domain, V: api.Expr, cells: NDArray[np.int32], gauss_points: tuple[int, int, int]
+    domain: Domain, V: api.Expr, cells: NDArray[np.int32], gauss_points: tuple[int, ...]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Reference gradients (n_cells, n_points, 3, n_nodes) [1/m] and weights (n_cells, n_points) [m^3]."""
     points, weights = api.gauss_rule(gauss_points)

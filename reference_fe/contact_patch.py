@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from contracts.mesh import TaggedMesh
 
-__all__ = ["ContactPatch", "contact_faces", "distance_at_touch", "facet_samples", "measure_patch"]
+__all__ = ["ContactPatch", "contact_faces", "distance_at_touch", "facet_samples", "facet_widths", "measure_patch"]
 
 _SAMPLES = 13
 _GAUSS_POINTS = 9
@@ -33,7 +33,7 @@ class ContactPatch:
 
 
 def contact_faces(mesh: TaggedMesh, names: Iterable[str]) -> NDArray[np.int64]:
-    """Node numbers of the facets of the named faces, (n_facets, 4 or 9)."""
+    """Node numbers of the facets of the named faces, (n_facets, 4 or 9), or (n_facets, 2 or 3) of a planar mesh."""
     tags = [mesh.faces[name] for name in names]
     return mesh.facets[np.isin(mesh.facet_tags, tags)]
 
@@ -43,7 +43,7 @@ def distance_at_touch(mesh: TaggedMesh, facets: NDArray[np.int64], direction: ND
 
     Parameters
     ----------
-    direction : (3,) unit vector from the origin to the plane [-]
+    direction : (dim,) unit vector from the origin to the plane [-]
 
     Returns
     -------
@@ -56,11 +56,11 @@ def distance_at_touch(mesh: TaggedMesh, facets: NDArray[np.int64], direction: ND
 def facet_samples(
     points: NDArray[np.float64], facets: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Points on the facets, edges included, and unit normals there, both (n, 3), for node positions ``points`` [m]."""
+    """Points on the facets, edges included, and unit normals there, (n, dim) each, for node positions [m]."""
     shape, derivatives = _lattice(facets.shape[1])
-    tangents = np.einsum("asn,fnk->afsk", derivatives, points[facets])
-    normals = np.cross(tangents[0], tangents[1]).reshape(-1, 3)
-    positions = np.einsum("sn,fnk->fsk", shape, points[facets]).reshape(-1, 3)
+    dim = points.shape[1]
+    normals = _area_vectors(derivatives, points[facets]).reshape(-1, dim)
+    positions = np.einsum("sn,fnk->fsk", shape, points[facets]).reshape(-1, dim)
     return positions, normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
 
@@ -78,17 +78,16 @@ def measure_patch(
 
     Parameters
     ----------
-    displacement : (n_points, 3) [m] at the mesh's nodes
+    displacement : (n_points, dim) [m] at the mesh's nodes
     plane : unit normal (plane to body) [-] and distance of the plane from the origin along -normal [m]
-    tangent : (3,) unit vector in the plane along which the length is measured [-]
+    tangent : (dim,) unit vector in the plane along which the length is measured [-]
     touch_gap : normal gap below which a point counts as touching [m], e.g. the ramp of the contact law
     """
     normal, distance = plane
     shape, derivatives, weights = _gauss(facets.shape[1])
     reference = mesh.points[facets]
     current = np.einsum("sn,fnk->fsk", shape, reference + displacement[facets])
-    tangents = np.einsum("asn,fnk->afsk", derivatives, reference)
-    jacobian = np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=-1)
+    jacobian = np.linalg.norm(_area_vectors(derivatives, reference), axis=-1) * facet_widths(mesh, facets)[:, None]
     gap = current @ normal + distance
     closed = gap < touch_gap
     if not closed.any():
@@ -98,19 +97,39 @@ def measure_patch(
     return ContactPatch(area=area, length=float(np.ptp(along)), penetration=max(0.0, float(-gap.min())))
 
 
+def facet_widths(mesh: TaggedMesh, facets: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Width of the part that each facet of a planar mesh belongs to, (n_facets,) [m]; ones for a solid mesh."""
+    widths = np.ones(len(facets))
+    for part, width in mesh.widths.items():
+        nodes = np.unique(mesh.cells[mesh.cell_tags == mesh.parts[part]])
+        widths[np.isin(facets, nodes).all(axis=1)] = width
+    return widths
+
+
+def _area_vectors(derivatives: NDArray[np.float64], nodes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Normals as long as the area (length of an edge) per reference area, (n_facets, s, dim)."""
+    tangents = np.einsum("asn,fnk->afsk", derivatives, nodes)
+    if len(tangents) == 1:
+        return np.stack([tangents[0, ..., 1], -tangents[0, ..., 0]], axis=-1)
+    return np.asarray(np.cross(tangents[0], tangents[1]))
+
+
 def _lattice(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Facet sampled up to its edges: shape functions (s, n) and derivatives (2, s, n)."""
+    """Facet sampled up to its edges: shape functions (s, n) and derivatives (dim - 1, s, n)."""
     return _shapes(np.linspace(-1.0, 1.0, _SAMPLES), nodes)
 
 
 def _gauss(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Gauss points of a facet: shape functions (s, n), derivatives (2, s, n), weights (s,)."""
+    """Gauss points of a facet: shape functions (s, n), derivatives (dim - 1, s, n), weights (s,)."""
     points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
-    return (*_shapes(points, nodes), np.outer(weights, weights).ravel())
+    return (*_shapes(points, nodes), weights if nodes in _EDGE_ORDER else np.outer(weights, weights).ravel())
 
 
 def _shapes(edge: NDArray[np.float64], nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Shape functions and derivatives on the square lattice over ``edge``."""
+    """Shape functions and derivatives on the square lattice over ``edge``, or on the line of a planar mesh's facet."""
+    if nodes in _EDGE_ORDER:
+        on_line = np.array(_line(edge, nodes))[:, _EDGE_ORDER[nodes]]
+        return on_line[0].T, on_line[1:].swapaxes(1, 2)
     a, b = (grid.ravel() for grid in np.meshgrid(edge, edge, indexing="ij"))
     la, da = _line(a, nodes)
     lb, db = _line(b, nodes)
@@ -120,6 +139,7 @@ def _shapes(edge: NDArray[np.float64], nodes: int) -> tuple[NDArray[np.float64],
     return np.stack([la[i] * lb[j] for i, j in order], axis=-1), np.stack([along, across])
 
 
+_EDGE_ORDER = {2: [0, 1], 3: [0, 2, 1]}
 _ORDER = {
     4: ((0, 0), (1, 0), (1, 1), (0, 1)),
     9: ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)),
@@ -128,7 +148,7 @@ _ORDER = {
 
 def _line(s: NDArray[np.float64], nodes: int) -> tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]]:
     """Lagrange polynomials on [-1, 1] at s, and their derivatives: linear (2) or quadratic (3 of them)."""
-    if nodes == 4:
+    if nodes in (2, 4):
         half = np.full_like(s, 0.5)
         return [(1 - s) / 2, (1 + s) / 2], [-half, half]
     return [s * (s - 1) / 2, 1 - s * s, s * (s + 1) / 2], [s - 0.5, -2 * s, s + 0.5]

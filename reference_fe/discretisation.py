@@ -27,16 +27,17 @@ class Discretisation:
     ----------
     law : stored energy
     family, degree : shape functions of the displacement, degree 1 or 2
-    gauss_points : Gauss points along the cell's three local axes; 27-node hexahedra keep full rank as long as two of
-        them have 3 points. 2 along the curved axis (see `orientation.curved_axis_first`) cures membrane locking
+    gauss_points : Gauss points along each of the cell's local axes, two axes for a planar mesh; quadratic cells keep
+        full rank as long as all but one have 3 points. 2 along the curved axis (see `orientation.curved_axis_first`)
+        cures membrane locking
     mixed_integration_points : store the stress at the points for the geometric stiffness; False is plain Newton
     compiled : assemble St. Venant-Kirchhoff cells by our own compiled loops where they can (Lagrange, mixed integration
-        points, one process); False, and everywhere else, by UFL forms: same numbers, about five times slower
+        points, one process, a solid mesh); False, and everywhere else, by UFL forms: same numbers, five times slower
     """
 
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
     family: ElementFamily = ElementFamily.LAGRANGE
     degree: int = 2
-    gauss_points: tuple[int, int, int] = (2, 3, 3)
+    gauss_points: tuple[int, ...] = (2, 3, 3)
     mixed_integration_points: bool = True
     compiled: bool = True

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from collections.abc import Sequence
 from typing import Any
 
@@ -72,7 +73,8 @@ ufl: Any = _ufl
 fem: Any = _fem
 fem_petsc: Any = _fem_petsc
 JIT_OPTIONS = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
-_HEXAHEDRON = dolfinx_mesh.CellType.hexahedron
+_CELL = {2: "quadrilateral", 3: "hexahedron"}
+_FACET = {2: "interval", 3: "quadrilateral"}
 
 
 def versions() -> dict[str, str]:
@@ -85,30 +87,37 @@ def versions() -> dict[str, str]:
 
 
 def mesh_from_arrays(points: NDArray[np.float64], cells: NDArray[np.int64]) -> Mesh:
-    """DOLFINx mesh of 8- or 27-node hexahedra in gmsh's node order; ``points`` (n, 3) [m]."""
-    degree = 1 if cells.shape[1] == 8 else 2
-    element: Any = basix.ufl.element("Lagrange", "hexahedron", degree, shape=(3,))
-    permutation = np.asarray(dolfinx.cpp.io.perm_gmsh(_HEXAHEDRON, cells.shape[1]))
+    """DOLFINx mesh of hexahedra (8 or 27 nodes) or quadrilaterals (4 or 9) in gmsh's order; ``points`` (n, dim) [m]."""
+    dim = points.shape[1]
+    degree = 1 if cells.shape[1] == 2**dim else 2
+    element: Any = basix.ufl.element("Lagrange", _CELL[dim], degree, shape=(dim,))
+    permutation = _gmsh_permutation(_CELL[dim], cells.shape[1])
     return dolfinx_mesh.create_mesh(COMM, np.ascontiguousarray(cells[:, permutation]), element, points)
+
+
+def _gmsh_permutation(cell: str, nodes: int) -> NDArray[np.int64]:
+    """Places of DOLFINx' nodes of a cell in gmsh's order."""
+    return np.asarray(dolfinx.cpp.io.perm_gmsh(dolfinx_mesh.to_type(cell), nodes))
 
 
 def facet_tags_from_nodes(mesh: Mesh, facets: NDArray[np.int64], values: NDArray[np.int32]) -> MeshTags:
     """Facet tags from facets given by their node numbers (gmsh order, input numbering)."""
-    permutation = np.asarray(dolfinx.cpp.io.perm_gmsh(dolfinx_mesh.CellType.quadrilateral, facets.shape[1]))
-    entities, local = distribute_entity_data(mesh, 2, np.ascontiguousarray(facets[:, permutation]), values)
-    mesh.topology.create_connectivity(2, 3)
-    return dolfinx_mesh.meshtags_from_entities(mesh, 2, adjacencylist(entities), local.astype(np.int32))
+    dim = mesh.topology.dim
+    permutation = _gmsh_permutation(_FACET[dim], facets.shape[1])
+    entities, local = distribute_entity_data(mesh, dim - 1, np.ascontiguousarray(facets[:, permutation]), values)
+    mesh.topology.create_connectivity(dim - 1, dim)
+    return dolfinx_mesh.meshtags_from_entities(mesh, dim - 1, adjacencylist(entities), local.astype(np.int32))
 
 
 def cell_nodes(mesh: Mesh) -> NDArray[np.int32]:
-    """Geometry nodes of each cell, (n_cells, 8 or 27), local numbering."""
+    """Geometry nodes of each cell, (n_cells, n_nodes), local numbering."""
     geometry = mesh.geometry
     return np.asarray(geometry.dofmaps[0] if hasattr(geometry, "dofmaps") else geometry.dofmap)
 
 
 def facet_midpoints(mesh: Mesh, facets: NDArray[np.int32]) -> NDArray[np.float64]:
     """Midpoints of facets, (n, 3) [m]."""
-    return np.asarray(dolfinx_mesh.compute_midpoints(mesh, 2, facets))
+    return np.asarray(dolfinx_mesh.compute_midpoints(mesh, mesh.topology.dim - 1, facets))
 
 
 def meshtags(mesh: Mesh, dim: int, entities: NDArray[np.int32], values: NDArray[np.int32]) -> MeshTags:
@@ -117,37 +126,37 @@ def meshtags(mesh: Mesh, dim: int, entities: NDArray[np.int32], values: NDArray[
     return dolfinx_mesh.meshtags(mesh, dim, entities[order], values[order])
 
 
-def gauss_rule(points_per_axis: tuple[int, int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Tensor Gauss rule of the reference hexahedron: points (n, 3) and weights (n,) [-]."""
+def gauss_rule(points_per_axis: tuple[int, ...]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Tensor Gauss rule of the reference cell with one count an axis: points (n, dim) and weights (n,) [-]."""
     rules: list[Any] = [basix.make_quadrature(basix.CellType.interval, 2 * n - 1) for n in points_per_axis]
     grids = np.meshgrid(*[rule[0][:, 0] for rule in rules], indexing="ij")
-    weights = np.einsum("i,j,k->ijk", *[rule[1] for rule in rules])
-    return np.stack(grids, axis=-1).reshape(-1, 3), weights.ravel()
+    weights = functools.reduce(np.multiply.outer, [rule[1] for rule in rules])
+    return np.stack(grids, axis=-1).reshape(-1, len(rules)), weights.ravel()
 
 
-def cell_measure(mesh: Mesh, tags: MeshTags, ids: tuple[int, ...], points_per_axis: tuple[int, int, int]) -> Any:
+def cell_measure(mesh: Mesh, tags: MeshTags, ids: tuple[int, ...], points_per_axis: tuple[int, ...]) -> Any:
     """UFL measure over the tagged cells with a tensor Gauss rule."""
     points, weights = gauss_rule(points_per_axis)
     metadata = {"quadrature_rule": "custom", "quadrature_points": points, "quadrature_weights": weights}
     return ufl.dx(domain=mesh, subdomain_data=tags, subdomain_id=ids, metadata=metadata)
 
 
-def quadrature_space(mesh: Mesh, points_per_axis: tuple[int, int, int], shape: tuple[int, ...]) -> Any:
+def quadrature_space(mesh: Mesh, points_per_axis: tuple[int, ...], shape: tuple[int, ...]) -> Any:
     """Space of values at the Gauss points of every cell."""
     points, weights = gauss_rule(points_per_axis)
-    element = basix.ufl.quadrature_element("hexahedron", value_shape=shape, points=points, weights=weights)
+    element = basix.ufl.quadrature_element(_CELL[points.shape[1]], value_shape=shape, points=points, weights=weights)
     return fem.functionspace(mesh, element)
 
 
-def lagrange_points(degree: int) -> NDArray[np.float64]:
-    """Node positions of the reference hexahedron's Lagrange element, (n, 3) [-]."""
-    element = basix.create_element(basix.ElementFamily.P, basix.CellType.hexahedron, degree)
+def lagrange_points(degree: int, dim: int) -> NDArray[np.float64]:
+    """Node positions of the reference quadrilateral's or hexahedron's Lagrange element, (n, dim) [-]."""
+    element = basix.create_element(basix.ElementFamily.P, basix.CellType[_CELL[dim]], degree)
     return np.asarray(element.points)
 
 
 def lagrange_gradients(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Derivatives of the Lagrange shape functions along the reference axes, (3, n_points, n_nodes) [-]."""
-    element = basix.create_element(basix.ElementFamily.P, basix.CellType.hexahedron, degree)
+    """Derivatives of the Lagrange shape functions along the reference axes, (dim, n_points, n_nodes) [-]."""
+    element = basix.create_element(basix.ElementFamily.P, basix.CellType[_CELL[points.shape[1]]], degree)
     return np.asarray(element.tabulate(1, points))[1:, :, :, 0]
 
 
@@ -224,7 +233,7 @@ class PointEvaluation:
     Parameters
     ----------
     expression : UFL expression
-    points : (n_points, 3) reference points
+    points : (n_points, dim) reference points
     """
 
     def __init__(self, expression: Expr, points: NDArray[np.float64]) -> None:

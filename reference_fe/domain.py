@@ -24,6 +24,7 @@ class Domain:
     tagged : the mesh as given
     mesh : dolfinx.mesh.Mesh
     cell_tags, facet_tags : dolfinx.mesh.MeshTags with the tags of ``tagged``
+    width : width at right angles to a planar mesh [m], constant on each cell; 1 for a solid one
 
     Verified by tests/unit/test_fe_domain.py.
     """
@@ -32,19 +33,27 @@ class Domain:
     mesh: api.Mesh
     cell_tags: api.MeshTags
     facet_tags: api.MeshTags
+    width: api.Expr = 1.0
 
     @classmethod
     def from_tagged(cls, tagged: TaggedMesh) -> Domain:
         """Build the DOLFINx mesh and its tags."""
         mesh = api.mesh_from_arrays(tagged.points, tagged.cells)
-        cells = np.arange(mesh.topology.index_map(3).size_local, dtype=np.int32)
+        dim = tagged.dim
+        cells = np.arange(mesh.topology.index_map(dim).size_local, dtype=np.int32)
         values = tagged.cell_tags[mesh.topology.original_cell_index[: len(cells)]].astype(np.int32)
         return cls(
             tagged=tagged,
             mesh=mesh,
-            cell_tags=api.meshtags(mesh, 3, cells, values),
+            cell_tags=api.meshtags(mesh, dim, cells, values),
             facet_tags=api.facet_tags_from_nodes(mesh, tagged.facets, tagged.facet_tags.astype(np.int32)),
+            width=_width(tagged, mesh) if tagged.widths else 1.0,
         )
+
+    @property
+    def dim(self) -> int:
+        """Dimension of space: 2 or 3."""
+        return self.tagged.dim
 
     def part_tags(self, names: Iterable[str]) -> tuple[int, ...]:
         """Cell tags of named parts; InputError for a name the mesh does not have."""
@@ -81,6 +90,14 @@ class Domain:
         topology.create_connectivity(3, 1)
         cell = int(topology.connectivity(1, 3).links(edge)[0])
         return cell, int(np.flatnonzero(topology.connectivity(3, 1).links(cell) == edge)[0])
+
+
+def _width(tagged: TaggedMesh, mesh: api.Mesh) -> api.Function:
+    """Width of each cell's part [m], ghosts included."""
+    by_tag = {tag: tagged.widths[part] for part, tag in tagged.parts.items()}
+    width: api.Function = api.fem.Function(api.fem.functionspace(mesh, ("DG", 0)))
+    width.x.array[:] = [by_tag[int(tag)] for tag in tagged.cell_tags[mesh.topology.original_cell_index]]
+    return width
 
 
 def _look_up(names: Iterable[str], known: dict[str, int], what: str) -> tuple[int, ...]:

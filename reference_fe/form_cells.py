@@ -46,12 +46,13 @@ class FormCells:
         v, w = ufl.TestFunction(V), ufl.TrialFunction(V)
         dx = api.cell_measure(mesh, domain.cell_tags, domain.part_tags(parts), choice.gauss_points)
         S = law_of.second_piola_kirchhoff(choice.law, u, lame, stretch)
-        self._stored = fem.Function(api.quadrature_space(mesh, choice.gauss_points, (3, 3)))
+        self._stored = fem.Function(api.quadrature_space(mesh, choice.gauss_points, (domain.dim, domain.dim)))
         S_geo: Expr = self._stored if choice.mixed_integration_points else S
         dE_v = law_of.linearised_strain(u, v)
         CC_dE = law_of.stress_increment(choice.law, u, w, lame, stretch)
-        self.residual = ufl.inner(S, dE_v) * dx
-        self.tangent = ufl.inner(CC_dE, dE_v) * dx + ufl.inner(S_geo, ufl.sym(ufl.grad(w).T * ufl.grad(v))) * dx
+        self.residual = domain.width * ufl.inner(S, dE_v) * dx
+        geometric = ufl.inner(S_geo, ufl.sym(ufl.grad(w).T * ufl.grad(v)))
+        self.tangent = domain.width * (ufl.inner(CC_dE, dE_v) + geometric) * dx
         points, _ = api.gauss_rule(choice.gauss_points)
         increment = law_of.stress_increment(choice.law, u, du, lame, stretch)
         self._extrapolated = api.PointEvaluation(S + increment, points)

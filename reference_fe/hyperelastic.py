@@ -1,7 +1,8 @@
 """Hyperelastic laws in total Lagrangian form, in UFL.
 
 Both laws agree with isotropic linear elasticity (lambda, mu) at small strain. E is the Green-Lagrange strain,
-C = F^T F, J = det F.
+C = F^T F, J = det F. In two dimensions u, F, E and S are the parts in the plane and ``lame`` the planar constants
+(`reference_fe.plane_state`).
 
 Free thermal expansion by the stretch theta: F = F_e theta, and the energy per volume at 20 C is theta^3 psi(F_e), so
 that S = theta S_0(C_e) with C_e = C/theta^2 and S_0 the law without expansion (multiplicative split; Lu & Pister, Int.
@@ -46,7 +47,7 @@ is smallest at l = 1/sqrt(3). Equilibria beyond are spurious."""
 
 def deformation_gradient(u: Expr) -> Expr:
     """F = I + grad u [-]."""
-    return ufl.Identity(3) + ufl.grad(u)
+    return _unit(u) + ufl.grad(u)
 
 
 def green_lagrange(u: Expr) -> Expr:
@@ -63,7 +64,7 @@ def linearised_strain(u: Expr, du: Expr) -> Expr:
 def second_piola_kirchhoff(law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0) -> Expr:
     """Second Piola-Kirchhoff stress S = d psi / d E [Pa]; ``lame`` = (lambda, mu) [Pa], ``stretch`` = theta [-]."""
     lam, mu = lame
-    eye = ufl.Identity(3)
+    eye = _unit(u)
     if law is MaterialLaw.ST_VENANT_KIRCHHOFF:
         E = green_lagrange(u) - 0.5 * (stretch**2 - 1.0) * eye
         return (lam * ufl.tr(E) * eye + 2.0 * mu * E) / stretch
@@ -77,7 +78,7 @@ def stress_increment(law: MaterialLaw, u: Expr, du: Expr, lame: tuple[Expr, Expr
     lam, mu = lame
     dE = linearised_strain(u, du) / stretch
     if law is MaterialLaw.ST_VENANT_KIRCHHOFF:
-        return lam * ufl.tr(dE) * ufl.Identity(3) + 2.0 * mu * dE
+        return lam * ufl.tr(dE) * _unit(u) + 2.0 * mu * dE
     F = deformation_gradient(u) / stretch
     C_inv = ufl.inv(F.T * F)
     mixed = C_inv * dE * C_inv
@@ -90,9 +91,30 @@ def thermal_moduli(lam: float, mu: float, stretch: float) -> tuple[float, float,
     return lam / stretch, mu / stretch, offset / stretch
 
 
-def von_mises_cauchy(law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0) -> Expr:
-    """Von Mises equivalent of the Cauchy stress sigma = F S F^T / J [Pa]."""
-    F = deformation_gradient(u)
-    sigma = F * second_piola_kirchhoff(law, u, lame, stretch) * F.T / ufl.det(F)
+def von_mises_cauchy(
+    law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0, transverse: Expr = None
+) -> Expr:
+    """Von Mises equivalent of the Cauchy stress sigma = F S F^T / J [Pa].
+
+    In two dimensions ``transverse`` is the strain across the plane over the trace of that in it [-], both without
+    thermal strain, which gives the third row: with E = E_th + E_e, E_e33 = transverse tr(E_e) and the planar lambda,
+    S_33 = (lambda tr(E_e) + 2 mu E_e33) / theta and F_33 = sqrt(theta^2 + 2 E_e33).
+    """
+    F, S = deformation_gradient(u), second_piola_kirchhoff(law, u, lame, stretch)
+    if transverse is not None:
+        trace = ufl.tr(green_lagrange(u)) - (stretch**2 - 1.0)
+        F = _with_third(F, ufl.sqrt(stretch**2 + 2.0 * transverse * trace))
+        S = _with_third(S, (lame[0] + 2.0 * lame[1] * transverse) * trace / stretch)
+    sigma = F * S * F.T / ufl.det(F)
     deviator = ufl.dev(sigma)
     return ufl.sqrt(1.5 * ufl.inner(deviator, deviator))
+
+
+def _unit(u: Expr) -> Expr:
+    """Unit tensor of the dimension of u."""
+    return ufl.Identity(u.ufl_shape[0])
+
+
+def _with_third(A: Expr, value: Expr) -> Expr:
+    """The 3 x 3 tensor with a planar tensor and the value across the plane."""
+    return ufl.as_matrix([[A[0, 0], A[0, 1], 0.0], [A[1, 0], A[1, 1], 0.0], [0.0, 0.0, value]])

@@ -28,10 +28,12 @@ def virtual_work(domain: Domain, load: BodyForce | EndMoment | Traction, u: api.
             subdomain_id=domain.part_tags(load.parts),
             metadata={"quadrature_degree": load.quadrature_degree},
         )
-        return ufl.inner(load.field(ufl.SpatialCoordinate(mesh)), v) * dx
+        return domain.width * ufl.inner(load.field(ufl.SpatialCoordinate(mesh)), v) * dx
     ds = ufl.ds(domain=mesh, subdomain_data=domain.facet_tags, subdomain_id=domain.face_tags(load.faces))
     if isinstance(load, Traction):
-        return ufl.inner(fem.Constant(mesh, load.vector), v) * ds
+        return domain.width * ufl.inner(fem.Constant(mesh, load.vector), v) * ds
+    if domain.dim == 2:
+        raise InputError("end moment", ", ".join(load.faces), "needs a solid mesh", "use a traction on a planar one")
     D, a = ufl.as_vector(load.director), ufl.as_vector(load.axis)
     d = D + ufl.dot(ufl.grad(u), D)
     across = ufl.dot(d, d) - ufl.dot(a, d) ** 2

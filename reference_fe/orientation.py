@@ -1,7 +1,8 @@
-"""Turns the local axes of curved hexahedra so that the first runs along the most curved direction."""
+"""Turns the local axes of curved cells so that the first runs along the most curved direction."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -30,7 +31,7 @@ _NUMBER = {tuple(position): node for node, position in enumerate(_LATTICE.tolist
 
 
 def curved_axis_first(mesh: TaggedMesh, straight: NDArray[np.float64] | None = None) -> TaggedMesh:
-    """Renumber each 27-node cell by a cyclic turn of its axes (handedness kept); 8-node meshes come back as they are.
+    """Renumber each quadratic cell by a turn of its axes (handedness kept); linear meshes come back as they are.
 
     Parameters
     ----------
@@ -49,6 +50,8 @@ def curved_axis_first(mesh: TaggedMesh, straight: NDArray[np.float64] | None = N
     """
     if mesh.order == 1:
         return mesh
+    if mesh.dim == 2:
+        return _planar(mesh)
     nodes = mesh.points[mesh.cells]
     curvature = np.stack([_curvature(nodes, axis) for axis in range(3)], axis=-1)
     if straight is not None:
@@ -60,6 +63,18 @@ def curved_axis_first(mesh: TaggedMesh, straight: NDArray[np.float64] | None = N
     return replace(mesh, cells=np.take_along_axis(mesh.cells, turns[first], axis=1))
 
 
+_QUARTER_TURN = np.array([1, 2, 3, 0, 5, 6, 7, 4, 8])
+"""Nodes of a 9-node quadrilateral in the order of the one turned by a quarter: its first axis is the old second."""
+
+
+def _planar(mesh: TaggedMesh) -> TaggedMesh:
+    """Turn each 9-node quadrilateral whose second axis is the more curved one, or where both are flat the longer."""
+    nodes = mesh.points[mesh.cells]
+    first = _sagitta(nodes, ((0, 4, 1), (7, 8, 5), (3, 6, 2)))
+    second = _sagitta(nodes, ((0, 7, 3), (4, 8, 6), (1, 5, 2)))
+    return replace(mesh, cells=np.where((second > first)[:, None], mesh.cells[:, _QUARTER_TURN], mesh.cells))
+
+
 def _curvature(nodes: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
     """Largest relative sagitta along one axis, (n_cells,) [-]; straight axes get 1e-6 times their share of length."""
     others = [k for k in range(3) if k != axis]
@@ -69,6 +84,11 @@ def _curvature(nodes: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
             position = np.zeros((3, 3), dtype=np.int64)
             position[:, others], position[:, axis] = (i, j), (0, 1, 2)
             lines.append([_NUMBER[tuple(p)] for p in position.tolist()])
+    return _sagitta(nodes, lines)
+
+
+def _sagitta(nodes: NDArray[np.float64], lines: Sequence[Sequence[int]]) -> NDArray[np.float64]:
+    """The same over the given lattice lines, each its start, middle and end node."""
     start, middle, end = (nodes[:, [line[k] for line in lines]] for k in range(3))
     length = np.linalg.norm(end - start, axis=-1)
     sagitta = np.linalg.norm(middle - 0.5 * (start + end), axis=-1) / length

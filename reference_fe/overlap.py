@@ -41,7 +41,7 @@ class FaceOverlap:
     def smallest_gap(self, displacement: NDArray[np.float64]) -> float:
         """Smallest signed distance between the nodes and the face [m]; negative is overlap.
 
-        displacement : (n_points, 3) at the mesh's nodes [m]
+        displacement : (n_points, dim) at the mesh's nodes [m]
         """
         current = self._mesh.points + displacement
         points, normals = facet_samples(current, self._facets)

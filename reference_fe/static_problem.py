@@ -1,4 +1,4 @@
-"""Nonlinear statics of a tagged hexahedral mesh: total Lagrangian, hyperelastic, supports, loads, plane contact.
+"""Nonlinear statics of a tagged mesh, solid or planar: total Lagrangian, hyperelastic, supports, loads, contact.
 
 Weak form (Bonet & Wood 2008, ch. 8): find u with
     int S(E(u)) : DE(u)[v] dV - W(u)[v] - int p(g(u)) n . v dA = 0  for every v that vanishes on the supports,
@@ -26,6 +26,7 @@ from reference_fe.contact_patch import contact_faces, distance_at_touch
 from reference_fe.discretisation import Discretisation, ElementFamily
 from reference_fe.dolfinx_api import fem, fem_petsc, ufl
 from reference_fe.domain import Domain
+from reference_fe.elastic_fields import cell_moduli, elastic_fields
 from reference_fe.form_cells import FormCells
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.loads import edge_load_vector, virtual_work
@@ -61,6 +62,8 @@ class StaticProblem:
     supports, tractions, loads, contact : boundary conditions
     surfaces : further contacts, see `surface_term`
     discretisation : law, degree, quadrature
+    transverse_constraint : planar mesh only, part -> how it is held across the plane, from `PLANE_STRESS` to
+        `PLANE_STRAIN`, see `plane_state`; parts left out are in plane strain
 
     Attributes
     ----------
@@ -69,6 +72,7 @@ class StaticProblem:
     du : last Newton step [m]
     bcs : Dirichlet conditions of the supports (DOLFINx)
     supported : unknowns held by a support, ascending
+    lame, stretch, transverse_strain : constants on each cell, see `elastic_fields.ElasticFields`
     contact_lag : linearise the contact pressure about the gap plus this lag [m]; 0 but in an increment's first solve
     """
 
@@ -83,18 +87,20 @@ class StaticProblem:
         contact: PlaneContact | None = None,
         surfaces: Sequence[SurfaceDescription] = (),
         discretisation: Discretisation | None = None,
+        transverse_constraint: Mapping[str, float] | None = None,
     ) -> None:
         self.domain, self.contact = domain, contact
-        self.discretisation = discretisation or Discretisation()
+        self.discretisation = discretisation or Discretisation(gauss_points=(2, 3, 3)[: domain.dim])
         self.materials = dict(materials)
         self._check_parts(supports)
         mesh = domain.mesh
-        self.V = fem.functionspace(mesh, (str(self.discretisation.family), self.discretisation.degree, (3,)))
+        self.V = fem.functionspace(mesh, (str(self.discretisation.family), self.discretisation.degree, (domain.dim,)))
         self.u, self.du = fem.Function(self.V, name="displacement"), fem.Function(self.V)
-        self.lame = self._lame_fields()
-        self.stretch = self._stretch_field()
+        fields = elastic_fields(domain, materials, transverse_constraint or {}, self.discretisation.law)
+        self.lame, self.stretch, self.transverse_strain = fields.lame, fields.stretch, fields.transverse
+        self._flexible_cells = domain.cells_of(materials)
         self.load_factor = fem.Constant(mesh, 0.0)
-        self.plane_normal, self.plane_distance = fem.Constant(mesh, np.zeros(3)), fem.Constant(mesh, 1.0)
+        self.plane_normal, self.plane_distance = fem.Constant(mesh, np.zeros(domain.dim)), fem.Constant(mesh, 1.0)
         self.penalty = fem.Constant(mesh, 0.0)
         self.contact_lag = fem.Constant(mesh, 0.0)
         self._build_forms([*tractions, *(load for load in loads if not isinstance(load, EdgeLoad))])
@@ -148,7 +154,7 @@ class StaticProblem:
             return self._compiled.supported_matrix()
         if matrix is None or self._pattern_version != self.surfaces.pattern_version:
             self._pattern_version = self.surfaces.pattern_version
-            supported = np.unique(self.supported // 3).astype(np.int32)
+            supported = np.unique(self.supported // self.domain.dim).astype(np.int32)
             matrix = api.create_matrix(self._tangent_form, supported, self.surfaces.couplings())
         else:
             matrix.zeroEntries()
@@ -187,7 +193,7 @@ class StaticProblem:
         self.surfaces.restore(state.surfaces)
 
     def contact_force(self) -> NDArray[np.float64]:
-        """Force of plane and surfaces on the body, integral of the contact pressure, (3,) [N]."""
+        """Force of plane and surfaces on the body, integral of the contact pressure, (dim,) [N]."""
         force = self.surfaces.resultant()
         if self._contact_form is not None:
             total = self.domain.mesh.comm.allreduce(fem.assemble_scalar(self._contact_form))
@@ -195,9 +201,9 @@ class StaticProblem:
         return np.asarray(force, dtype=np.float64)
 
     def reaction(self, residual: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Sum of the support forces on the body, from the residual at supported unknowns, (3,) [N]."""
-        rows = self.supported
-        return np.array([residual[rows[rows % 3 == axis]].sum() for axis in range(3)])
+        """Sum of the support forces on the body, from the residual at supported unknowns, (dim,) [N]."""
+        rows, dim = self.supported, self.domain.dim
+        return np.array([residual[rows[rows % dim == axis]].sum() for axis in range(dim)])
 
     def store_stress(self, *, extrapolate: bool) -> None:
         """Store S(E(u)), with CC : DE(u)[du] added if ``extrapolate``, at the Gauss points; call before u changes."""
@@ -215,15 +221,15 @@ class StaticProblem:
         return float(np.min(np.sqrt(np.maximum(squared, 0.0)) * np.sign(np.linalg.det(F))))
 
     def nodal_displacement(self) -> NDArray[np.float64]:
-        """Displacement at the nodes of the tagged mesh, (n_points, 3) [m]."""
-        mesh, order = self.domain.mesh, self.domain.tagged.order
+        """Displacement at the nodes of the tagged mesh, (n_points, dim) [m]."""
+        mesh, order, dim = self.domain.mesh, self.domain.tagged.order, self.domain.dim
         u = self.u
         if (order, ElementFamily.LAGRANGE) != (self.discretisation.degree, self.discretisation.family):
-            u = fem.Function(fem.functionspace(mesh, ("Lagrange", order, (3,))))
+            u = fem.Function(fem.functionspace(mesh, ("Lagrange", order, (dim,))))
             u.interpolate(self.u)
         dofs, nodes = u.function_space.dofmap.list, api.cell_nodes(mesh)
-        local = np.zeros((len(mesh.geometry.x), 3))
-        local[nodes] = u.x.array.reshape(-1, 3)[dofs]
+        local = np.zeros((len(mesh.geometry.x), dim))
+        local[nodes] = u.x.array.reshape(-1, dim)[dofs]
         out = np.zeros_like(self.domain.tagged.points)
         out[mesh.geometry.input_global_indices] = local
         return out
@@ -235,44 +241,17 @@ class StaticProblem:
                 raise InputError(f"part {part}", "no material", "every part needs a material or a support", "add one")
         self.domain.part_tags(self.materials)
 
-    def _lame_fields(self) -> tuple[api.Function, api.Function]:
-        space = fem.functionspace(self.domain.mesh, ("DG", 0))
-        lam, mu = fem.Function(space), fem.Function(space)
-        for part, material in self.materials.items():
-            cells = self.domain.cells_of([part])
-            lam.x.array[cells], mu.x.array[cells] = material.lame_lambda, material.lame_mu
-        self._flexible_cells = self.domain.cells_of(self.materials)
-        return lam, mu
-
-    def _stretch_field(self) -> api.Expr:
-        """Free thermal stretch of each cell [-]: one number where nothing expands, else a field."""
-        if all(material.thermal_strain == 0.0 for material in self.materials.values()):
-            return 1.0
-        stretch = fem.Function(self.lame[0].function_space)
-        stretch.x.array[:] = 1.0
-        for part, material in self.materials.items():
-            stretch.x.array[self.domain.cells_of([part])] = material.thermal_stretch
-        return stretch
-
-    def _moduli(self) -> NDArray[np.float64]:
-        """Lambda, mu and thermal stress offset of each deformable cell, (n_cells, 3) [Pa]."""
-        cells = self._flexible_cells
-        moduli = np.empty((len(cells), 3))
-        for part, material in self.materials.items():
-            rows = np.searchsorted(cells, self.domain.cells_of([part]))
-            lam, mu = material.lame_lambda, material.lame_mu
-            moduli[rows] = law_of.thermal_moduli(lam, mu, material.thermal_stretch)
-        return moduli
-
     def _build_forms(self, loads: Sequence[BodyForce | EndMoment | Traction]) -> None:
         domain, choice, u = self.domain, self.discretisation, self.u
         v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
         suits = (choice.law, choice.family) == (MaterialLaw.ST_VENANT_KIRCHHOFF, ElementFamily.LAGRANGE)
         residual, tangent = None, None
         self._compiled, self._forms = None, None
-        if choice.compiled and suits and choice.mixed_integration_points and domain.mesh.comm.size == 1:
+        loops = choice.compiled and suits and choice.mixed_integration_points
+        if loops and domain.mesh.comm.size == 1 and domain.dim == 3:
             cells = self._flexible_cells
-            self._compiled = CompiledCells(domain, self.V, cells, self._moduli(), choice.gauss_points)
+            moduli = cell_moduli(domain, self.materials, cells)
+            self._compiled = CompiledCells(domain, self.V, cells, moduli, choice.gauss_points)
         else:
             self._forms = FormCells(domain, tuple(self.materials), (u, self.du), self.lame, choice, self.stretch)
             residual, tangent = self._forms.residual, self._forms.tangent
@@ -303,9 +282,10 @@ class StaticProblem:
             n = self.plane_normal
             gap = ufl.dot(n, ufl.SpatialCoordinate(mesh) + self.u) + self.plane_distance
             pressure, stiffness = plane_pressure(gap, self.contact_lag, self.penalty, self.contact.ramp)
-            residual = _sum(residual, -pressure * ufl.dot(n, v) * ds)
-            tangent = _sum(tangent, stiffness * ufl.dot(n, v) * ufl.dot(n, w) * ds)
-            self._contact_form = api.compile_form(pressure * ds)
+            width = self.domain.width
+            residual = _sum(residual, -width * pressure * ufl.dot(n, v) * ds)
+            tangent = _sum(tangent, width * stiffness * ufl.dot(n, v) * ufl.dot(n, w) * ds)
+            self._contact_form = api.compile_form(width * pressure * ds)
         return residual, tangent
 
 

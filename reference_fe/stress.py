@@ -27,8 +27,9 @@ class StressRecovery:
         self.problem = problem
         domain = problem.domain
         self._cells = domain.cells_of(problem.materials)
-        expression = von_mises_cauchy(problem.discretisation.law, problem.u, problem.lame, problem.stretch)
-        points, self._to_nodes = _stations(domain.tagged.order, problem.discretisation.gauss_points[0])
+        law = problem.discretisation.law
+        expression = von_mises_cauchy(law, problem.u, problem.lame, problem.stretch, problem.transverse_strain)
+        points, self._to_nodes = _stations(domain.tagged.order, domain.dim, problem.discretisation.gauss_points[0])
         self._at_stations = api.PointEvaluation(expression, points)
         self._rows = {part: np.searchsorted(self._cells, domain.cells_of([part])) for part in problem.materials}
 
@@ -52,10 +53,10 @@ class StressRecovery:
         return np.asarray(total / np.maximum(count, 1))
 
 
-def _stations(order: int, gauss_points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Stress stations (n, 3) in the reference cell and the extrapolation from them to its nodes, (n_nodes, n)."""
-    nodes = api.lagrange_points(order)
-    along = np.unique(api.gauss_rule((gauss_points, 1, 1))[0][:, 0])
+def _stations(order: int, dim: int, gauss_points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Stress stations (n, dim) in the reference cell and the extrapolation from them to its nodes, (n_nodes, n)."""
+    nodes = api.lagrange_points(order, dim)
+    along = np.unique(api.gauss_rule((gauss_points,))[0][:, 0])
     across = np.unique(np.round(nodes[:, 1:], 12), axis=0)
     stations = np.array([[x, *yz] for yz in across for x in along])
     to_nodes = np.zeros((len(nodes), len(stations)))

@@ -43,10 +43,12 @@ def build_supports(
     """Conditions, and what each of them prescribes."""
     conditions: list[api.DirichletBC] = []
     prescribed: list[Prescribed] = []
-    for dim in range(4):
-        domain.mesh.topology.create_connectivity(dim, 3)
+    for entity in range(domain.dim + 1):
+        domain.mesh.topology.create_connectivity(entity, domain.dim)
     for support in supports:
         for position, component in enumerate(support.components):
+            if component >= domain.dim:
+                continue
             subspace, _ = V.sub(component).collapse()
             value = fem.Function(subspace)
             expansion = (support.stretch - 1.0) * subspace.tabulate_dof_coordinates()[:, component]
@@ -60,9 +62,10 @@ def build_supports(
 def _located(domain: Domain, support: Support, spaces: tuple[api.Expr, api.Expr]) -> list[list[NDArray[np.int32]]]:
     """Unknowns of one component held by a support, numbered in the full space and in the component's own."""
     faces, cells = domain.facets_of(support.faces), domain.cells_of(support.parts)
-    located = [fem.locate_dofs_topological(spaces, dim, entities) for dim, entities in ((2, faces), (3, cells))]
+    held = (domain.dim - 1, faces), (domain.dim, cells)
+    located = [fem.locate_dofs_topological(spaces, dim, entities) for dim, entities in held]
     for meeting in support.meetings:
-        sets = [fem.locate_dofs_topological(spaces, 2, domain.facets_of([face])) for face in meeting]
+        sets = [fem.locate_dofs_topological(spaces, domain.dim - 1, domain.facets_of([face])) for face in meeting]
         common = functools.reduce(np.intersect1d, [dofs[0] for dofs in sets])
         _, rows, _ = np.intersect1d(sets[0][0], common, return_indices=True)
         located.append([dofs[rows] for dofs in sets[0]])

@@ -20,7 +20,7 @@ class Support:
     ----------
     faces, parts : names in the mesh; at least one
     meetings : each names the faces that have the supported nodes in common: two for a line, three for a point
-    components : displacement components held, of 0 (x), 1 (y), 2 (z)
+    components : displacement components held, of 0 (x), 1 (y), 2 (z); a planar body has 0 and 1 only, its two axes
     value : displacement at load factor 1, one for each component [m]; zero holds the faces
     stretch : free thermal stretch theta of what is held [-]: it is displaced by (theta - 1) X from the start, X counted
         from the origin
@@ -55,11 +55,11 @@ class Traction:
     Attributes
     ----------
     faces : face names
-    vector : traction at load factor 1 [Pa]
+    vector : traction at load factor 1 [Pa], one component an axis of space
     """
 
     faces: tuple[str, ...]
-    vector: tuple[float, float, float]
+    vector: tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,7 +139,7 @@ class PlaneContact:
     Attributes
     ----------
     faces : face names that may touch the plane
-    normal : unit normal, plane to body [-]
+    normal : unit normal, plane to body, one component an axis of space [-]
     distance_at_touch : distance of the plane from the origin at control parameter 0 [m]
     stiffness : penalty stiffness [N/m^3]
     ramp : gap below which the pressure begins, and above which (negative) it is linear [m]
@@ -147,7 +147,7 @@ class PlaneContact:
     """
 
     faces: tuple[str, ...]
-    normal: tuple[float, float, float]
+    normal: tuple[float, ...]
     distance_at_touch: float
     stiffness: float
     ramp: float = 5e-6

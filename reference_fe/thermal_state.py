@@ -19,7 +19,7 @@ __all__ = ["dilate", "solve_thermal_state"]
 
 def dilate(u: Function, stretch: float) -> None:
     """Set u = (stretch - 1) X, the free expansion about the origin."""
-    u.interpolate(lambda X: (stretch - 1.0) * X)
+    u.interpolate(lambda X: (stretch - 1.0) * X[: u.function_space.mesh.geometry.dim])
 
 
 def solve_thermal_state(
@@ -28,6 +28,7 @@ def solve_thermal_state(
     supports: Sequence[Support],
     discretisation: Discretisation,
     settings: NewtonSettings,
+    transverse_constraint: Mapping[str, float] | None = None,
 ) -> StaticProblem:
     """Solve for the displacement of a supported body whose parts have expanded, without loads or contact.
 
@@ -45,7 +46,9 @@ def solve_thermal_state(
 
     Verified by tests/verification/test_fe_thermal.py.
     """
-    problem = StaticProblem(domain, materials, supports, discretisation=discretisation)
+    problem = StaticProblem(
+        domain, materials, supports, discretisation=discretisation, transverse_constraint=transverse_constraint
+    )
     held_back = float(np.linalg.norm(problem.residual()))
     largest = max(materials, key=lambda part: len(domain.cells_of([part])))
     dilate(problem.u, materials[largest].thermal_stretch)

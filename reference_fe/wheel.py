@@ -1,4 +1,7 @@
-"""The wheel on a rigid plane: hub held, plane raised, load and stress recorded. A client of `StaticProblem`."""
+"""The wheel on a rigid plane, solid or as a planar section: hub held, plane raised, load and stress recorded.
+
+A client of `StaticProblem`.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +49,9 @@ class WheelLoadCase:
     law : stored energy
     contact_stiffness : penalty stiffness per undeformed area [N/m^3]
     contact_ramp : gap at which the contact pressure begins [m], see `contact_law.plane_pressure`
-    gauss_points : Gauss points along the curved axis and the two others of a cell, see `Discretisation`
+    gauss_points : Gauss points along the curved axis and the others of a cell, see `Discretisation`; a planar mesh
+        takes the first two
+    transverse_constraint : planar mesh only, part -> how it is held across the plane, see `plane_state`
     newton : tolerance and iteration limit
     """
 
@@ -58,7 +63,8 @@ class WheelLoadCase:
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
     contact_stiffness: float = 1e11
     contact_ramp: float = 5e-6
-    gauss_points: tuple[int, int, int] = (2, 3, 3)
+    gauss_points: tuple[int, ...] = (2, 3, 3)
+    transverse_constraint: Mapping[str, float] = field(default_factory=dict)
     newton: NewtonSettings = field(default_factory=NewtonSettings)
 
     def __post_init__(self) -> None:
@@ -76,7 +82,7 @@ class FieldSnapshot:
     ----------
     load : load of the full wheel [N]
     deflection : rise of the plane from first touch [m]
-    displacement : (n_points, 3) at the mesh's nodes [m], wheel frame
+    displacement : (n_points, dim) at the mesh's nodes [m], wheel frame
     von_mises : (n_points,) Cauchy von Mises stress averaged at the nodes [Pa]; 0 on rigid parts
     """
 
@@ -118,8 +124,8 @@ def solve_wheel(
 
     Parameters
     ----------
-    mesh : wheel in its frame; contact faces ``tire_outer`` and ``grouser_outer``; a face group ``symmetry`` marks a
-        half width, whose loads and areas are doubled in the result
+    mesh : wheel in its frame, solid or planar (the curve's model is then "section"); contact faces ``tire_outer`` and
+        ``grouser_outer``; a face group ``symmetry`` marks a half width, whose loads and areas are doubled in the result
     materials : part name -> material; parts in ``load_case.rigid_parts`` (by default the hubs and what links them) need
         none, but if theirs has a thermal strain they expand by it. First touch is that of the expanded wheel
     progress : called with the deflection reached [m] and the load [N] after each increment
@@ -159,20 +165,24 @@ class _WheelRun:
     def __init__(self, mesh: TaggedMesh, materials: Mapping[str, Material], load_case: WheelLoadCase) -> None:
         self.started, self.load_case = time.perf_counter(), load_case
         self.mesh = mesh = curved_axis_first(mesh, straight=np.array([0.0, 1.0, 0.0]))
+        axes = [0, 2] if mesh.dim == 2 else [0, 1, 2]
         rigid = tuple(part for part in load_case.rigid_parts if part in mesh.parts)
         flexible = {part: materials[part] for part in mesh.parts if part not in rigid and part in materials}
         faces = tuple(face for face in CONTACT_FACES if face in mesh.faces)
         self.facets = contact_faces(mesh, faces)
-        self.direction = ground_direction_h(np.deg2rad(load_case.orientation_deg))
+        direction = ground_direction_h(np.deg2rad(load_case.orientation_deg))
+        self.direction = direction[axes]
+        self.tangent = np.array([-direction[2], 0.0, direction[0]])[axes]
         self.half_width = "symmetry" in mesh.faces
         supports = _hub_supports(mesh, rigid, materials)
         if self.half_width:
             supports.append(Support(faces=("symmetry",), components=(1,)))
         domain = Domain.from_tagged(mesh)
-        discretisation = Discretisation(law=load_case.law, gauss_points=load_case.gauss_points)
+        discretisation = Discretisation(law=load_case.law, gauss_points=load_case.gauss_points[: mesh.dim])
         expanded, shape = None, mesh
         if any(material.thermal_strain for material in materials.values()):
-            expanded = solve_thermal_state(domain, flexible, supports, discretisation, load_case.newton)
+            held = load_case.transverse_constraint
+            expanded = solve_thermal_state(domain, flexible, supports, discretisation, load_case.newton, held)
             shape = replace(mesh, points=mesh.points + expanded.nodal_displacement())
         self.touch = distance_at_touch(shape, self.facets, self.direction)
         n = -self.direction
@@ -182,12 +192,13 @@ class _WheelRun:
             supports,
             contact=PlaneContact(
                 faces=faces,
-                normal=(float(n[0]), float(n[1]), float(n[2])),
+                normal=tuple(n.tolist()),
                 distance_at_touch=self.touch,
                 stiffness=load_case.contact_stiffness,
                 ramp=load_case.contact_ramp,
             ),
             discretisation=discretisation,
+            transverse_constraint=load_case.transverse_constraint,
         )
         if expanded is not None:
             self.problem.u.x.array[:] = expanded.u.x.array
@@ -210,10 +221,9 @@ class _WheelRun:
             if self.rows[-1]["load_N"] < wanted <= load:
                 self._keep_snapshot(wanted, state.control, load)
         normal, distance = -self.direction, self.touch - state.control
-        tangent = np.array([-self.direction[2], 0.0, self.direction[0]])
         displacement = self.problem.nodal_displacement()
         ramp = self.load_case.contact_ramp
-        patch = measure_patch(self.mesh, self.facets, displacement, (normal, distance), tangent, ramp)
+        patch = measure_patch(self.mesh, self.facets, displacement, (normal, distance), self.tangent, ramp)
         force = float(np.linalg.norm(state.contact_force))
         imbalance = float(np.linalg.norm(state.reaction + state.contact_force)) / force if force else 0.0
         row = self._row(state.control, load, patch)
@@ -227,15 +237,15 @@ class _WheelRun:
 
     def result(self, *, partial: bool) -> WheelResult:
         """Everything recorded so far."""
-        names = list(self.rows[-1])
+        names, kind = list(self.rows[-1]), "planar" if self.mesh.dim == 2 else "solid"
         table = {name: np.array([row.get(name, 0.0) for row in self.rows]) for name in names}
         curve = StiffnessCurve(
-            model="fe",
+            model="section" if kind == "planar" else "fe",
             orientation_deg=self.load_case.orientation_deg,
             deflection=table.pop("deflection_m"),
             load=table.pop("load_N"),
             columns=table,
-            source=f"solid finite elements, {self.problem.dofs} unknowns, deflection from first touch",
+            source=f"{kind} finite elements, {self.problem.dofs} unknowns, deflection from first touch",
             partial=partial,
         )
         return WheelResult(

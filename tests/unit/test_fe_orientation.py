@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from reference_fe.orientation import curved_axis_first
 from tests.structured_hexahedra import block_mesh
+from tests.structured_quadrilaterals import planar_block
 
 
 def arc_along(axis: int) -> NDArray[np.float64]:
@@ -56,3 +57,22 @@ def test_flat_strips_turn_away_from_the_straight_direction() -> None:
     for turned, axis in ((free, 1), (ruled, 0)):
         edge = turned.points[turned.cells[:, 1]] - turned.points[turned.cells[:, 0]]
         assert np.all(np.argmax(np.abs(edge), axis=1) == axis)
+
+
+@pytest.mark.parametrize("counts", [(3, 1), (1, 3)])
+def test_planar_cells_turn_their_first_axis_along_the_arc(counts: tuple[int, int]) -> None:
+    along = int(counts == (1, 3))
+
+    def arc(X: NDArray[np.float64]) -> NDArray[np.float64]:
+        angle, radius = 0.3 * X[:, along], 1.0 + 0.01 * X[:, 1 - along]
+        return np.column_stack([radius * np.sin(angle), -radius * np.cos(angle)])
+
+    mesh = planar_block(counts, arc)
+    turned = curved_axis_first(mesh)
+    first, second = (turned.points[turned.cells[:, k]] - turned.points[turned.cells[:, 0]] for k in (1, 3))
+    assert np.all(np.linalg.norm(first, axis=1) > 0.08)
+    before = mesh.points[mesh.cells[0, [1, 3]]] - mesh.points[mesh.cells[0, 0]]
+    assert np.sign(np.linalg.det(np.stack([first[0], second[0]]))) == np.sign(np.linalg.det(before))  # handedness
+    middle = 0.5 * (turned.points[turned.cells[:, 0]] + turned.points[turned.cells[:, 1]])
+    np.testing.assert_allclose(turned.points[turned.cells[:, 4]], middle, atol=2e-3)  # node 4 lies on edge 0-1
+    assert np.array_equal(np.sort(mesh.cells, axis=1), np.sort(turned.cells, axis=1))

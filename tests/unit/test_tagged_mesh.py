@@ -82,10 +82,34 @@ def test_hash_sees_every_change() -> None:
     assert len(hashes) == len(different)
 
 
+def square() -> TaggedMesh:
+    """One planar cell of 0.1 m with one tagged edge."""
+    return TaggedMesh(
+        points=CUBE[:4, :2],
+        cells=np.arange(4).reshape(1, 4),
+        cell_tags=np.array([1], dtype=np.int32),
+        facets=np.array([[0, 1]]),
+        facet_tags=np.array([7], dtype=np.int32),
+        parts={"rim": 1},
+        faces={"bottom": 7},
+        widths={"rim": 0.12},
+    )
+
+
+def test_a_planar_mesh_has_widths_that_count() -> None:
+    assert (square().dim, square().order, two_cubes().dim) == (2, 1, 3)
+    assert replace(square(), widths={"rim": 0.13}).hash() != square().hash()
+    for widths, text in (({}, "needs a width"), ({"hub": 0.1}, "needs a width"), ({"rim": 0.0}, "greater than zero")):
+        with pytest.raises(MeshError, match=text):
+            replace(square(), widths=widths)
+
+
 @pytest.mark.parametrize(
     ("change", "text"),
     [
-        ({"points": CUBE[:, :2]}, "points have shape \\(8, 2\\)"),
+        ({"points": CUBE[:, :1]}, "points have shape \\(8, 1\\)"),
+        ({"points": CUBE[:, :2]}, "quadrilaterals"),
+        ({"widths": {"rim": 0.1, "hub": 0.1}}, "needs a width, and only there"),
         ({"points": np.full((16, 3), np.nan)}, "finite coordinates"),
         ({"cells": np.arange(8).reshape(2, 4)}, "cells have shape \\(2, 4\\)"),
         ({"cells": np.arange(8)}, "cells have shape \\(8,\\)"),

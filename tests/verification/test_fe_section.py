@@ -1,0 +1,173 @@
+"""Claim: the planar model is the solid one where the design is prismatic, within 1 % along the curve to 30 mm.
+
+Source: our own solid model on a wheel whose springs span the full width, three elements across 60 mm; closed form of
+uniaxial tension; the Ritz strip in tests/unit/test_fe_plane_state.py. Tolerance: 1 % (measured: 0.6 %; the issue asks
+5 %). Negative controls: plane stress for every part falls 8 % and more below the solid curve, a wheel with one set's
+width left at half is caught too.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from contracts.materials import TI_6AL_4V
+from geometry import WheelDesign, build_mesh, build_planar_mesh
+from reference_fe.discretisation import Discretisation
+from reference_fe.domain import Domain
+from reference_fe.hyperelastic import MaterialLaw
+from reference_fe.newton import NewtonSettings, NewtonSolver
+from reference_fe.plane_state import PLANE_STRAIN, PLANE_STRESS
+from reference_fe.section import solve_section, strip_constraints
+from reference_fe.static_problem import StaticProblem
+from reference_fe.stress import StressRecovery
+from reference_fe.supports import Support, Traction
+from reference_fe.thermal_state import dilate
+from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
+from tests.structured_quadrilaterals import planar_block
+
+DEFLECTIONS = (0.005, 0.010, 0.020, 0.030)
+CASE = WheelLoadCase(orientation_deg=0.0, deflections=DEFLECTIONS)
+
+
+def prismatic() -> WheelDesign:
+    """Three hoops over the full width, no grousers: every section along the axle is the same."""
+    outer = WheelDesign().spring_sets[0]
+    full = replace(outer, bands=((-60e-3, 60e-3),))
+    return WheelDesign(spring_sets=(full,), grousers=None, cone=None, impact_springs=None, inner_hub=None)
+
+
+@functools.cache
+def section_curve(design: WheelDesign, orientation_deg: float = 0.0, constraint: float | None = None) -> WheelResult:
+    mesh = build_planar_mesh(design, element_size=10e-3)
+    held = {} if constraint is None else dict.fromkeys(mesh.parts, constraint)
+    case = replace(CASE, orientation_deg=orientation_deg, transverse_constraint=held)
+    return solve_section(mesh, design, case)
+
+
+@functools.cache
+def solid_load() -> NDArray[np.float64]:
+    design = prismatic()
+    mesh = build_mesh(design, element_size=10e-3, axial_size=20e-3, parts="flexible")
+    return solve_wheel(mesh, design.materials, CASE).curve.load
+
+
+def test_prismatic_wheel_against_the_solid_model() -> None:
+    np.testing.assert_allclose(section_curve(prismatic()).curve.load[1:], solid_load()[1:], rtol=0.01)
+
+
+def test_plane_stress_everywhere_is_caught() -> None:
+    """Negative control: bands of 120 mm bend to cylinders; as beams they are nu^2 too soft."""
+    ratio = section_curve(prismatic(), constraint=PLANE_STRESS).curve.load[1:] / solid_load()[1:]
+    assert np.all(ratio < 0.93)
+
+
+def test_a_lost_width_is_caught() -> None:
+    """Negative control: springs of half the width in the same mesh."""
+    design, mesh = prismatic(), build_planar_mesh(prismatic(), element_size=10e-3)
+    narrow = replace(mesh, widths=dict(mesh.widths) | {"springs_outer": 0.06})
+    ratio = solve_section(narrow, design, CASE).curve.load[1:] / solid_load()[1:]
+    assert np.all(ratio < 0.9)
+
+
+def test_records_of_a_section_run() -> None:
+    """Columns of the solid model; standing on one grouser the patch is its tip, 1 mm x 120 mm."""
+    result = section_curve(WheelDesign())
+    curve = result.curve
+    assert curve.model == "section"
+    assert curve.columns["contact_area_m2"][-1] == pytest.approx(120e-6, rel=0.02)
+    assert np.abs(curve.columns["force_imbalance"]).max() < 1e-6
+    assert {f"max_von_mises_{part}_Pa" for part in ("tire", "grousers", "springs_outer")} <= set(curve.columns)
+    assert result.dofs < 6000
+
+
+def test_iterations_to_30_mm() -> None:
+    """20 points between two grousers, where the contact changes most, in at most 100 iterations (measured: 85)."""
+    case = WheelLoadCase(orientation_deg=15.0, deflections=tuple(np.linspace(0.0, 0.03, 21)[1:].tolist()))
+    design = WheelDesign()
+    result = solve_section(build_planar_mesh(design, element_size=8e-3), design, case)
+    assert sum(len(record.residuals) - 1 for record in result.increments) <= 100
+    assert all(record.converged for record in result.increments)
+
+
+@pytest.mark.parametrize(("constraint", "factor"), [(PLANE_STRESS, 1.0), (PLANE_STRAIN, 1.0 / (1.0 - 0.342**2))])
+def test_uniaxial_tension_of_a_planar_block(constraint: float, factor: float) -> None:
+    """P = E' l (l^2 - 1) / 2 on a width of 0.3 m, E' = E or E / (1 - nu^2): St. Venant-Kirchhoff, exact.
+
+    The von Mises stress follows from the third stress, zero or nu times the first one.
+    """
+    stretch, material = 1.05, TI_6AL_4V
+    force = factor * material.young_modulus * stretch * (stretch**2 - 1.0) / 2.0
+    mesh = planar_block((2, 3), lambda X: X * np.array([2.0, 1.0]), width=0.3)
+    problem = StaticProblem(
+        Domain.from_tagged(mesh),
+        {"body": material},
+        [Support(faces=("x0",), components=(0,)), Support(meetings=(("x0", "z0"),), components=(1,))],
+        tractions=[Traction(faces=("x1",), vector=(force, 0.0))],
+        transverse_constraint={"body": constraint},
+    )
+    problem.set_control(1.0)
+    outcome = NewtonSolver(problem, NewtonSettings()).solve()
+    assert outcome.converged
+    moved = problem.nodal_displacement()[mesh.points[:, 0] == 2.0, 0]
+    np.testing.assert_allclose(moved, 2.0 * (stretch - 1.0), rtol=1e-8)
+    assert problem.reaction(outcome.residual) == pytest.approx([-0.3 * force, 0.0], abs=3e-9 * force)
+    assert StressRecovery(problem).largest_by_part()["body"] == pytest.approx(_von_mises(stretch, constraint), rel=1e-8)
+
+
+def _von_mises(stretch: float, constraint: float) -> float:
+    """Cauchy von Mises stress of a bar at an axial stretch: S_1 = E' E_1, S_3 = nu S_1 in plane strain."""
+    nu, E = TI_6AL_4V.poisson_ratio, TI_6AL_4V.young_modulus
+    first = 0.5 * (stretch**2 - 1.0)
+    if constraint == PLANE_STRESS:
+        across = 1.0 - 2.0 * nu * first
+        return E * first * stretch**2 / (stretch * across)
+    S_1 = E * first / (1.0 - nu**2)
+    thickness = np.sqrt(1.0 - 2.0 * nu / (1.0 - nu) * first)
+    J = stretch * thickness
+    sigma = np.array([S_1 * stretch**2, 0.0, nu * S_1]) / J
+    return float(np.sqrt(0.5 * np.sum((sigma - np.roll(sigma, 1)) ** 2)))
+
+
+def test_rigid_rotation_stores_no_stress() -> None:
+    mesh = planar_block((2, 2), lambda X: X)
+    problem = StaticProblem(Domain.from_tagged(mesh), {"body": TI_6AL_4V}, [Support(faces=("x0",))])
+    turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+    problem.u.interpolate(lambda x: (turn - np.eye(2)) @ x[:2])
+    assert np.abs(problem.residual()).max() < 1e-6 * TI_6AL_4V.young_modulus * 1e-6
+
+
+@pytest.mark.parametrize("constraint", [PLANE_STRESS, 0.4, PLANE_STRAIN])
+def test_free_expansion_stores_no_stress(constraint: float) -> None:
+    """The width expands as well; a body that may, carries no stress, however it is held across the plane."""
+    warm = replace(TI_6AL_4V, thermal_strain=2e-3)
+    problem = StaticProblem(
+        Domain.from_tagged(planar_block((2, 1), lambda X: X)),
+        {"body": warm},
+        [Support(meetings=(("x0", "z0"),)), Support(meetings=(("x1", "z0"),), components=(1,))],
+        transverse_constraint={"body": constraint},
+    )
+    held = np.abs(problem.residual()).max()
+    dilate(problem.u, warm.thermal_stretch)
+    assert np.abs(problem.residual()).max() < 1e-9 * held
+    assert StressRecovery(problem).largest_by_part()["body"] < 1e-7 * warm.young_modulus * warm.thermal_strain
+
+
+def test_strips_of_the_wheel_are_between_beam_and_plate() -> None:
+    found = strip_constraints(WheelDesign())
+    assert 0.5 < found["springs_outer"] < found["springs_inner"] < found["tire"] < 1.0
+
+
+def test_what_has_no_planar_form_is_refused() -> None:
+    domain = Domain.from_tagged(planar_block((1, 1), lambda X: X))
+    neo = Discretisation(law=MaterialLaw.NEO_HOOKEAN, gauss_points=(2, 3))
+    with pytest.raises(InputError, match="planar form"):
+        StaticProblem(domain, {"body": TI_6AL_4V}, [Support(faces=("x0",))], discretisation=neo)
+    solid = build_mesh(prismatic(), element_size=30e-3, axial_size=60e-3, parts="flexible")
+    with pytest.raises(InputError, match="section mesh"):
+        solve_section(solid, prismatic(), CASE)
