@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from reference_fe.checkpoint import Arrays, Checkpoint, below, packed, unpacked
 from reference_fe.newton import NewtonOutcome, NewtonSolver
-from reference_fe.static_problem import StaticProblem
+from reference_fe.static_problem import ProblemState, StaticProblem
 
 __all__ = ["ConvergedState", "solve_increments"]
 
@@ -44,11 +45,14 @@ def solve_increments(
     history: list[IncrementRecord],
     attempt_limit: int = 400,
     on_attempt: Callable[[IncrementRecord], None] | None = None,
+    checkpoint: Checkpoint | None = None,
 ) -> Iterator[ConvergedState]:
     """Yield each converged state on the way through ``targets`` from an unloaded start; the caller may stop early.
 
     An increment that does not converge is halved from the last converged state; after a success the step doubles, up to
-    the distance to the next target. Every attempt is appended to ``history``.
+    the distance to the next target. Every attempt is appended to ``history``. With a ``checkpoint``, each converged
+    state is kept when the caller asks for the next one, and a run that finds one goes on behind it: on one process with
+    the very numbers of a run that was never stopped.
 
     Raises
     ------
@@ -56,15 +60,17 @@ def solve_increments(
         When the residual stalls at round-off, when the increment falls below 1/1024 of the first step, or after
         ``attempt_limit`` attempts; carries history.
 
-    Verified by tests/unit/test_fe_increments.py and tests/verification/test_fe_ring.py.
+    Verified by tests/unit/test_fe_increments.py, tests/verification/test_fe_resume.py and
+    tests/verification/test_fe_ring.py.
     """
     if not len(targets) or np.any(np.diff([0.0, *targets]) <= 0.0) or not np.all(np.isfinite(targets)):
         raise InputError("targets", list(targets), "must increase from above zero", "sort them and drop repeats")
     problem = solver.problem
-    reached, good, step = 0.0, problem.state(), float(targets[0])
-    smallest = SMALLEST_FRACTION * step
+    reached, step = _resumed(problem, history, checkpoint) or (0.0, float(targets[0]))
+    good, smallest = problem.state(), SMALLEST_FRACTION * float(targets[0])
     for target in targets:
-        step = max(step, float(target) - reached)
+        if reached in (0.0, *targets):  # a resumed run may stand between two targets
+            step = max(step, float(target) - reached)
         while reached < target:
             remaining = float(target) - reached
             step = min(step, remaining)
@@ -87,11 +93,38 @@ def solve_increments(
                     contact_force=problem.contact_force(),
                     reaction=problem.reaction(outcome.residual),
                 )
+                if checkpoint is not None:
+                    checkpoint.write(_kept(good, (reached, step), history))
                 continue
             problem.restore(good)
             step *= 0.5
             if outcome.stalled or step < smallest or len(history) >= attempt_limit:
                 raise ConvergenceError(_message(reached, goal, step, outcome), history)
+
+
+def _kept(state: ProblemState, progress: tuple[float, float], history: Sequence[IncrementRecord]) -> Arrays:
+    """A converged state, (control reached, next step) and the attempts so far, as arrays."""
+    arrays = {"displacement": state.displacement, "progress": np.array(progress)}
+    arrays |= {"history": packed([asdict(record) for record in history])}
+    for i, term in enumerate(state.surfaces):
+        arrays |= {f"surface{i}/{name}": values for name, values in term.items()}
+    return arrays
+
+
+def _resumed(
+    problem: StaticProblem, history: list[IncrementRecord], checkpoint: Checkpoint | None
+) -> tuple[float, float] | None:
+    """Put the problem where the checkpoint left it; control reached and next step, or None without a checkpoint."""
+    arrays = None if checkpoint is None else checkpoint.read()
+    if arrays is None:
+        return None
+    terms = tuple(below(f"surface{i}", arrays) for i in range(len(problem.surfaces.terms)))
+    problem.restore(ProblemState(displacement=arrays["displacement"], surfaces=terms))
+    records = unpacked(arrays["history"])
+    history[:] = [IncrementRecord(**{**values, "residuals": tuple(values["residuals"])}) for values in records]
+    reached, step = (float(value) for value in arrays["progress"])
+    problem.set_control(reached)
+    return reached, step
 
 
 def _lag(problem: StaticProblem, step: float, *, first: bool) -> float:
@@ -115,8 +148,9 @@ def _message(reached: float, goal: float, step: float, outcome: NewtonOutcome) -
             f"mesh and load; last converged at {reached:.6g}; smaller increments do not help: set the relative "
             f"tolerance to {3.0 * floor:.0e} or more"
         )
-    tail = ", ".join(f"{value:.1e}" for value in outcome.residuals[-4:])
+    residuals = ", ".join(f"{value:.1e}" for value in outcome.residuals)
     return (
         f"the increment to control {goal:.6g} does not converge; last converged at {reached:.6g}, next step would be "
-        f"{step:.2g}, last relative residuals {tail}; try a softer contact stiffness or a finer mesh"
+        f"{step:.2g}; relative residuals of the last attempt {residuals}; try a softer contact stiffness, more "
+        "iterations or a finer mesh"
     )

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.frames import ground_direction_h
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
+from reference_fe.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
 from reference_fe.contact_patch import ContactPatch, contact_faces, distance_at_touch, measure_patch
 from reference_fe.domain import Domain
 from reference_fe.hyperelastic import MaterialLaw
@@ -119,6 +121,7 @@ def solve_wheel(
     materials: Mapping[str, Material],
     load_case: WheelLoadCase,
     progress: Callable[[float, float], None] | None = None,
+    checkpoint: Path | None = None,
 ) -> WheelResult:
     """Stiffness curve of a wheel at one orientation.
 
@@ -129,6 +132,8 @@ def solve_wheel(
     materials : part name -> material; parts in ``load_case.rigid_parts`` (by default the hubs and what links them) need
         none, but if theirs has a thermal strain they expand by it. First touch is that of the expanded wheel
     progress : called with the deflection reached [m] and the load [N] after each increment
+    checkpoint : file to keep each increment in and, if an earlier run of this very case left it, to go on from; removed
+        at the end
 
     Returns
     -------
@@ -145,8 +150,12 @@ def solve_wheel(
     Verified by tests/verification/test_fe_wheel.py.
     """
     run = _WheelRun(mesh, materials, load_case)
+    kept = None
+    if checkpoint is not None:
+        key = problem_key(mesh, sorted(materials.items()), load_case)
+        kept = Checkpoint(path=checkpoint, key=key, recorder=run)
     try:
-        for state in solve_increments(run.solver, load_case.deflections, run.history):
+        for state in solve_increments(run.solver, load_case.deflections, run.history, checkpoint=kept):
             load = run.record(state)
             if progress is not None:
                 progress(state.control, load)
@@ -154,8 +163,10 @@ def solve_wheel(
                 break
     except ConvergenceError as error:
         partial = run.result(partial=True) if len(run.rows) > 1 else None
-        where = f"orientation {load_case.orientation_deg:g} deg: "
+        where = f"orientation {load_case.orientation_deg:g} deg, {run.reach()}: "
         raise ConvergenceError(where + str(error), error.history, partial) from error
+    if kept is not None:
+        kept.discard()
     return run.result(partial=False)
 
 
@@ -256,6 +267,28 @@ class _WheelRun:
             distance_at_touch=self.touch,
             wall_s=time.perf_counter() - self.started,
         )
+
+    def reach(self) -> str:
+        """How far the curve came, in words."""
+        if len(self.rows) == 1:
+            return "no point of the curve reached"
+        return f"curve reached {self.rows[-1]['deflection_m'] * 1e3:.4g} mm at {self.rows[-1]['load_N']:.4g} N"
+
+    def recorded(self) -> Arrays:
+        """Rows, snapshots and time so far, for a checkpoint."""
+        arrays = {"rows": packed(self.rows), "wall_s": np.array(time.perf_counter() - self.started)}
+        for i, snapshot in enumerate(self.snapshots):
+            arrays |= {f"snapshot{i}/{name}": np.asarray(value) for name, value in asdict(snapshot).items()}
+        return arrays
+
+    def resume(self, arrays: Arrays) -> None:
+        """Take up the rows, snapshots and time of a run that was killed."""
+        self.rows = unpacked(arrays["rows"])
+        self.started -= float(arrays["wall_s"])
+        while part := below(f"snapshot{len(self.snapshots)}", arrays):
+            load, deflection = float(part["load"]), float(part["deflection"])
+            fields = {name: part[name] for name in ("displacement", "von_mises")}
+            self.snapshots.append(FieldSnapshot(load=load, deflection=deflection, **fields))
 
     def _load(self, contact_force: NDArray[np.float64]) -> float:
         return float(-self._sides * contact_force @ self.direction)

@@ -8,20 +8,22 @@ from __future__ import annotations
 import math
 import os
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
-from contracts.curves import StiffnessCurve, average_curve, read_curve
+from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError, StudyError
 from contracts.records import Check
 from workbench.errors import InterruptedRunError, RunError
 from workbench.graph import mesh_tasks, report_tasks, stiffness_tasks
 from workbench.outputs import check_folder, check_targets, junit, publish, summary, to_json
 from workbench.progress import RunDisplay
+from workbench.result_files import early_ends
+from workbench.results import mean_curve
 from workbench.runner import run_tasks
 from workbench.store import Entry, Store
 from workbench.study_file import built_in_study, read_study
@@ -61,6 +63,7 @@ def run_report(study_path: Path | None, out: Path, store: Path, workers: int) ->
     publish(out, texts, curves, _field_files(entries))
     _print_checks(found.checks)
     console.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)
+    _complain_of_early_ends(path, origin["partial"])
     return exit_status(found.checks)
 
 
@@ -106,8 +109,10 @@ def run_stiffness(
     for curve in curves:
         label = "average" if curve.orientation_deg is None else f"{curve.orientation_deg:g} deg"
         reach = f"{curve.deflection[-1] * 1e3:.1f} mm at {curve.load[-1]:.1f} N"
-        console.print(f"{model} {label}: {reach}", highlight=False, markup=False)
+        part = " (partial)" if curve.partial else ""
+        console.print(f"{model} {label}: {reach}{part}", highlight=False, markup=False)
     console.print(f"curves: {out / 'curves'}", highlight=False, markup=False, soft_wrap=True)
+    _complain_of_early_ends(study_path, early_ends({name: entry.path for name, entry in entries.items()}))
     return 0
 
 
@@ -119,7 +124,14 @@ def _curves(model: str, entries: dict[str, Entry]) -> list[StiffnessCurve]:
         if name.startswith(f"{model}_phi"):
             orientation = float(name.removeprefix(f"{model}_phi"))
             found.append(read_curve(entry.path / "curve.csv", model=model, orientation_deg=orientation))
-    return [*found, average_curve(found)]
+    return [*found, mean_curve(found)]
+
+
+def _complain_of_early_ends(path: Path, reasons: Mapping[str, str]) -> None:
+    """Everything is written; now say, as the run's one error, which curves are partial and why."""
+    if reasons:
+        told = "; ".join(f"{task} did not converge, its curve is partial: {why}" for task, why in reasons.items())
+        raise RunError(f"{path}: {told}")
 
 
 def run_compare(curve_path: Path, reference_path: Path, max_load: float | None) -> int:

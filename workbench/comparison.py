@@ -9,6 +9,7 @@ from typing import Any
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Check, Status
+from workbench.checks_convergence import COMPLETE, completeness_check
 from workbench.checks_fe import (
     FineRun,
     band_checks,
@@ -21,7 +22,7 @@ from workbench.checks_fe import (
 from workbench.checks_limits import circumferential_tangent_check, overlap_checks
 from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, user_checks
 from workbench.graph import degrees
-from workbench.result_files import read_result
+from workbench.result_files import early_ends, read_result
 from workbench.results import CURVE, ModelCurves, UserCurve, model_curves
 from workbench.study import Study
 from workbench.topics import topics_of
@@ -90,7 +91,8 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
         orientation_deg=degrees(study.fe.fine_orientation),
         deflection=study.fe.fine_deflection,
     )
-    return replace(comparison, checks=tuple(_checks(study, comparison, plate, fine)))
+    complete = completeness_check(early_ends(folders))
+    return replace(comparison, checks=(complete, *_checks(study, comparison, plate, fine)))
 
 
 def _checks(study: Study, found: Comparison, plate: Mapping[str, float], fine: FineRun) -> list[Check]:
@@ -128,11 +130,19 @@ def _users(study: Study, folder: Path) -> tuple[UserCurve, ...]:
 
 
 def overall_status(checks: Sequence[Check]) -> Status:
-    """``fail`` if a gate failed, else ``error`` if one could not be evaluated, else ``pass``; findings do not count."""
+    """``error`` if a run ended early, else what the gates say: ``fail``, ``error`` without a value, ``pass``."""
+    if _ended_early(checks):
+        return "error"
     gates = {c.status for c in checks if c.role == "gate"}
     return "fail" if "fail" in gates else "error" if "error" in gates else "pass"
 
 
 def exit_status(checks: Sequence[Check]) -> int:
-    """0 if every gate passed, else 1."""
+    """0 if every gate passed, 2 if a run ended before its target, else 1."""
+    if _ended_early(checks):
+        return 2
     return 0 if overall_status(checks) == "pass" else 1
+
+
+def _ended_early(checks: Sequence[Check]) -> bool:
+    return any(c.id == COMPLETE and c.status == "error" for c in checks)

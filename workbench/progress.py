@@ -58,3 +58,20 @@ class RunDisplay:
         if not self.console.is_terminal:
             how = "reused" if reused else f"computed in {entry.wall_s:.1f} s"
             self.console.print(f"[{self.count}/{self.total}] {name}: {how}", markup=False, highlight=False)
+
+    def restarted(self, name: str, reason: str) -> None:
+        """Say so; the task's bar starts anew."""
+        self._drop(name)
+        self._say(f"{name}: {reason}; started again")
+
+    def failed(self, name: str, message: str) -> None:
+        """Say so; the whole message comes at the end."""
+        self._drop(name)
+        self._say(f"{name}: failed; what does not need it goes on")
+
+    def _drop(self, name: str) -> None:
+        if name in self.bars:
+            self.progress.remove_task(self.bars.pop(name))
+
+    def _say(self, text: str) -> None:
+        self.console.print(text, markup=False, highlight=False)

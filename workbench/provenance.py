@@ -15,6 +15,7 @@ from typing import Any
 
 from workbench.doctor import NEEDED
 from workbench.fingerprint import file_sha256, library_versions
+from workbench.result_files import early_ends
 from workbench.store import Entry
 
 __all__ = ["git_commit", "provenance"]
@@ -31,6 +32,7 @@ def provenance(study_path: Path, entries: Mapping[str, Entry]) -> dict[str, Any]
         "system": f"{platform.system()} {platform.release()} {platform.machine()}",
         "cores": os.cpu_count(),
         "libraries": dict(library_versions(tuple(NEEDED))),
+        "partial": early_ends({name: entry.path for name, entry in entries.items()}),
         "tasks": {name: entry.key for name, entry in entries.items()},
     }
 

@@ -146,6 +146,7 @@ def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:
         "increments": sum(r["converged"] for r in records),
         "cuts": sum(not r["converged"] for r in records),
         "iterations": int(sum(len(r["residuals"]) - 1 for r in records)),
+        "partial": curve.partial,
         "residual": max(r["residuals"][-1] for r in records if r["converged"]),
         "imbalance": float(abs(curve.columns["force_imbalance"]).max()),
         "deflection": float(curve.deflection[-1]),
@@ -161,6 +162,9 @@ def _metric_rows(found: Comparison) -> list[tuple[str, Mapping[str, Any]]]:
     names |= {f"user_{i}": f"FE, {user.label}" for i, user in enumerate(found.users)}
     rows = []
     for key, numbers in found.metrics.items():
-        name = names.get(key) or f"ANCF {key.removeprefix('ancf_phi')}°, FE {key.removeprefix('ancf_phi')}°"
+        orientation = key.removeprefix("ancf_phi")
+        name = names.get(key) or f"ANCF {orientation}°, FE {orientation}°"
+        fe = found.fe.average if key in names else found.fe.by_orientation[float(orientation)]
+        name += " (partial)" if fe.partial else ""
         rows.append((name, numbers))
     return rows

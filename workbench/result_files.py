@@ -7,9 +7,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-__all__ = ["RESULT", "read_result", "write_result"]
+__all__ = ["FAILURE", "RESULT", "early_ends", "read_result", "write_result"]
 
 RESULT = "result.json"
+FAILURE = "failure"
+"""Key under which a run that ended before its target says why; null or absent in a run that reached it."""
 
 
 def write_result(folder: Path, numbers: Mapping[str, Any]) -> None:
@@ -21,3 +23,9 @@ def read_result(folder: Path) -> dict[str, Any]:
     """Numbers of a task."""
     result: dict[str, Any] = json.loads((folder / RESULT).read_text(encoding="utf-8"))
     return result
+
+
+def early_ends(folders: Mapping[str, Path]) -> dict[str, str]:
+    """Task name -> why its run ended before its target, for those that did."""
+    reasons = {n: read_result(folder).get(FAILURE) for n, folder in folders.items() if (folder / RESULT).exists()}
+    return {name: str(reason) for name, reason in reasons.items() if reason}

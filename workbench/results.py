@@ -5,7 +5,7 @@ Verified by tests/unit/test_workbench_checks.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from contracts.records import Timing
 from workbench.result_files import read_result
 from workbench.store import Entry
 
-__all__ = ["CURVE", "ModelCurves", "UserCurve", "model_curves", "task_timings"]
+__all__ = ["CURVE", "ModelCurves", "UserCurve", "mean_curve", "model_curves", "task_timings"]
 
 CURVE = "curve.csv"
 
@@ -51,9 +51,15 @@ def model_curves(model: str, folders: Mapping[str, Path]) -> ModelCurves:
     return ModelCurves(
         model=model,
         by_orientation={o: curve for o, (curve, _) in ordered.items()},
-        average=average_curve([curve for curve, _ in ordered.values()]),
+        average=mean_curve([curve for curve, _ in ordered.values()]),
         numbers={o: numbers for o, (_, numbers) in ordered.items()},
     )
+
+
+def mean_curve(curves: Sequence[StiffnessCurve]) -> StiffnessCurve:
+    """Average over the orientations; on a finer grid where a partial curve leaves less than two steps in common."""
+    common = min(c.deflection[-1] for c in curves) - max(c.deflection[0] for c in curves)
+    return average_curve(curves, step=min(0.5e-3, 0.5 * common))
 
 
 def task_timings(entries: Mapping[str, Entry]) -> tuple[Timing, ...]:

@@ -1,31 +1,27 @@
-"""Runs a task graph in local processes and keeps every finished result in the store.
+"""Runs a task graph on workers and keeps every finished result in the store.
 
 Verified by tests/unit/test_workbench_runner.py and tests/end_to_end/test_resume.py.
 """
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import shutil
-import signal
-import threading
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
-from multiprocessing.connection import Connection, wait
-from multiprocessing.process import BaseProcess
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
 from workbench.errors import InterruptedRunError, RunError
+from workbench.local_workers import LocalWorkers
 from workbench.store import Entry, Store
 from workbench.task import Task, task_keys
-from workbench.worker import Done, Failed, Job, Progressed, serve
+from workbench.worker import Done, Failed, Job, Lost, Message, Progressed
 
-__all__ = ["Listener", "run_tasks"]
+__all__ = ["RESTARTS", "Listener", "Workers", "run_tasks"]
 
-_SINGLE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+RESTARTS = 2
+"""How often a task is started again after its worker died under it."""
 
 
 class Listener(Protocol):
@@ -40,19 +36,39 @@ class Listener(Protocol):
     def finished(self, name: str, entry: Entry, reused: bool) -> None:
         """The result is in the store, computed now or found there."""
 
+    def restarted(self, name: str, reason: str) -> None:
+        """The task's worker died; the task will run again, from its last checkpoint if it keeps one."""
 
-@dataclass(slots=True, kw_only=True)
-class _Slot:
-    """One worker process and the task it runs, if any."""
-
-    process: BaseProcess
-    pipe: Connection
-    task: Task | None = None
-    folder: Path | None = None
+    def failed(self, name: str, message: str) -> None:
+        """The task failed; those that do not need it go on."""
 
 
-def run_tasks(tasks: Sequence[Task], store: Store, listener: Listener, workers: int = 2) -> dict[str, Entry]:
-    """Run every task that the store does not hold yet; at most ``workers`` at once.
+class Workers(Protocol):
+    """Whoever computes: processes of this machine, or a cluster."""
+
+    log: Path
+
+    @property
+    def free(self) -> int:
+        """How many more jobs can start now."""
+
+    def start(self, job: Job) -> None:
+        """Start a job."""
+
+    def wait(self) -> Sequence[tuple[str, Message]]:
+        """Block until there is news: task names and messages."""
+
+    def stop(self) -> None:
+        """End everything that still runs."""
+
+
+def run_tasks(
+    tasks: Sequence[Task], store: Store, listener: Listener, workers: int = 2, scheduler: str | None = None
+) -> dict[str, Entry]:
+    """Run every task that the store does not hold yet.
+
+    A worker that dies costs no more than what its task did since its last checkpoint: the task starts again, twice at
+    most. A task that fails stops those that need it; all others run to their end before the error is raised.
 
     Parameters
     ----------
@@ -60,6 +76,7 @@ def run_tasks(tasks: Sequence[Task], store: Store, listener: Listener, workers: 
     store : where results are found and kept
     listener : told of every start, progress and end
     workers : number of local processes
+    scheduler : address of a Dask scheduler whose workers compute instead
 
     Returns
     -------
@@ -68,7 +85,7 @@ def run_tasks(tasks: Sequence[Task], store: Store, listener: Listener, workers: 
     Raises
     ------
     RunError
-        If a task fails, a worker dies or the user interrupts; what had finished stays in the store.
+        If a task fails, its workers die again and again, or the user interrupts; what had finished stays in the store.
     """
     store.sweep()
     keys = task_keys(tuple(tasks))
@@ -80,115 +97,88 @@ def run_tasks(tasks: Sequence[Task], store: Store, listener: Listener, workers: 
             listener.finished(task.name, entry, reused=True)
     waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -t.cost)
     if waiting:
-        _Pool(store, keys, listener, min(workers, len(waiting))).run(waiting, entries)
+        log = store.root / "log" / f"run-{os.getpid()}.log"
+        _Run(store, keys, listener, _workers(min(workers, len(waiting)), log, scheduler)).run(waiting, entries)
     return entries
 
 
-@contextmanager
-def _worker_surroundings() -> Iterator[None]:
-    """What a worker inherits at its start: one thread in BLAS, and deafness to Ctrl-C, which its parent hears."""
-    before = {name: os.environ.get(name) for name in _SINGLE_THREAD}
-    os.environ.update(_SINGLE_THREAD)
-    in_main = threading.current_thread() is threading.main_thread()
-    handler = signal.signal(signal.SIGINT, signal.SIG_IGN) if in_main else None
-    try:
-        yield
-    finally:
-        if in_main:
-            signal.signal(signal.SIGINT, handler)
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+def _workers(count: int, log: Path, scheduler: str | None) -> Workers:
+    if scheduler is None:
+        return LocalWorkers(count, log)
+    raise NotImplementedError
 
 
-class _Pool:
-    """The worker processes of one run."""
+class _Run:
+    """One run: which task may start, what became of it."""
 
-    def __init__(self, store: Store, keys: Mapping[str, str], listener: Listener, workers: int) -> None:
-        self.store, self.keys, self.listener = store, keys, listener
-        self.log = store.root / "log" / f"run-{os.getpid()}.log"
-        self.slots = [self._start() for _ in range(workers)]
-
-    def _start(self) -> _Slot:
-        context = multiprocessing.get_context("spawn")
-        ours, theirs = context.Pipe()
-        process = context.Process(target=serve, args=(theirs, self.log), daemon=True)
-        with _worker_surroundings():
-            process.start()
-        theirs.close()
-        return _Slot(process=process, pipe=ours)
+    def __init__(self, store: Store, keys: Mapping[str, str], listener: Listener, workers: Workers) -> None:
+        self.store, self.keys, self.listener, self.workers = store, keys, listener, workers
+        self.running: dict[str, tuple[Task, Path]] = {}
+        self.restarts: Counter[str] = Counter()
+        self.failures: list[str] = []
 
     def run(self, waiting: list[Task], entries: dict[str, Entry]) -> None:
-        """Dispatch until nothing waits and nothing runs; always ends the processes."""
+        """Dispatch until nothing can start and nothing runs; always ends the workers."""
         try:
-            while waiting or any(slot.task for slot in self.slots):
-                self._dispatch(waiting, entries)
-                busy = {slot.pipe: slot for slot in self.slots if slot.task}
-                for pipe in wait(list(busy)):
-                    assert isinstance(pipe, Connection)
-                    self._hear(busy[pipe], entries)
+            while self._dispatch(waiting, entries) or self.running:
+                for name, message in self.workers.wait():
+                    self._hear(name, message, waiting, entries)
         except KeyboardInterrupt:
             raise InterruptedRunError("interrupted; finished results are kept, start again to go on") from None
         finally:
-            self._stop()
+            self.workers.stop()
+            for _, folder in self.running.values():
+                shutil.rmtree(folder, ignore_errors=True)
+        if self.failures:
+            raise RunError("; ".join(self.failures))
 
-    def _dispatch(self, waiting: list[Task], entries: Mapping[str, Entry]) -> None:
-        for slot in self.slots:
-            ready = next((t for t in waiting if all(n in entries for n in t.needs)), None)
-            if slot.task is not None or ready is None:
-                continue
-            waiting.remove(ready)
-            slot.task, slot.folder = ready, self.store.scratch()
-            needs = {name: entries[name].path for name in ready.needs}
-            job = Job(name=ready.name, function=ready.function, inputs=ready.inputs, needs=needs, folder=slot.folder)
-            try:
-                slot.pipe.send(job)
-            except OSError:
-                raise RunError(self._died(slot, ready)) from None
-            self.listener.started(ready.name)
+    def _dispatch(self, waiting: list[Task], entries: Mapping[str, Entry]) -> bool:
+        """Start what can start; whether anything did."""
+        ready = [t for t in waiting if all(n in entries for n in t.needs)][: self.workers.free]
+        for task in ready:
+            waiting.remove(task)
+            folder = self.store.scratch()
+            self.running[task.name] = task, folder
+            needs = {name: entries[name].path for name in task.needs}
+            checkpoint = self.store.checkpoint(self.keys[task.name]) if task.resumable else None
+            job = Job(
+                name=task.name,
+                function=task.function,
+                inputs=task.inputs,
+                needs=needs,
+                folder=folder,
+                checkpoint=checkpoint,
+            )
+            self.workers.start(job)
+            self.listener.started(task.name)
+        return bool(ready)
 
-    def _hear(self, slot: _Slot, entries: dict[str, Entry]) -> None:
-        """Take one message from a busy worker."""
-        task, folder = slot.task, slot.folder
-        assert task is not None
-        assert folder is not None
-        try:
-            message = slot.pipe.recv()
-        except (EOFError, OSError):
-            raise RunError(self._died(slot, task)) from None
+    def _hear(self, name: str, message: Message, waiting: list[Task], entries: dict[str, Entry]) -> None:
+        """Take one message about a running task."""
         if isinstance(message, Progressed):
-            self.listener.progressed(task.name, message.fraction)
-        elif isinstance(message, Failed):
-            where = f"; the traceback is in {self.log}" if message.traceback else ""
-            raise RunError(f"task {task.name} failed: {message.message}{where}")
-        elif isinstance(message, Done):
-            record = {"task": task.name, "inputs": task.inputs, "wall_s": message.wall_s, "dofs": message.dofs}
-            record["needs"] = {name: self.keys[name] for name in task.needs}
-            entry = self.store.put(self.keys[task.name], folder, record)
-            entries[task.name] = entry
-            slot.task = slot.folder = None
-            self.listener.finished(task.name, entry, reused=False)
+            self.listener.progressed(name, message.fraction)
+            return
+        task, folder = self.running.pop(name)
+        if isinstance(message, Done):
+            record = {"task": name, "inputs": task.inputs, "wall_s": message.wall_s, "dofs": message.dofs}
+            record["needs"] = {needed: self.keys[needed] for needed in task.needs}
+            entries[name] = self.store.put(self.keys[name], folder, record)
+            self.listener.finished(name, entries[name], reused=False)
+            return
+        shutil.rmtree(folder, ignore_errors=True)
+        if isinstance(message, Lost) and self.restarts[name] < RESTARTS:
+            self.restarts[name] += 1
+            waiting.insert(0, task)
+            self.listener.restarted(name, f"its worker ended with {message.how}")
+            return
+        self.failures.append(self._failure(name, message))
+        self.listener.failed(name, self.failures[-1])
 
-    def _died(self, slot: _Slot, task: Task) -> str:
-        slot.process.join(5.0)
-        code = slot.process.exitcode
-        how = f"exit status {code}"
-        if code is not None and code < 0:
-            how = f"signal {-code} ({signal.Signals(-code).name})"
+    def _failure(self, name: str, message: Failed | Lost) -> str:
+        if isinstance(message, Failed):
+            where = f"; the traceback is in {self.workers.log}" if message.traceback else ""
+            return f"task {name} failed: {message.message}{where}"
         return (
-            f"the worker of task {task.name} ended with {how}; finished results are kept, start again to go on "
-            f"(out of memory? use --workers 1); its output is in {self.log}"
+            f"the worker of task {name} ended with {message.how}, {RESTARTS + 1} times; finished results are kept, "
+            f"start again to go on (out of memory? use --workers 1); its output is in {self.workers.log}"
         )
-
-    def _stop(self) -> None:
-        """End every worker; drop what unfinished tasks had written."""
-        for slot in self.slots:
-            slot.pipe.close()
-            if slot.task is not None:
-                slot.process.kill()
-        for slot in self.slots:
-            slot.process.join(10.0)
-            if slot.folder is not None:
-                shutil.rmtree(slot.folder, ignore_errors=True)

@@ -7,6 +7,7 @@ checksums and computed again. Verified by tests/unit/test_workbench_store.py.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import shutil
@@ -25,6 +26,8 @@ __all__ = ["MANIFEST", "Entry", "Store"]
 
 MANIFEST = "manifest.json"
 _SCHEMA = 1
+_FORGOTTEN_AFTER = 30 * 86400.0
+"""Age at which the checkpoint of a task that nobody started again is dropped [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,7 +62,7 @@ class Store:
     def __init__(self, root: Path) -> None:
         self.root = root
         try:
-            for name in ("tmp", "log"):
+            for name in ("tmp", "log", "checkpoints"):
                 (root / name).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             rule = f"cannot be used: {error.filename} cannot be a folder ({error.strerror})"
@@ -87,6 +90,10 @@ class Store:
         path.mkdir()
         return path
 
+    def checkpoint(self, key: str) -> Path:
+        """File in which the running task of this key keeps how far it came; dropped once its entry is stored."""
+        return self.root / "checkpoints" / f"{key}.npz"
+
     def put(self, key: str, filled: Path, record: Mapping[str, Any]) -> Entry:
         """Turn a filled scratch folder into the entry ``key`` by one rename.
 
@@ -100,6 +107,7 @@ class Store:
         for _ in range(10):
             try:
                 filled.replace(target)
+                self._forget(key)
                 return Entry(key=key, path=target, manifest=manifest)
             except OSError:
                 found = self.get(key)
@@ -118,8 +126,17 @@ class Store:
             return
         shutil.rmtree(trash, ignore_errors=True)
 
+    def _forget(self, key: str) -> None:
+        """Remove the checkpoint of this key, with halves of it that a killed run left."""
+        for path in (self.root / "checkpoints").glob(f"*{key}*"):
+            path.unlink(missing_ok=True)
+
     def sweep(self) -> None:
-        """Remove scratch folders left by runs on this machine that no longer live."""
+        """Remove scratch folders left by runs on this machine that no longer live, and checkpoints nobody resumed."""
+        for path in (self.root / "checkpoints").iterdir():
+            with contextlib.suppress(FileNotFoundError):
+                if time.time() - path.stat().st_mtime > _FORGOTTEN_AFTER:
+                    path.unlink()
         host = socket.gethostname()
         for path in (self.root / "tmp").iterdir():
             name, _, _ = path.name.rpartition("-")

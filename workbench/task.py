@@ -18,7 +18,10 @@ type Progress = Callable[[float], None]
 """Called by a task with the fraction done, 0 to 1."""
 
 type TaskFunction = Callable[[Mapping[str, Any], Mapping[str, Path], Path, Progress], int]
-"""``(inputs, folders of the tasks it needs, folder to fill, progress) -> number of unknowns``."""
+"""``(inputs, folders of the tasks it needs, folder to fill, progress) -> number of unknowns``.
+
+That of a resumable task takes ``checkpoint`` too, the path of a file: it goes on from what it finds there.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,6 +37,7 @@ class Task:
     sources : packages and modules whose source text decides the result
     libraries : distributions whose version decides the result
     cost : expected wall time, only to start long tasks first [s]
+    resumable : the function takes a ``checkpoint``
     """
 
     name: str
@@ -43,6 +47,7 @@ class Task:
     sources: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     cost: float = 1.0
+    resumable: bool = False
 
     def key(self, needed_keys: Mapping[str, str]) -> str:
         """SHA-256 of function, inputs, source text, library versions and the keys of what it needs."""

@@ -5,7 +5,7 @@ Verified by tests/end_to_end/test_report.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -13,23 +13,27 @@ from typing import Any
 import numpy as np
 
 from contracts.curves import write_curve
+from contracts.errors import ConvergenceError
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.newton import NewtonSettings
-from reference_fe.wheel import FieldSnapshot, WheelLoadCase, solve_wheel
+from reference_fe.wheel import FieldSnapshot, WheelLoadCase, WheelResult, solve_wheel
 from workbench.field_file import write_fields
 from workbench.mesh_file import MESH, read_mesh
-from workbench.result_files import write_result
+from workbench.result_files import FAILURE, write_result
 from workbench.task import Progress
 
 __all__ = ["solve_orientation"]
 
 
-def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+def solve_orientation(
+    inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
+) -> int:
     """Solve one orientation: ``curve.csv``, ``result.json`` (increments, timings) and fields at chosen loads.
 
-    Needs one task that holds the mesh.
+    A solve that does not converge leaves its partial curve, and the reason in the result. Needs one task that holds the
+    mesh. Goes on behind the last increment in ``checkpoint``, if there is one.
     """
     (mesh_folder,) = needs.values()
     mesh = read_mesh(mesh_folder / MESH)
@@ -48,7 +52,7 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
     def report(deflection: float, load: float) -> None:
         progress(max(deflection / deflections[-1], load / inputs["max_load"]))
 
-    result = solve_wheel(mesh, materials, case, report)
+    result, failure = _solve(lambda: solve_wheel(mesh, materials, case, report, checkpoint))
     write_curve(result.curve, out / "curve.csv")
     for snapshot in result.snapshots:
         _, wanted = min((abs(load - snapshot.load), load) for load in inputs["snapshot_loads"])
@@ -58,10 +62,21 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
         "solve_s": result.wall_s,
         "cells": len(mesh.cells),
         "increments": [asdict(record) for record in result.increments],
+        FAILURE: failure,
         "snapshots": [{"load_N": s.load, "deflection_m": s.deflection} for s in result.snapshots],
     }
     write_result(out, numbers)
     return result.dofs
+
+
+def _solve(solve: Callable[[], WheelResult]) -> tuple[WheelResult, str | None]:
+    """The result, or what there is of it with the reason why it ends early; raises if there is no curve at all."""
+    try:
+        return solve(), None
+    except ConvergenceError as error:
+        if not isinstance(error.last_good, WheelResult):
+            raise
+        return error.last_good, str(error)
 
 
 def _write_fields(mesh: TaggedMesh, snapshot: FieldSnapshot, stem: Path) -> None:

@@ -14,34 +14,44 @@ import signal
 import sys
 import time
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from contracts.errors import WorkbenchError
 
-__all__ = ["Done", "Failed", "Job", "Progressed", "serve"]
+__all__ = ["Done", "Failed", "Job", "Lost", "Message", "Progressed", "run_job", "serve"]
 
 _PR_SET_PDEATHSIG = 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Job:
-    """What a worker needs to run one task: the function, its inputs, folders to read and the folder to fill."""
+    """What a worker needs to run one task.
+
+    Attributes
+    ----------
+    name, function, inputs : as in `workbench.task.Task`
+    needs : folder of each result to read
+    folder : folder to fill
+    checkpoint : file in which a resumable task keeps how far it came; None if the task keeps nothing
+    """
 
     name: str
     function: str
     inputs: Mapping[str, Any]
     needs: Mapping[str, Path]
     folder: Path
+    checkpoint: Path | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Progressed:
     """Fraction of the running task that is done [-]."""
 
+    last: ClassVar[bool] = False
     fraction: float
 
 
@@ -49,6 +59,7 @@ class Progressed:
 class Done:
     """The task ended well: its unknowns and wall time [s]."""
 
+    last: ClassVar[bool] = True
     dofs: int
     wall_s: float
 
@@ -57,8 +68,21 @@ class Done:
 class Failed:
     """The task raised: the message, and the traceback for the log if it was not one of our own errors."""
 
+    last: ClassVar[bool] = True
     message: str
     traceback: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lost:
+    """The worker died under the task: how, e.g. ``"signal 9 (SIGKILL)"``."""
+
+    last: ClassVar[bool] = True
+    how: str
+
+
+type Message = Progressed | Done | Failed | Lost
+"""News of a task; ``last`` where no more will follow."""
 
 
 def serve(pipe: Connection, log: Path) -> None:
@@ -71,15 +95,17 @@ def serve(pipe: Connection, log: Path) -> None:
             job: Job | None = pipe.recv()
             if job is None:
                 return
-            pipe.send(_run(job, pipe))
+            pipe.send(run_job(job, lambda fraction: pipe.send(Progressed(fraction=float(fraction)))))
 
 
-def _run(job: Job, pipe: Connection) -> Done | Failed:
+def run_job(job: Job, report: Callable[[float], None]) -> Done | Failed:
+    """Run one task in this process; its errors become a message. ``report`` takes the fraction done."""
     start = time.perf_counter()
     try:
         module, _, function = job.function.partition(":")
         call = getattr(importlib.import_module(module), function)
-        dofs = call(job.inputs, job.needs, job.folder, lambda f: pipe.send(Progressed(fraction=float(f))))
+        kept = {} if job.checkpoint is None else {"checkpoint": job.checkpoint}
+        dofs = call(job.inputs, job.needs, job.folder, report, **kept)
     except WorkbenchError as error:
         return Failed(message=str(error))
     except Exception as error:

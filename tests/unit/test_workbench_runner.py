@@ -35,6 +35,12 @@ class Recorder:
     def finished(self, name: str, entry: Entry, reused: bool) -> None:
         self.events.append(("reused" if reused else "computed", name))
 
+    def restarted(self, name: str, reason: str) -> None:
+        self.events.append(("restarted", f"{name}: {reason}"))
+
+    def failed(self, name: str, message: str) -> None:
+        self.events.append(("failed", name))
+
 
 def _sum(tmp_path: Path, name: str, value: float, needs: tuple[str, ...] = ()) -> Task:
     inputs = {"name": name, "value": value, "log": str(tmp_path / "log.txt")}
@@ -94,7 +100,7 @@ def test_key_depends_on_inputs_needs_source_and_libraries() -> None:
     [
         ("refuse", r"task bad failed: load = -1 N: must be > 0; press harder"),
         ("crash", r"task bad failed: unexpected ZeroDivisionError: by zero; the traceback is in .*\.log"),
-        ("die", r"worker of task bad ended with signal 9 \(SIGKILL\); finished results are kept"),
+        ("die", r"worker of task bad ended with signal 9 \(SIGKILL\), 3 times; finished results are kept"),
     ],
 )
 def test_a_failure_is_one_message_and_keeps_finished_results(
@@ -112,6 +118,40 @@ def test_a_failure_is_one_message_and_keeps_finished_results(
         log = next((store.root / "log").iterdir()).read_text(encoding="utf-8")
         assert "chatter of a solver" in log
         assert "ZeroDivisionError" in log
+
+
+def test_a_failure_stops_only_what_needs_it(tmp_path: Path) -> None:
+    """Two tasks fail, one waits for a failed one in vain, the others finish; both failures are told."""
+    bad = [Task(name=n, function=f"{PROBE}:refuse", inputs={}, cost=9.0) for n in ("bad", "worse")]
+    tasks = [*bad, _sum(tmp_path, "a", 1.0), _sum(tmp_path, "b", 1.0, ("bad",)), _sum(tmp_path, "c", 2.0, ("a",))]
+    recorder = Recorder()
+    with pytest.raises(RunError, match=r"task (bad|worse) failed: .*; task (bad|worse) failed: "):
+        run_tasks(tasks, Store(tmp_path / "store"), recorder, workers=1)
+    assert [name for kind, name in recorder.events if kind == "computed"] == ["a", "c"]
+    assert {name for kind, name in recorder.events if kind == "failed"} == {"bad", "worse"}
+    assert _runs(tmp_path) == ["a", "c"]
+
+
+def test_a_task_whose_worker_is_killed_goes_on_from_its_checkpoint(tmp_path: Path) -> None:
+    """The worker dies after each of the first two steps of three; no step is done twice, no other task is disturbed."""
+    steps = Task(name="steps", function=f"{PROBE}:dying_steps", inputs={"log": str(tmp_path / "steps")}, resumable=True)
+    store, recorder = Store(tmp_path / "store"), Recorder()
+    entries = run_tasks([steps, *_graph(tmp_path)], store, recorder)
+    assert (tmp_path / "steps").read_text(encoding="utf-8").split() == ["0", "1", "2"]
+    assert (entries["steps"].path / "steps.txt").read_text(encoding="utf-8") == "3"
+    assert _runs(tmp_path) == ["a", "b", "c", "d"]
+    restarts = [text for kind, text in recorder.events if kind == "restarted"]
+    assert restarts == ["steps: its worker ended with signal 9 (SIGKILL)"] * 2
+    assert list((store.root / "checkpoints").iterdir()) == []
+    assert list((store.root / "tmp").iterdir()) == []
+
+
+def test_without_a_checkpoint_a_restarted_task_begins_anew(tmp_path: Path) -> None:
+    """Negative control: the same task, not marked resumable, does its first step each time and gives up."""
+    steps = Task(name="steps", function=f"{PROBE}:dying_steps", inputs={"log": str(tmp_path / "steps")})
+    with pytest.raises(RunError, match="3 times"):
+        run_tasks([steps], Store(tmp_path / "store"), Recorder())
+    assert (tmp_path / "steps").read_text(encoding="utf-8").split() == ["0", "0", "0"]
 
 
 def test_workers_have_one_thread_and_the_parent_keeps_its_setting(

@@ -41,6 +41,26 @@ def die(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progres
     return 0
 
 
+def dying_steps(
+    inputs: Mapping[str, Any],
+    needs: Mapping[str, Path],
+    out: Path,
+    progress: Progress,
+    checkpoint: Path | None = None,
+) -> int:
+    """Three steps, kept in the checkpoint; the worker is killed after each step but the last."""
+    kept = checkpoint is not None and checkpoint.exists()
+    done = int(checkpoint.read_text(encoding="utf-8")) if checkpoint and kept else 0
+    with Path(inputs["log"]).open("a", encoding="utf-8") as log:
+        log.write(f"{done}\n")
+    if checkpoint is not None:
+        checkpoint.write_text(str(done + 1), encoding="utf-8")
+    if done < 2:
+        os.kill(os.getpid(), signal.SIGKILL)
+    (out / "steps.txt").write_text(str(done + 1), encoding="utf-8")
+    return 0
+
+
 def threads(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """Write what the worker may use."""
     (out / "threads.txt").write_text(os.environ["OMP_NUM_THREADS"], encoding="utf-8")

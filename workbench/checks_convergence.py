@@ -1,0 +1,29 @@
+"""Check that every run reached its target. Verified by tests/end_to_end/test_partial_curve.py."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from contracts.records import Check
+
+__all__ = ["COMPLETE", "completeness_check"]
+
+COMPLETE = "fe.complete"
+"""Identifier of the check; its status ``error`` makes that of the whole report."""
+
+
+def completeness_check(early_ends: Mapping[str, str]) -> Check:
+    """A gate: no finite element run ended before its target. ``early_ends``: task name -> reason."""
+    named = f": {', '.join(early_ends)}; what rests on them is partial" if early_ends else ""
+    return Check(
+        id=COMPLETE,
+        title=f"FE: runs that did not converge to their end{named}",
+        quantity="runs",
+        unit="-",
+        value=float(len(early_ends)),
+        reference=0.0,
+        tolerance="none",
+        status="error" if early_ends else "pass",
+        role="gate",
+        source="project's own requirement",
+    )
