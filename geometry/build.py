@@ -66,7 +66,9 @@ def build_mesh(
     mesh : points [m] in the wheel frame; parts ``"tire"``, ``"grousers"``, one per spring set, ``"outer_hub"``,
         ``"cone"``, ``"impact_springs"``, ``"inner_hub"``; face groups ``"tire_outer"``, ``"tire_inner"``,
         ``"grouser_outer"``, ``"outer_hub_outer"``, ``"outer_hub_bore"``, ``"inner_hub_outer"``, ``"inner_hub_bore"``,
-        ``"symmetry"`` (half width) and ``"free"`` for every boundary facet that is left
+        ``"symmetry"`` (half width), per spring set ``"{set}_front"`` (the strips' broad side that faces rim and hub)
+        and ``"{set}_back"`` (the other one, free faces of the welds included), and ``"free"`` for every boundary facet
+        that is left
 
     Raises
     ------

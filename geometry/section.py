@@ -198,11 +198,12 @@ def _add_springs(
     half, t = 0.5 * weld_angle(springs, rim_radius), springs.thickness
     (rim_name, rim), (hub_name, hub) = surfaces
     at_rim, at_hub = (f"{springs.name}_rim", rim_name), (f"{springs.name}_hub", hub_name)
+    back = {"inner": f"{springs.name}_back"}
     for station in station_angles(springs):
         for i in rim.span(station - half, station + half):
-            draft.add_ring_piece(springs.name, (at_rim, (rim_radius - t, rim_radius)), rim, i, {})
+            draft.add_ring_piece(springs.name, (at_rim, (rim_radius - t, rim_radius)), rim, i, back)
         for i in hub.span(station - half, station + half):
-            draft.add_ring_piece(springs.name, (at_hub, (hub_radius + t, hub_radius)), hub, i, {})
+            draft.add_ring_piece(springs.name, (at_hub, (hub_radius + t, hub_radius)), hub, i, back)
         for side in leg_sides(springs):
             leg = spring_leg(springs, gap, station, side)
             i, j = rim.index(station + side * half), hub.index(station + side * half)
@@ -230,7 +231,8 @@ def _add_leg(
             _leg_curve(leg, line[piece], leg.normals[piece], (stations[s][k], stations[s + 1][k]))
             for k, line in enumerate(lines)
         ]
-        draft.add_layers(springs.name, curves, math.ceil(per_half_ring / leg.segments), {})
+        sides = {"inner": f"{springs.name}_back", "outer": f"{springs.name}_front"}
+        draft.add_layers(springs.name, curves, math.ceil(per_half_ring / leg.segments), sides)
 
 
 def _leg_curve(leg: Leg, points: Array, normals: Array, ends: tuple[Key, Key]) -> Curve:

@@ -12,7 +12,7 @@ from geometry.validation import validate_wheel
 
 __all__ = ["WheelDesign", "exomars"]
 
-_STRIP = 0.613e-3
+_STRIP = 0.609e-3
 _WELD = 8.0e-3
 
 
@@ -66,7 +66,7 @@ class WheelDesign:
     parts.
 
     **Inferred, not published**: the inner springs' turn of 60 degrees against the outer ones; that a spring is a hoop
-    of two mirrored semicircles; the strip thickness 0.613 mm, one for rim and springs (chosen so that the solid
+    of two mirrored semicircles; the strip thickness 0.609 mm, one for rim and springs (chosen so that the solid
     model's average curve starts at 8.25 N/mm with hub radius 50 mm); the spring bands -60..-40, -20..20 and
     40..60 mm; a weld of 8 mm; height 3 mm, thickness 1 mm and phase 0 of the grousers; the outer hub's radius 50 mm,
     thickness 2 mm and width 120 mm; everything of the cone (a mirrored pair, 1.5 mm, from y = 36 mm at the outer to

@@ -23,6 +23,8 @@ from reference_fe.contact_patch import ContactPatch, contact_faces, distance_at_
 from reference_fe.domain import Domain
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.increments import ConvergedState, solve_increments
+from reference_fe.inner_contact import InnerContact, InnerContactTerm
+from reference_fe.inner_contact_pairs import wheel_contact_pairs
 from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.orientation import curved_axis_first
 from reference_fe.overlap import FaceOverlap
@@ -48,8 +50,10 @@ class WheelLoadCase:
     maximum_load : the run ends at the first point with at least this load [N]
     snapshot_loads : loads of the full wheel at which fields are kept [N]
     rigid_parts : parts held rigid, of those the mesh has; if the inner hub is not among them, its bore is held instead
+    inner_contact : whether springs, rim and hubs hold each other off; else they pass through each other
     law : stored energy
     contact_stiffness : penalty stiffness per undeformed area [N/m^3]
+    inner_contact_stiffness : the same between the wheel's own parts [N/m^3]
     contact_ramp : gap at which the contact pressure begins [m], see `contact_law.plane_pressure`
     gauss_points : Gauss points along the curved axis and the others of a cell, see `Discretisation`; a planar mesh
         takes the first two
@@ -62,8 +66,10 @@ class WheelLoadCase:
     maximum_load: float = float("inf")
     snapshot_loads: tuple[float, ...] = ()
     rigid_parts: tuple[str, ...] = HUB_PARTS
+    inner_contact: bool = True
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
     contact_stiffness: float = 1e11
+    inner_contact_stiffness: float = 1e11
     contact_ramp: float = 5e-6
     gauss_points: tuple[int, ...] = (2, 3, 3)
     transverse_constraint: Mapping[str, float] = field(default_factory=dict)
@@ -140,7 +146,8 @@ def solve_wheel(
     result : the curve's columns are ``contact_length_m`` (extent along the ground), ``contact_area_m2``,
         ``penetration_m``, ``force_imbalance`` (support plus contact force over contact force),
         ``relative_residual``, ``newton_iterations``, ``spring_rim_gap_m`` (smallest distance of the springs from the
-        rim's inside; negative is overlap: their contact is not modelled) and ``max_von_mises_{part}_Pa``
+        rim's inside; negative is overlap: the contact's penetration, or more without inner contact),
+        ``inner_penetration_m`` (largest at any point of inner contact) and ``max_von_mises_{part}_Pa``
 
     Raises
     ------
@@ -208,6 +215,7 @@ class _WheelRun:
                 stiffness=load_case.contact_stiffness,
                 ramp=load_case.contact_ramp,
             ),
+            surfaces=[inner] if (inner := _inner_contact(mesh, load_case)) else [],
             discretisation=discretisation,
             transverse_constraint=load_case.transverse_constraint,
         )
@@ -220,6 +228,10 @@ class _WheelRun:
         self.history: list[IncrementRecord] = []
         self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
         self.snapshots: list[FieldSnapshot] = []
+
+    @property
+    def _inner_terms(self) -> list[InnerContactTerm]:
+        return [term for term in self.problem.surfaces.terms if isinstance(term, InnerContactTerm)]
 
     @property
     def _sides(self) -> float:
@@ -242,6 +254,7 @@ class _WheelRun:
         row["newton_iterations"] = float(state.outcome.iterations)
         if self.overlap is not None:
             row["spring_rim_gap_m"] = self.overlap.smallest_gap(displacement)
+        row["inner_penetration_m"] = max((t.largest_penetration for t in self._inner_terms), default=0.0)
         row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
         self.rows.append(row)
         return load
@@ -323,6 +336,12 @@ class _WheelRun:
             )
         problem.restore(here)
         problem.set_control(control)
+
+
+def _inner_contact(mesh: TaggedMesh, load_case: WheelLoadCase) -> InnerContact | None:
+    """What holds the wheel's parts off each other, or None."""
+    pairs = wheel_contact_pairs(mesh) if load_case.inner_contact else ()
+    return InnerContact(pairs=pairs, stiffness=load_case.inner_contact_stiffness) if pairs else None
 
 
 def _hub_supports(mesh: TaggedMesh, rigid: tuple[str, ...], materials: Mapping[str, Material]) -> list[Support]:

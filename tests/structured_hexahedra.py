@@ -59,3 +59,17 @@ def block_mesh(
         parts={"body": 1},
         faces={"x0": 1, "x1": 2, "y0": 3, "y1": 4, "z0": 5, "z1": 6},
     )
+
+
+def stacked(first: TaggedMesh, second: TaggedMesh, part: str) -> TaggedMesh:
+    """Two separate bodies in one mesh; the second is part ``part`` and its faces are ``{part}_x0`` and so on."""
+    shift = len(first.points)
+    return TaggedMesh(
+        points=np.vstack([first.points, second.points]),
+        cells=np.vstack([first.cells, second.cells + shift]),
+        cell_tags=np.repeat(np.array([1, 2], dtype=np.int32), [len(first.cells), len(second.cells)]),
+        facets=np.vstack([first.facets, second.facets + shift]),
+        facet_tags=np.concatenate([first.facet_tags, second.facet_tags + 6]).astype(np.int32),
+        parts={"body": 1, part: 2},
+        faces=dict(first.faces) | {f"{part}_{name}": tag + 6 for name, tag in second.faces.items()},
+    )

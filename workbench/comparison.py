@@ -104,7 +104,11 @@ def _checks(study: Study, found: Comparison, plate: Mapping[str, float], fine: F
     checks += plate_checks(plate, tol)
     checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
     checks += agreement_checks(found.metrics, tol)
-    checks += [*spread_checks(fe, tol), yield_check(fe, strength), *overlap_checks(fe)]
+    checks += [
+        *spread_checks(fe, tol),
+        yield_check(fe, strength),
+        *overlap_checks(fe, inner_contact=study.fe.inner_contact),
+    ]
     checks.append(circumferential_tangent_check(fe, study.reference, tol))
     checks += user_checks(found.users, found.metrics, tol)
     return checks + [c for topic in topics_of(study) for c in topic.checks(study, found, found.topics[topic.name])]

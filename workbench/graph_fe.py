@@ -86,6 +86,7 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "snapshot_loads": list(fe.snapshot_loads),
         "material_law": fe.material_law,
         "contact_stiffness": fe.contact_stiffness,
+        "inner_contact": fe.inner_contact,
         "relative_tolerance": fe.relative_tolerance,
         "materials": {part: asdict(m) for part, m in wheel_design(study).materials.items()},
     }

@@ -110,6 +110,8 @@ class FeSection(Section):
     contact_stiffness: Annotated[
         Bedding, Positive, _between(1e6, 1e15, "1e6 N/m^3 and 1e15 N/m^3", "1e11 N/m^3 is usual")
     ] = 1e11
+    inner_contact: StrictBool = True
+    """Whether springs, rim and hubs hold each other off; else they pass through each other."""
     relative_tolerance: Annotated[Number, _between(1e-12, 1e-4, "1e-12 and 1e-4", "1e-8 is usual")] = 1e-8
     fine_orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)] = 0.0
     fine_factor: Annotated[Number, Field(gt=1.0, le=8.0)] = 2.0

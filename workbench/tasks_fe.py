@@ -45,6 +45,7 @@ def solve_orientation(
         snapshot_loads=tuple(inputs["snapshot_loads"]),
         law=MaterialLaw(inputs["material_law"]),
         contact_stiffness=inputs["contact_stiffness"],
+        inner_contact=inputs["inner_contact"],
         newton=NewtonSettings(relative_tolerance=inputs["relative_tolerance"]),
     )
     materials = {part: Material(**values) for part, values in inputs["materials"].items()}

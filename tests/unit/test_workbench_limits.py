@@ -49,11 +49,14 @@ def test_one_orientation_has_no_mean_around_the_wheel() -> None:
 
 
 def test_overlap_counts_up_to_the_load() -> None:
-    at_160, at_250 = overlap_checks(model({0.0: 8000.0}))
+    at_160, at_250 = overlap_checks(model({0.0: 8000.0}), inner_contact=True)
     assert (at_160.value, at_160.status) == (pytest.approx(0.0), "pass")  # 160 N at 20 mm, where the gap is zero
     assert at_250.value == pytest.approx(1e-3 * (2 * 31 / 40 - 1))  # last point up to 250 N: 31 mm
-    assert at_250.status == "fail"
+    assert (at_250.status, at_250.role) == ("fail", "gate")
+    without = overlap_checks(model({0.0: 8000.0}), inner_contact=False)[1]
+    assert (without.status, without.role) == ("fail", "finding")
+    assert "switched off" in without.title
 
 
 def test_overlap_is_not_evaluated_beyond_the_curves() -> None:
-    assert [c.status for c in overlap_checks(model({0.0: 5000.0}))] == ["fail", "error"]
+    assert [c.status for c in overlap_checks(model({0.0: 5000.0}), inner_contact=True)] == ["fail", "error"]

@@ -1,0 +1,194 @@
+"""Inner contact: search, force and stiffness on bodies whose distance is known; gradients by finite differences."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from contracts.mesh import TaggedMesh
+from geometry import WheelDesign, build_mesh
+from reference_fe.dolfinx_api import fem
+from reference_fe.domain import Domain
+from reference_fe.inner_contact import ContactPair, InnerContact, InnerContactTerm
+from reference_fe.inner_contact_kernels import contact_blocks, nearest_contacts
+from reference_fe.inner_contact_pairs import wheel_contact_pairs
+from tests.structured_hexahedra import block_mesh, stacked
+
+Array = NDArray[np.float64]
+GAP = 0.02
+LAW = InnerContact(
+    pairs=(ContactPair(slave="lid_z0", master="z1"),),
+    stiffness=100.0,
+    ramp=1e-3,
+    least_gap=2e-3,
+    depth=0.05,
+    reach=0.03,
+)
+
+
+def plates(bulge: float = 0.0, order: int = 2, counts: tuple[int, int, int] = (3, 2, 1)) -> TaggedMesh:
+    """A plate (part body) and a smaller one (part lid) ``GAP`` above it on other elements; both bulge upwards."""
+
+    def arch(X: Array) -> Array:
+        return X - np.outer(bulge * ((X[:, 0] - 0.5) ** 2 + 0.5 * X[:, 0] * X[:, 1]), [0.0, 0.0, 1.0])
+
+    low = block_mesh((2, 2, 1), lambda X: arch(X * [1.0, 1.0, 0.1]), order)
+    high = block_mesh(counts, lambda X: arch(X * [0.6, 0.7, 0.1] + [0.2, 0.1, 0.1 + GAP]), order)
+    return stacked(low, high, "lid")
+
+
+def term_on(mesh: TaggedMesh, law: InnerContact = LAW) -> InnerContactTerm:
+    domain = Domain.from_tagged(mesh)
+    return law.build(domain, fem.functionspace(domain.mesh, ("Lagrange", mesh.order, (3,))))
+
+
+def sunk(term: InnerContactTerm, sink: float, noise: float = 0.0) -> Array:
+    """Displacement that sinks the lid (everything above z = 0.11), with noise on all nodes."""
+    X = term.reference_positions
+    u = noise * np.random.default_rng(3).standard_normal(X.shape)
+    u[X[:, 2] > 0.1 + 0.5 * GAP, 2] -= sink
+    return u.ravel()
+
+
+def total_force(term: InnerContactTerm, u: Array) -> Array:
+    forces = term.evaluate(u, 0.0)
+    out = np.zeros((len(u) // 3, 3))
+    np.add.at(out, forces.nodes, forces.force)
+    return out
+
+
+@pytest.mark.parametrize(("bulge", "order"), [(0.0, 1), (0.0, 2), (0.1, 2)])
+def test_stiffness_is_the_derivative_of_the_force(bulge: float, order: int) -> None:
+    """Curved, tilted and noisy facets in deep and light contact: the turning normal and the sliding point included."""
+    term = term_on(plates(bulge, order))
+    u = sunk(term, GAP + 2e-3, noise=1e-3)
+    direction = np.random.default_rng(4).standard_normal(len(u))
+    step = 1e-8
+    slope = (total_force(term, u + step * direction) - total_force(term, u - step * direction)) / (2.0 * step)
+    forces = term.evaluate(u, 0.0)
+    moved = direction.reshape(-1, 3)[forces.nodes]
+    product = np.zeros((len(u) // 3, 3))
+    np.add.at(product, forces.nodes, -np.einsum("maibj,mbj->mai", forces.stiffness, moved))
+    assert np.abs(slope).max() > 1.0
+    np.testing.assert_allclose(product, slope, atol=1e-5 * np.abs(slope).max())
+    flat = forces.stiffness.reshape(len(forces.nodes), forces.nodes.shape[1] * 3, -1)
+    np.testing.assert_allclose(flat, np.swapaxes(flat, 1, 2), atol=1e-12 * np.abs(flat).max())
+
+
+def test_action_is_reaction_in_force_and_moment() -> None:
+    term = term_on(plates(0.1))
+    u = sunk(term, GAP + 2e-3, noise=1e-3)
+    force, x = total_force(term, u), term.reference_positions + u.reshape(-1, 3)
+    size = np.abs(force).sum()
+    assert size > 0.05
+    assert np.abs(force.sum(axis=0)).max() < 1e-13 * size
+    assert np.abs(np.cross(x, force).sum(axis=0)).max() < 1e-13 * size
+    assert np.abs(np.cross(term.reference_positions, force).sum(axis=0)).max() > 1e-6 * size  # negative control
+
+
+@pytest.mark.parametrize(("sink", "pressure"), [(GAP - 2e-3, 0.0), (GAP, 0.025), (GAP + 5e-3, 0.5)])
+def test_force_is_pressure_times_area(sink: float, pressure: float) -> None:
+    """Open; at touch k d/4; at 5 mm depth k times depth; on the lid's 0.6 x 0.7 face."""
+    term = term_on(plates())
+    force = total_force(term, sunk(term, sink))
+    up = force[term.reference_positions[:, 2] > 0.1 + 0.5 * GAP].sum(axis=0)
+    np.testing.assert_allclose(up, [0.0, 0.0, pressure * 0.42], atol=1e-12)
+    assert term.largest_penetration == pytest.approx(max(0.0, sink - GAP), abs=1e-12)
+
+
+def test_a_point_deeper_than_the_depth_is_not_caught() -> None:
+    """Negative control of the search, and the reason for a generous depth."""
+    term = term_on(plates())
+    assert np.abs(total_force(term, sunk(term, GAP + 0.049))).max() > 0.0
+    assert np.abs(total_force(term, sunk(term, GAP + 0.051))).max() == 0.0
+
+
+def test_a_face_that_looks_away_is_not_touched() -> None:
+    """The lid's upper face comes as near to the plate as its lower one, but faces the same way."""
+    term = term_on(plates(), replace(LAW, pairs=(ContactPair(slave="lid_z1", master="z1"),), depth=0.2))
+    assert np.abs(total_force(term, sunk(term, GAP + 0.101))).max() == 0.0
+
+
+def test_points_that_start_too_near_are_left_out() -> None:
+    """Two plates that touch at the start, like strip and ring beside a weld, do not press on each other ever."""
+    term = term_on(plates(), replace(LAW, least_gap=0.025))
+    assert np.abs(total_force(term, sunk(term, GAP + 5e-3))).max() == 0.0
+
+
+def test_the_pattern_grows_once_and_holds_every_block() -> None:
+    term = term_on(plates(), replace(LAW, reach=0.01))
+    assert len(term.couplings()) == 0
+    forces = term.evaluate(sunk(term, GAP + 2e-3), 0.0)
+    assert term.pattern_version == 1
+    room = {tuple(sorted(row)) for row in term.couplings().tolist()}
+    assert {tuple(sorted(row)) for row in forces.nodes.tolist()} <= room
+    term.evaluate(sunk(term, GAP + 3e-3), 0.0)
+    assert term.pattern_version == 1
+
+
+def test_a_face_does_not_touch_itself_across_its_own_edges() -> None:
+    """Self-contact of a bulging plate: facets that share nodes are no candidates, and none other is near."""
+    term = term_on(plates(0.2), replace(LAW, pairs=(ContactPair(slave="z1", master="z1"),), least_gap=1e-3))
+    assert len(term.couplings()) == 0
+
+
+@pytest.mark.parametrize("bulge", [0.0, 0.3])
+def test_planar_edges_have_the_same_law(bulge: float) -> None:
+    """An edge is a facet extruded along the third axis: force by finite differences of the potential, k (g^2)/2."""
+    x = np.array([[0.0, 0, 0], [0.5, bulge, 0], [1.0, 0.1, 0], [0.3, 0.25 + bulge, 0]])
+    master = (np.array([[0, 1, 2]]), np.array([-1.0]), (3, 1))
+    touch = np.array([[[0.0, -1.0, 0.0]]])
+
+    def contact(x: Array) -> tuple[Array, float]:
+        candidates = (np.array([0, 1]), np.array([0]))
+        facet, xi, gap = nearest_contacts(x, x[None, 3:], touch, candidates, master, (1.0, 1.0, 1e-3))
+        assert facet[0, 0] == 0
+        return xi[0], float(gap[0, 0])
+
+    def blocks(x: Array) -> tuple[Array, Array]:
+        xi, gap = contact(x)
+        force, stiffness = np.empty((1, 4, 2)), np.empty((1, 4, 2, 4, 2))
+        law = np.array([[gap, -2.0 * gap, 2.0]])
+        contact_blocks(x, (np.array([[3]]), np.ones((1, 1))), master, xi, law, (force, stiffness))
+        return force[0], stiffness[0]
+
+    force, stiffness = blocks(x)
+    order = [3, 0, 1, 2]
+    for a, node in enumerate(order):
+        for i in range(2):
+            step = np.zeros_like(x)
+            step[node, i] = 1e-6
+            energy = [contact(x + sign * step)[1] ** 2 for sign in (1.0, -1.0)]
+            assert force[a, i] == pytest.approx(-(energy[0] - energy[1]) / 2e-6, abs=1e-8)
+            slope = (blocks(x + step)[0] - blocks(x - step)[0]) / 2e-6
+            np.testing.assert_allclose(-stiffness[:, :, a, i], slope, atol=1e-7)
+
+
+def broken(change: Callable[[], InnerContact]) -> None:
+    with pytest.raises(InputError, match=r"inner contact|ramp"):
+        change()
+
+
+def test_bad_settings_are_refused() -> None:
+    broken(lambda: replace(LAW, stiffness=0.0))
+    broken(lambda: replace(LAW, ramp=3e-3))
+    domain = Domain.from_tagged(plates())
+    with pytest.raises(InputError, match="Lagrange of the mesh's order"):
+        LAW.build(domain, fem.functionspace(domain.mesh, ("Lagrange", 1, (3,))))
+
+
+def test_pairs_of_a_wheel() -> None:
+    design = WheelDesign()
+    flexible = wheel_contact_pairs(build_mesh(design, element_size=14e-3, parts="flexible"))
+    names = {(pair.slave, pair.master) for pair in flexible}
+    assert {("springs_outer_front", "tire_inner"), ("springs_inner_back", "springs_inner_back")} <= names
+    assert ("tire_inner", "outer_hub_outer") in names
+    assert not any("impact" in name for pair in names for name in pair)
+    whole = {(pair.slave, pair.master) for pair in wheel_contact_pairs(build_mesh(design, element_size=14e-3))}
+    assert names < whole
+    assert {("impact_springs_front", "outer_hub_bore"), ("outer_hub_bore", "inner_hub_outer")} <= whole - names
