@@ -46,6 +46,7 @@ def run_report(study_path: Path | None, out: Path, store: Path, workers: int) ->
     from workbench.provenance import provenance
     from workbench.report import PageContent, render
     from workbench.results import task_timings
+    from workbench.topics import topics_of
 
     with _naming(path):
         found = compare(study, {name: entry.path for name, entry in entries.items()})
@@ -60,6 +61,7 @@ def run_report(study_path: Path | None, out: Path, store: Path, workers: int) ->
     }
     curves = [*found.fe.by_orientation.values(), found.fe.average]
     curves += [*found.ancf.by_orientation.values(), found.ancf.average, found.brush]
+    curves += [curve for topic in topics_of(study) for curve in topic.curves(study, found.topics[topic.name])]
     publish(out, texts, curves, _field_files(entries))
     _print_checks(found.checks)
     console.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)

@@ -25,6 +25,7 @@ from workbench.graph import degrees
 from workbench.result_files import early_ends, read_result
 from workbench.results import CURVE, ModelCurves, UserCurve, model_curves
 from workbench.study import Study
+from workbench.study_models import part_materials
 from workbench.topics import topics_of
 
 __all__ = ["Comparison", "compare", "exit_status", "overall_status"]
@@ -97,7 +98,7 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
 
 def _checks(study: Study, found: Comparison, plate: Mapping[str, float], fine: FineRun) -> list[Check]:
     tol, fe = study.tolerances, found.fe
-    strength = {part: study.materials[name].yield_strength for part, name in _part_materials(study).items()}
+    strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
     checks = band_checks(fe, study.reference, tol)
     checks += [*solver_checks(fe, fine, tol), reach_check(fe, tol)]
     checks += mesh_checks(found.mesh, found.mesh_whole, tol)
@@ -112,14 +113,6 @@ def _checks(study: Study, found: Comparison, plate: Mapping[str, float], fine: F
     checks.append(circumferential_tangent_check(fe, study.reference, tol))
     checks += user_checks(found.users, found.metrics, tol)
     return checks + [c for topic in topics_of(study) for c in topic.checks(study, found, found.topics[topic.name])]
-
-
-def _part_materials(study: Study) -> dict[str, str]:
-    """Material name of each part of the mesh."""
-    wheel = study.wheel
-    single = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
-    parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in wheel.springs}
-    return {name: part.material for name, part in parts.items() if part is not None}
 
 
 def _users(study: Study, folder: Path) -> tuple[UserCurve, ...]:

@@ -18,7 +18,19 @@ from pydantic_core import PydanticCustomError
 if TYPE_CHECKING:
     import pint
 
-__all__ = ["Angle", "Bedding", "Density", "Force", "Length", "Number", "Pressure", "Stiffness", "Viscosity", "to_si"]
+__all__ = [
+    "Angle",
+    "Bedding",
+    "Density",
+    "Force",
+    "Length",
+    "Number",
+    "Pressure",
+    "Stiffness",
+    "Temperature",
+    "Viscosity",
+    "to_si",
+]
 
 _TEXT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf)\b)\s*(.*)", re.IGNORECASE | re.ASCII)
 """A number, then whatever follows: nothing or a unit."""
@@ -36,6 +48,7 @@ _KINDS = {
     "N/m**3": ("a stiffness per area", "1e11 N/m^3"),
     "N/m": ("a stiffness", "8.25 N/mm"),
     "N*s/m": ("a viscous coefficient", "100 N*s/m"),
+    "K": ("a temperature", "-40 degC"),
     "": ("a plain number", "0.3"),
 }
 
@@ -57,7 +70,7 @@ def to_si(value: object, unit: str) -> float:
     Parameters
     ----------
     value : number taken as SI, or a string such as ``"0.6 mm"``; an angle must be a string, because a plain
-        number could be meant in degrees
+        number could be meant in degrees, and so must a temperature
     unit : SI unit wanted, in pint's spelling; ``""`` for a plain number
 
     Returns
@@ -77,6 +90,8 @@ def to_si(value: object, unit: str) -> float:
         raise _refuse("must be a finite number", f"write {kind} like {example!r}")
     if unit == "rad" and not isinstance(value, str):
         raise _refuse("an angle needs its unit", f"write it like {example!r} or '0.26 rad'")
+    if unit == "K" and not isinstance(value, str):
+        raise _refuse("a temperature needs its unit", f"write it like {example!r} or '233 K'")
     return number
 
 
@@ -132,4 +147,5 @@ Force = Annotated[float, BeforeValidator(_validator("N"))]
 Density = Annotated[float, BeforeValidator(_validator("kg/m**3"))]
 Stiffness = Annotated[float, BeforeValidator(_validator("N/m"))]
 Viscosity = Annotated[float, BeforeValidator(_validator("N*s/m"))]
+Temperature = Annotated[float, BeforeValidator(_validator("K"))]
 Number = Annotated[float, BeforeValidator(_validator(""))]

@@ -13,6 +13,7 @@ from typing import Annotated
 from pydantic import Field
 
 from workbench.quantities import Force, Length, Stiffness
+from workbench.study_environment import EnvironmentSection
 from workbench.study_sections import (
     AncfSection,
     BrushSection,
@@ -75,6 +76,7 @@ class Study(WheelStudy):
     name, title : short name (file names, summary) and title of the report
     wheel, materials, mesh : the wheel, its materials by name, its mesh
     fe, ancf, brush : the three models' settings
+    environment : other temperatures, if the study asks for them
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
     """
@@ -85,6 +87,7 @@ class Study(WheelStudy):
     ancf: AncfSection
     brush: BrushSection
     compare: CompareSection = CompareSection()
+    environment: EnvironmentSection | None = None
     reference: Band = Field(default_factory=thesis_band)
     tolerances: ToleranceSection = ToleranceSection()
     inferred: dict[str, str] = Field(default_factory=dict)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geometry.wheel import WheelDesign
     from rover_dynamics.brush_tire import BrushTireParameters
 
-__all__ = ["SectionInputError", "ancf_preset", "brush_parameters", "materials", "wheel_design"]
+__all__ = ["SectionInputError", "ancf_preset", "brush_parameters", "materials", "part_materials", "wheel_design"]
 
 
 class SectionInputError(InputError):
@@ -44,6 +44,14 @@ def materials(study: WheelStudy) -> dict[str, Material]:
         name: _in_section(f"materials.{name}", partial(Material, name=name, **section.model_dump()))
         for name, section in study.materials.items()
     }
+
+
+def part_materials(study: WheelStudy) -> dict[str, str]:
+    """Material name of each part of the mesh."""
+    wheel = study.wheel
+    single = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
+    parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in wheel.springs}
+    return {name: part.material for name, part in parts.items() if part is not None}
 
 
 def wheel_design(study: WheelStudy) -> WheelDesign:

@@ -5,11 +5,13 @@ Asked once the wheel and the tire are known to fit together. Verified by tests/u
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from contracts.errors import InputError
 from workbench.study import Study
-from workbench.study_models import wheel_design
+from workbench.study_models import materials, wheel_design
 
 __all__ = ["BrokenRule", "broken_rules"]
 
@@ -40,6 +42,33 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
         "fe", study.fe.max_deflection, tire.outer_radius - tire.thickness - study.wheel.outer_hub.outer_radius
     )
     yield from _room("ancf", ancf.max_deflection, ancf.outer_radius - ancf.hub_radius)
+    yield from _environment(study)
+
+
+def _environment(study: Study) -> Iterator[BrokenRule]:
+    """Its orientation must be one of the FE's, its materials known at every temperature."""
+    section = study.environment
+    if section is None:
+        return
+    if not any(abs(section.orientation - o) < 1e-9 for o in study.fe.orientations):
+        value, rule = f"{math.degrees(section.orientation):g} deg", "must be one of fe.orientations"
+        hint = "its curve at 20 C is what the others are held against"
+        yield BrokenRule(key="environment.orientation", value=value, rule=rule, hint=hint)
+    known = materials(study)
+    for name in section.variants:
+        if name not in known:
+            hint = f"add [materials.{name!r}] or remove it"
+            yield BrokenRule(key="environment.variants", value=name, rule="is not in [materials]", hint=hint)
+            return
+    used = {material.name: material for material in wheel_design(study).materials.values()}
+    for material in (used | {name: known[name] for name in section.variants}).values():
+        for temperature in section.temperatures:
+            try:
+                material.at(temperature)
+            except InputError as error:
+                value = f"{temperature - 273.15:g} C"
+                rule = f"{material.name}: {error.rule}"
+                yield BrokenRule(key="environment.temperatures", value=value, rule=rule, hint=error.hint)
 
 
 def _room(section: str, deflection: float, gap: float) -> Iterator[BrokenRule]:

@@ -78,13 +78,15 @@ class Section(BaseModel):
 
 
 class MaterialSection(Section):
-    """One material: E [Pa], nu [-], rho [kg/m^3], R_p0.2 [Pa], and where the numbers come from."""
+    """One material: E [Pa], nu [-], rho [kg/m^3], R_p0.2 [Pa] at 20 C, where the numbers come from, and the name of its
+    data against temperature, if any."""
 
     young_modulus: Modulus
     poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
     density: Annotated[Density, Positive]
     yield_strength: Annotated[Pressure, Positive]
     source: Annotated[str, Field(min_length=1)]
+    temperature_data: Annotated[str, Field(min_length=1)] | None = None
 
 
 class MeshSection(Section):

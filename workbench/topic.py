@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.study import Study
 from workbench.task import Task
@@ -28,6 +29,10 @@ def _no_figures(study: Study, results: Any) -> Mapping[str, str]:
     return {}
 
 
+def _no_curves(study: Study, results: Any) -> Sequence[StiffnessCurve]:
+    return ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Topic:
     """One topic of the report.
@@ -40,6 +45,7 @@ class Topic:
     read : study, result folder of every task by name -> the topic's results
     checks : study, the comparison of the models, the topic's results -> checks
     figures : study, the topic's results -> HTML of each figure by name; the template sees them as ``figures``
+    curves : study, the topic's results -> curves to publish as CSV beside the models'
     applies : False leaves the topic out of this study's graph and report
     """
 
@@ -49,4 +55,5 @@ class Topic:
     read: Callable[[Study, Mapping[str, Path]], Any]
     checks: Callable[[Study, Comparison, Any], Sequence[Check]]
     figures: Callable[[Study, Any], Mapping[str, str]] = _no_figures
+    curves: Callable[[Study, Any], Sequence[StiffnessCurve]] = _no_curves
     applies: Callable[[Study], bool] = _always

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from workbench.study import Study
 from workbench.topic import Topic
+from workbench.topic_environment import ENVIRONMENT
+from workbench.topic_strength import STRENGTH
 
 __all__ = ["TOPICS", "topics_of"]
 
-TOPICS: tuple[Topic, ...] = ()
+TOPICS: tuple[Topic, ...] = (STRENGTH, ENVIRONMENT)
 
 
 def topics_of(study: Study) -> tuple[Topic, ...]:

@@ -1,0 +1,71 @@
+"""Stress against yield along a curve: utilisation of each part, load at first yield.
+
+Verified by tests/unit/test_workbench_yielding.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+
+__all__ = ["FirstYield", "first_yield", "smallest_yield_load", "utilisation"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FirstYield:
+    """Where stress first reaches yield on a curve.
+
+    Attributes
+    ----------
+    load, deflection : where it happens [N, m]; the curve's end if it does not
+    part : the part that yields; None if none does
+    """
+
+    load: float
+    deflection: float
+    part: str | None
+
+
+def utilisation(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> dict[str, NDArray[np.float64]]:
+    """Largest von Mises stress over yield strength at each point of the curve, by part that has a stress column [-]."""
+    columns = {part: f"max_von_mises_{part}_Pa" for part in yield_strength}
+    return {part: curve.columns[c] / yield_strength[part] for part, c in columns.items() if c in curve.columns}
+
+
+def first_yield(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> FirstYield:
+    """First point at which any part's stress reaches its yield strength, interpolated linearly between increments."""
+    found = FirstYield(load=float(curve.load.max()), deflection=float(curve.deflection[-1]), part=None)
+    for part, used in utilisation(curve, yield_strength).items():
+        above = np.flatnonzero(used >= 1.0)
+        if not len(above):
+            continue
+        i = int(above[0])
+        fraction = 1.0 if i == 0 else (1.0 - used[i - 1]) / (used[i] - used[i - 1])
+        deflection, load = (
+            float(y[max(i - 1, 0)] + fraction * (y[i] - y[max(i - 1, 0)])) for y in (curve.deflection, curve.load)
+        )
+        if found.part is None or deflection < found.deflection:
+            found = FirstYield(load=load, deflection=deflection, part=part)
+    return found
+
+
+def smallest_yield_load(found: Sequence[FirstYield], needed: float) -> float:
+    """Smallest load at first yield [N]; where nothing yields, the curve's largest load counts.
+
+    Raises
+    ------
+    InputError
+        If a curve ends below the load ``needed`` [N] without yielding, and none yields below it: then it is not known.
+    """
+    load = min(y.load for y in found if y.part is not None) if any(y.part for y in found) else float("inf")
+    end = min((y.load for y in found if y.part is None), default=float("inf"))
+    if load >= needed > end:
+        rule = f"ends before {needed:g} N without yielding"
+        raise InputError("curve", f"{end:.4g} N", rule, "raise fe.max_deflection or fe.max_load")
+    return min(load, end)
