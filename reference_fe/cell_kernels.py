@@ -110,65 +110,78 @@ def add_tangent(
     Parameters
     ----------
     stress : (n_cells, n_points, 3, 3) stored stress S_m [Pa]
-    indptr : (n_dofs + 1,) row starts of the matrix
+    indptr : (n_dofs + 1,) row starts of the matrix; the three rows of a node are equally long
     blocks : (n_cells, n_nodes, n_nodes) place of node b's three columns within the rows of node a
     values : (nnz,) [N/m]
     u, G, w, moduli, dofs : as in `internal_force`
     """
-    n = G.shape[3]
-    H, F, B = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
-    f, s = np.empty((3, n)), np.empty((3, n))
-    P, D = np.empty((3, n, 3, n)), np.empty((6, n, n))
+    n, m = G.shape[3], G.shape[1]
+    H, block = np.empty((3, 3)), np.empty((3, 3))
+    g, f, s, B = np.empty((3, n, m)), np.empty((3, n, m)), np.empty((3, n, m)), np.empty((6, m))
+    start, length = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
     for c in range(G.shape[0]):
-        P[:] = 0.0
-        D[:] = 0.0
-        lam, mu = moduli[c, 0], moduli[c, 1]
-        for q in range(G.shape[1]):
-            g, S = G[c, q], stress[c, q]
-            _displacement_gradient(g, u, dofs[c], H)
-            for i in range(3):
-                for j in range(3):
-                    F[i, j] = H[i, j] + (1.0 if i == j else 0.0)
-            for i in range(3):
-                for j in range(3):
-                    B[i, j] = mu * (F[i, 0] * F[j, 0] + F[i, 1] * F[j, 1] + F[i, 2] * F[j, 2])
-                for a in range(n):
-                    f[i, a] = F[i, 0] * g[0, a] + F[i, 1] * g[1, a] + F[i, 2] * g[2, a]
-                    s[i, a] = S[i, 0] * g[0, a] + S[i, 1] * g[1, a] + S[i, 2] * g[2, a]
-            _add_point(w[c, q], g, f, s, B, P, D)
+        for q in range(m):
+            _displacement_gradient(G[c, q], u, dofs[c], H)
+            _point_factors(w[c, q], moduli[c, 1], H, stress[c, q], G[c, q], q, g, f, s, B)
         for a in range(n):
-            for i in range(3):
-                start = indptr[dofs[c, a, i]]
-                for b in range(n):
-                    place = start + blocks[c, a, b]
+            start[a] = indptr[dofs[c, a, 0]]
+            length[a] = indptr[dofs[c, a, 0] + 1] - start[a]
+            for b in range(a + 1):
+                _node_pair(a, b, moduli[c, 0], moduli[c, 1], w[c], g, f, s, B, block)
+                here, mirrored = start[a] + blocks[c, a, b], start[b] + blocks[c, b, a]
+                for i in range(3):
                     for k in range(3):
-                        diagonal = D[i, a, b] if i == k else D[2 + i + k, a, b]
-                        values[place + k] += lam * P[i, a, k, b] + mu * P[k, a, i, b] + diagonal
+                        values[here + i * length[a] + k] += block[i, k]
+                        if b < a:
+                            values[mirrored + i * length[b] + k] += block[k, i]
 
 
-@numba.njit(cache=True, fastmath={"contract", "reassoc"})
-def _add_point(w: float, g: Array, f: Array, s: Array, B: Array, P: Array, D: Array) -> None:
-    """One point's share: P_iakb += w f_ia f_kb; D the six blocks (xx, yy, zz, xy, xz, yz) of the rest."""
-    n = g.shape[1]
-    for a in range(n):
-        g0, g1, g2 = w * g[0, a], w * g[1, a], w * g[2, a]
-        s0, s1, s2 = w * s[0, a], w * s[1, a], w * s[2, a]
-        f0, f1, f2 = w * f[0, a], w * f[1, a], w * f[2, a]
-        for b in range(n):
-            gg = g0 * g[0, b] + g1 * g[1, b] + g2 * g[2, b]
-            gs = s0 * g[0, b] + s1 * g[1, b] + s2 * g[2, b]
-            D[0, a, b] += B[0, 0] * gg + gs
-            D[1, a, b] += B[1, 1] * gg + gs
-            D[2, a, b] += B[2, 2] * gg + gs
-            D[3, a, b] += B[0, 1] * gg
-            D[4, a, b] += B[0, 2] * gg
-            D[5, a, b] += B[1, 2] * gg
-            P[0, a, 0, b] += f0 * f[0, b]
-            P[0, a, 1, b] += f0 * f[1, b]
-            P[0, a, 2, b] += f0 * f[2, b]
-            P[1, a, 0, b] += f1 * f[0, b]
-            P[1, a, 1, b] += f1 * f[1, b]
-            P[1, a, 2, b] += f1 * f[2, b]
-            P[2, a, 0, b] += f2 * f[0, b]
-            P[2, a, 1, b] += f2 * f[1, b]
-            P[2, a, 2, b] += f2 * f[2, b]
+@numba.njit(cache=True, fastmath={"contract", "reassoc"}, error_model="numpy")
+def _point_factors(
+    w: float, mu: float, H: Array, S: Array, G: Array, q: int, g: Array, f: Array, s: Array, B: Array
+) -> None:
+    """Put G, f_a = F G_a, s_a = w S_m G_a and w mu F F^T (xx, yy, zz, xy, xz, yz) of point q in place, points last."""
+    F = np.eye(3) + H
+    for i in range(3):
+        B[i, q] = w * mu * (F[i, 0] * F[i, 0] + F[i, 1] * F[i, 1] + F[i, 2] * F[i, 2])
+        for j in range(i):
+            B[2 + i + j, q] = w * mu * (F[i, 0] * F[j, 0] + F[i, 1] * F[j, 1] + F[i, 2] * F[j, 2])
+        for a in range(G.shape[1]):
+            g[i, a, q] = G[i, a]
+            f[i, a, q] = F[i, 0] * G[0, a] + F[i, 1] * G[1, a] + F[i, 2] * G[2, a]
+            s[i, a, q] = w * (S[i, 0] * G[0, a] + S[i, 1] * G[1, a] + S[i, 2] * G[2, a])
+
+
+@numba.njit(cache=True, fastmath={"contract", "reassoc"}, error_model="numpy")
+def _node_pair(
+    a: int, b: int, lam: float, mu: float, w: Array, g: Array, f: Array, s: Array, B: Array, K: Array
+) -> None:
+    """Block K_ab (3, 3) of one cell: sums over the points in registers, as vectors; nothing but K is written."""
+    p00 = p01 = p02 = p10 = p11 = p12 = p20 = p21 = p22 = 0.0
+    xx = yy = zz = xy = xz = yz = geometric = 0.0
+    for q in range(w.shape[0]):
+        gg = g[0, a, q] * g[0, b, q] + g[1, a, q] * g[1, b, q] + g[2, a, q] * g[2, b, q]
+        geometric += s[0, a, q] * g[0, b, q] + s[1, a, q] * g[1, b, q] + s[2, a, q] * g[2, b, q]
+        xx += B[0, q] * gg
+        yy += B[1, q] * gg
+        zz += B[2, q] * gg
+        xy += B[3, q] * gg
+        xz += B[4, q] * gg
+        yz += B[5, q] * gg
+    for q in range(w.shape[0]):
+        f0, f1, f2 = w[q] * f[0, a, q], w[q] * f[1, a, q], w[q] * f[2, a, q]
+        p00 += f0 * f[0, b, q]
+        p01 += f0 * f[1, b, q]
+        p02 += f0 * f[2, b, q]
+        p10 += f1 * f[0, b, q]
+        p11 += f1 * f[1, b, q]
+        p12 += f1 * f[2, b, q]
+        p20 += f2 * f[0, b, q]
+        p21 += f2 * f[1, b, q]
+        p22 += f2 * f[2, b, q]
+    K[0, 0] = (lam + mu) * p00 + xx + geometric
+    K[1, 1] = (lam + mu) * p11 + yy + geometric
+    K[2, 2] = (lam + mu) * p22 + zz + geometric
+    K[0, 1], K[1, 0] = lam * p01 + mu * p10 + xy, lam * p10 + mu * p01 + xy
+    K[0, 2], K[2, 0] = lam * p02 + mu * p20 + xz, lam * p20 + mu * p02 + xz
+    K[1, 2], K[2, 1] = lam * p12 + mu * p21 + yz, lam * p21 + mu * p12 + yz

@@ -33,10 +33,9 @@ class FaceOverlap:
         mine = np.isin(mesh.cell_tags, tags)
         others = np.unique(mesh.cells[~mine])
         self._nodes = np.setdiff1d(np.unique(mesh.cells[mine]), others)
-        points, normals = facet_samples(mesh.points, self._facets)
-        _, nearest = cKDTree(points).query(mesh.points[self._nodes])
-        inward = np.einsum("ni,ni->n", normals[nearest], mesh.points[self._nodes] - points[nearest])
-        self._sign = 1.0 if np.median(inward) >= 0.0 else -1.0
+        self._sign = 1.0
+        if np.median(self._gaps_to_middles(mesh.points)) < 0.0:
+            self._sign = -1.0
 
     def smallest_gap(self, displacement: NDArray[np.float64]) -> float:
         """Smallest signed distance between the nodes and the face [m]; negative is overlap.
@@ -44,7 +43,27 @@ class FaceOverlap:
         displacement : (n_points, dim) at the mesh's nodes [m]
         """
         current = self._mesh.points + displacement
+        near = self._candidates(current)
         points, normals = facet_samples(current, self._facets)
-        _, nearest = cKDTree(points).query(current[self._nodes])
-        gap = np.einsum("ni,ni->n", normals[nearest], current[self._nodes] - points[nearest])
+        _, nearest = cKDTree(points).query(current[near])
+        gap = np.einsum("ni,ni->n", normals[nearest], current[near] - points[nearest])
         return float(np.min(self._sign * gap))
+
+    def _candidates(self, current: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Nodes whose gap to the nearest facet's middle exceeds the smallest such gap by one facet at most.
+
+        The others cannot have the smallest gap; those near a rim's centre, which has no nearest sample, would make the
+        search among all samples slow.
+        """
+        corners = current[self._facets[:, :4]]
+        gap, diagonals = self._gaps_to_middles(current), np.linalg.norm(corners[:, 2:] - corners[:, :2], axis=-1)
+        return self._nodes[gap <= gap.min() + diagonals.max()]
+
+    def _gaps_to_middles(self, current: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Signed distance of each node from the middle of its nearest facet, along that facet's normal [m]."""
+        corners = current[self._facets[:, :4]]
+        middles, normals = corners.mean(axis=1), np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        _, nearest = cKDTree(middles).query(current[self._nodes])
+        offset = current[self._nodes] - middles[nearest]
+        return np.asarray(self._sign * np.einsum("ni,ni->n", normals[nearest], offset))
