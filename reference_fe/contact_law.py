@@ -1,36 +1,73 @@
-"""Penalty law of frictionless contact with a rigid plane, with a short quadratic ramp around touch."""
+"""Laws of contact at a point: penalty with a short quadratic ramp around touch, and Coulomb friction with stick."""
 
 from __future__ import annotations
 
-from reference_fe.dolfinx_api import Expr, ufl
+import math
 
-__all__ = ["plane_pressure"]
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["friction_traction", "ramped_pressure"]
 
 
-def plane_pressure(gap: Expr, lag: Expr, penalty: Expr, ramp: float) -> tuple[Expr, Expr]:
-    """Contact pressure and its stiffness, linearised about a lagged gap.
+@numba.njit(cache=True, inline="always")
+def ramped_pressure(gap: float, penalty: float, ramp: float, multiplier: float = 0.0) -> tuple[float, float]:
+    """Contact pressure and its stiffness.
 
-    Pressure law, with normal gap g (open > 0), penalty k and ramp d:
-    p = 0 for g > d; p = k (d - g)^2 / (4 d) for |g| <= d; p = -k g for g < -d. It is continuously differentiable, so
-    points that are barely open do not flicker between two stiffnesses. With a lag l the law is replaced by its tangent
-    line at g + l: p(g + l) + k'(g + l) l. The plane's rise used as lag gives, in the first solve of an increment, the
-    linearisation about the last converged state with its contact set; l = 0 gives the law itself.
+    With normal gap g (open > 0), penalty k, ramp d, multiplier l and y = g - l/k:
+    p = 0 for y > d; p = k (d - y)^2 / (4 d) for |y| <= d; p = -k y = l - k g for y < -d. It is continuously
+    differentiable, so points that are barely open do not flicker between two stiffnesses. With l = 0 it is the penalty
+    law, with Uzawa's update l <- p the augmented Lagrangian (Simo & Laursen, Comput. Struct. 42, 1992); its fixed
+    points have 0 <= g <= d where they touch.
 
     Parameters
     ----------
-    gap : normal gap g [m]
-    lag : l [m]
+    gap : g [m]
     penalty : k [N/m^3]
     ramp : d > 0 [m]
+    multiplier : l >= 0 [Pa]
 
     Returns
     -------
-    pressure, stiffness : p [Pa] and -dp/dg [N/m^3] as UFL expressions
+    pressure, stiffness : p [Pa] and -dp/dg [N/m^3]
 
-    Verified by tests/verification/test_fe_ring.py (elastica ring) and tests/unit/test_fe_contact_law.py.
+    Verified by tests/unit/test_fe_contact_law.py and tests/verification/test_fe_ring.py (elastica ring).
     """
-    g = gap + lag
-    touching, closed = ufl.lt(g, ramp), ufl.lt(g, -ramp)
-    slope = ufl.conditional(closed, 1.0, ufl.conditional(touching, (ramp - g) / (2.0 * ramp), 0.0))
-    depth = ufl.conditional(closed, -g, ufl.conditional(touching, (ramp - g) ** 2 / (4.0 * ramp), 0.0))
-    return penalty * (depth + slope * lag), penalty * slope
+    y = gap - multiplier / penalty
+    if y > ramp:
+        return 0.0, 0.0
+    if y < -ramp:
+        return -penalty * y, penalty
+    return penalty * (ramp - y) ** 2 / (4.0 * ramp), penalty * (ramp - y) / (2.0 * ramp)
+
+
+@numba.njit(cache=True, inline="always")
+def friction_traction(
+    trial: NDArray[np.float64], limit: float, traction: NDArray[np.float64], direction: NDArray[np.float64]
+) -> float:
+    """Return mapping of Coulomb friction; fills ``traction`` and ``direction`` (Simo & Laursen 1992).
+
+    Parameters
+    ----------
+    trial : (dim,) tangential traction if the point stuck [Pa]
+    limit : mu p [Pa]
+    traction : (dim,) the trial traction, shortened to the limit [Pa]
+    direction : (dim,) its unit vector where it slides, zero where it sticks [-]
+
+    Returns
+    -------
+    share : traction over trial traction [-]; 1 where the point sticks
+
+    Verified by tests/unit/test_fe_contact_law.py.
+    """
+    length = 0.0
+    for i in range(len(trial)):
+        length += trial[i] ** 2
+    length = math.sqrt(length)
+    sticks = length <= limit
+    share = 1.0 if sticks else limit / length
+    for i in range(len(trial)):
+        traction[i] = share * trial[i]
+        direction[i] = 0.0 if sticks else trial[i] / length
+    return share

@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import functools
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 with contextlib.suppress(ModuleNotFoundError):
@@ -32,6 +33,7 @@ __all__ = [
     "MPI",
     "DirichletBC",
     "Expr",
+    "FacetRule",
     "Function",
     "Mesh",
     "MeshTags",
@@ -44,6 +46,7 @@ __all__ = [
     "compile_form",
     "create_matrix",
     "facet_midpoints",
+    "facet_rule",
     "facet_tags_from_nodes",
     "fem",
     "fem_petsc",
@@ -51,6 +54,7 @@ __all__ = [
     "gauss_rule",
     "lagrange_gradients",
     "lagrange_points",
+    "lagrange_shapes",
     "mesh_from_arrays",
     "meshtags",
     "quadrature_space",
@@ -158,6 +162,47 @@ def lagrange_gradients(degree: int, points: NDArray[np.float64]) -> NDArray[np.f
     """Derivatives of the Lagrange shape functions along the reference axes, (dim, n_points, n_nodes) [-]."""
     element = basix.create_element(basix.ElementFamily.P, basix.CellType[_CELL[points.shape[1]]], degree)
     return np.asarray(element.tabulate(1, points))[1:, :, :, 0]
+
+
+def lagrange_shapes(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Lagrange shape functions of the reference quadrilateral or hexahedron, (n_points, n_nodes) [-]."""
+    cell = basix.CellType[_CELL[points.shape[1]]]
+    element = basix.create_element(basix.ElementFamily.P, cell, degree)
+    return np.asarray(element.tabulate(0, points))[0, :, :, 0]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FacetRule:
+    """Gauss rule on the facets of the reference cell, one block for each facet of it.
+
+    Attributes
+    ----------
+    points : (kinds, q, dim) reference points of the cell
+    weights : (q,)
+    edges : (kinds, dim - 1, dim) reference vectors along the facet's axes
+    closure : (kinds, k) numbers of the cell's functions that live on the facet
+    shapes : (kinds, q, k) those functions at the points
+    """
+
+    points: NDArray[np.float64]
+    weights: NDArray[np.float64]
+    edges: NDArray[np.float64]
+    closure: NDArray[np.int64]
+    shapes: NDArray[np.float64]
+
+
+def facet_rule(V: Any, points_per_axis: int) -> FacetRule:
+    """Tensor Gauss rule on each facet of the reference cell, with the shape functions of the space V."""
+    element = V.element.basix_element
+    vertices, corners = basix.geometry(element.cell_type), basix.topology(element.cell_type)
+    dim = vertices.shape[1]
+    flat, weights = gauss_rule((points_per_axis,) * (dim - 1))
+    first = np.array([[vertices[k] for k in facet] for facet in corners[dim - 1]])
+    edges = np.stack([first[:, 2**axis] - first[:, 0] for axis in range(dim - 1)], axis=1)
+    points = first[:, None, 0] + np.einsum("qa,fad->fqd", flat, edges)
+    closure = np.array(element.entity_closure_dofs[dim - 1])
+    tables = [element.tabulate(0, on_facet)[0, :, nodes, 0].T for on_facet, nodes in zip(points, closure, strict=True)]
+    return FacetRule(points=points, weights=weights, edges=edges, closure=closure, shapes=np.stack(tables))
 
 
 def reference_edge(local_edge: int) -> NDArray[np.float64]:

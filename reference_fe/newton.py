@@ -80,16 +80,16 @@ class NewtonSolver:
     def solve(self, rise: float = 0.0) -> NewtonOutcome:
         """Iterate from the present displacement; leaves the last iterate in ``problem.u``.
 
-        ``rise`` is the plane's rise since the last converged state [m]: the first solve then uses that state's contact
-        set (see `contact_law.plane_pressure`), which spares most of the search for the new one.
+        ``rise`` is the obstacle's rise since the last converged state [m]: the first solve then uses that state's
+        contact set (see `contact_obstacle.ObstacleTerm.evaluate`), which spares most of the search for the new one.
         """
         problem, history = self.problem, list[float]()
         offset = self._offset_at_supports()
         problem.store_stress(extrapolate=False)
         if rise:
-            problem.contact_lag.value = rise
+            problem.contact_lag = rise
             self._step(problem.residual(), offset)
-            problem.contact_lag.value, offset = 0.0, np.zeros(0)
+            problem.contact_lag, offset = 0.0, np.zeros(0)
             history.append(1.0)
         residual = problem.residual()
         while True:
@@ -129,7 +129,7 @@ class NewtonSolver:
             right_hand_side[problem.supported] = offset[problem.supported]
         last, self._matrix = self._matrix, problem.tangent(self._matrix)
         if self._ksp is None or self._matrix is not last:
-            self._ksp = _mumps(self._matrix)
+            self._ksp = _mumps(self._matrix, symmetric=problem.surfaces.symmetric)
         x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
         b.array[:] = right_hand_side
         self._ksp.setOperators(self._matrix)
@@ -171,11 +171,11 @@ class NewtonSolver:
         return out_of_balance / applied
 
 
-def _mumps(matrix: api.PETSc.Mat) -> api.PETSc.KSP:
-    """Direct solver: MUMPS on the symmetric matrix (indefinite allowed)."""
+def _mumps(matrix: api.PETSc.Mat, *, symmetric: bool) -> api.PETSc.KSP:
+    """Direct solver: MUMPS, on a symmetric matrix (indefinite allowed) with half the work."""
     ksp = api.PETSc.KSP().create(matrix.comm)
     ksp.setType("preonly")
     pc = ksp.getPC()
-    pc.setType("cholesky")
+    pc.setType("cholesky" if symmetric else "lu")
     pc.setFactorSolverType("mumps")
     return ksp

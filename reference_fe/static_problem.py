@@ -1,8 +1,8 @@
 """Nonlinear statics of a tagged mesh, solid or planar: total Lagrangian, hyperelastic, supports, loads, contact.
 
 Weak form (Bonet & Wood 2008, ch. 8): find u with
-    int S(E(u)) : DE(u)[v] dV - W(u)[v] - int p(g(u)) n . v dA = 0  for every v that vanishes on the supports,
-with W the work of the loads (see `reference_fe.loads`).
+    int S(E(u)) : DE(u)[v] dV - W(u)[v] - C(u)[v] = 0  for every v that vanishes on the supports,
+with W the work of the loads (see `reference_fe.loads`) and C that of the surface terms, i.e. of contact.
 Tangent with mixed integration points (Magisano, Leonetti, Garcea 2017): the geometric stiffness uses the stress stored
 at the Gauss points, S_m = S(E(u)) + CC : DE(u)[du] of the last solve, in place of S(E(u)); the residual, and with it
 the solution, stay the same. docs/theory.md has the derivation. Verified by tests/verification/test_fe_*.py.
@@ -21,8 +21,8 @@ from contracts.materials import Material
 from reference_fe import dolfinx_api as api
 from reference_fe import hyperelastic as law_of
 from reference_fe.compiled_cells import CompiledCells
-from reference_fe.contact_law import plane_pressure
-from reference_fe.contact_patch import contact_faces, distance_at_touch
+from reference_fe.contact_obstacle import ObstacleContact, ObstacleTerm
+from reference_fe.contact_patch import contact_faces, facet_samples
 from reference_fe.discretisation import Discretisation, ElementFamily
 from reference_fe.dolfinx_api import fem, fem_petsc, ufl
 from reference_fe.domain import Domain
@@ -31,7 +31,7 @@ from reference_fe.form_cells import FormCells
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.loads import edge_load_vector, virtual_work
 from reference_fe.support_dofs import build_supports
-from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, PlaneContact, Support, Traction
+from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Support, Traction
 from reference_fe.surface_assembly import SurfaceAssembly
 from reference_fe.surface_term import SurfaceDescription, TermState
 
@@ -59,7 +59,8 @@ class StaticProblem:
     ----------
     domain : mesh with tags
     materials : part name -> material, for every part that deforms; parts left out are rigid and must be supported
-    supports, tractions, loads, contact : boundary conditions
+    supports, tractions, loads : boundary conditions
+    contact : an obstacle that just touches the undeformed body at control parameter 0
     surfaces : further contacts, see `surface_term`
     discretisation : law, degree, quadrature
     transverse_constraint : planar mesh only, part -> how it is held across the plane, from `PLANE_STRESS` to
@@ -68,12 +69,11 @@ class StaticProblem:
     Attributes
     ----------
     u : displacement (DOLFINx function) [m]
-    lame, stretch : Lame parameters [Pa] and free thermal stretch [-] of each cell, as UFL expressions
     du : last Newton step [m]
     bcs : Dirichlet conditions of the supports (DOLFINx)
     supported : unknowns held by a support, ascending
     lame, stretch, transverse_strain : constants on each cell, see `elastic_fields.ElasticFields`
-    contact_lag : linearise the contact pressure about the gap plus this lag [m]; 0 but in an increment's first solve
+    contact_lag : linearise contact about the obstacle lowered by this lag [m]; 0 but in an increment's first solve
     """
 
     def __init__(
@@ -84,7 +84,7 @@ class StaticProblem:
         *,
         tractions: Sequence[Traction] = (),
         loads: Sequence[BodyForce | EdgeLoad | EndMoment] = (),
-        contact: PlaneContact | None = None,
+        contact: ObstacleContact | None = None,
         surfaces: Sequence[SurfaceDescription] = (),
         discretisation: Discretisation | None = None,
         transverse_constraint: Mapping[str, float] | None = None,
@@ -100,16 +100,15 @@ class StaticProblem:
         self.lame, self.stretch, self.transverse_strain = fields.lame, fields.stretch, fields.transverse
         self._flexible_cells = domain.cells_of(materials)
         self.load_factor = fem.Constant(mesh, 0.0)
-        self.plane_normal, self.plane_distance = fem.Constant(mesh, np.zeros(domain.dim)), fem.Constant(mesh, 1.0)
-        self.penalty = fem.Constant(mesh, 0.0)
-        self.contact_lag = fem.Constant(mesh, 0.0)
+        self.contact_lag = 0.0
         self._build_forms([*tractions, *(load for load in loads if not isinstance(load, EdgeLoad))])
         edge_loads = [edge_load_vector(domain, self.V, load) for load in loads if isinstance(load, EdgeLoad)]
         self._edge_force = np.sum(edge_loads, axis=0) if edge_loads else np.zeros(self.dofs)
         self.bcs, self._prescribed = build_supports(domain, self.V, supports)
         marked = [bc.dof_indices()[0] for bc in self.bcs]
         self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
-        self.surfaces = SurfaceAssembly([surface.build(domain, self.V) for surface in surfaces], self.V)
+        terms = [surface.build(domain, self.V) for surface in surfaces]
+        self.surfaces = SurfaceAssembly([*self._obstacle_terms(), *terms], self.V)
         self._pattern_version: tuple[int, ...] | None = None
         self.set_control(0.0)
 
@@ -123,10 +122,6 @@ class StaticProblem:
         self.load_factor.value = control
         for prescribed in self._prescribed:
             prescribed.set_control(control)
-        if self.contact is not None:
-            self.plane_normal.value = np.asarray(self.contact.normal)
-            self.plane_distance.value = self.contact.distance_at_touch - control
-            self.penalty.value = self.contact.stiffness
         self.surfaces.set_control(control)
 
     def residual(self) -> NDArray[np.float64]:
@@ -140,7 +135,7 @@ class StaticProblem:
         if self._compiled is not None:
             array += self._compiled.internal_force(self.u.x.array)
         if self.surfaces.terms:
-            array -= self.surfaces.force(self.u.x.array, float(self.contact_lag.value))
+            array -= self.surfaces.force(self.u.x.array, self.contact_lag)
         return array
 
     def tangent(self, matrix: api.PETSc.Mat | None = None) -> api.PETSc.Mat:
@@ -193,12 +188,8 @@ class StaticProblem:
         self.surfaces.restore(state.surfaces)
 
     def contact_force(self) -> NDArray[np.float64]:
-        """Force of plane and surfaces on the body, integral of the contact pressure, (dim,) [N]."""
-        force = self.surfaces.resultant()
-        if self._contact_form is not None:
-            total = self.domain.mesh.comm.allreduce(fem.assemble_scalar(self._contact_form))
-            force = force + self.plane_normal.value * total
-        return np.asarray(force, dtype=np.float64)
+        """Force of the obstacles on the body, integral of the contact tractions, (dim,) [N]."""
+        return self.surfaces.resultant()
 
     def reaction(self, residual: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sum of the support forces on the body, from the residual at supported unknowns, (dim,) [N]."""
@@ -260,33 +251,19 @@ class StaticProblem:
             residual = _sum(residual, -work)
             if isinstance(load, EndMoment):
                 tangent = _sum(tangent, -ufl.derivative(work, u, w))
-        residual, tangent = self._add_contact(residual, tangent, v, w)
         points, _ = api.gauss_rule(choice.gauss_points)
         self._deformation_gradient = api.PointEvaluation(law_of.deformation_gradient(u), points)
         self._residual_form = None if residual is None else api.compile_form(residual)
         self._tangent_form = None if tangent is None else api.compile_form(tangent)
 
-    def _add_contact(
-        self, residual: api.Expr, tangent: api.Expr, v: api.Expr, w: api.Expr
-    ) -> tuple[api.Expr, api.Expr]:
-        mesh, tags = self.domain.mesh, self.domain.facet_tags
-        self._contact_form = None
-        if self.contact is not None:
-            _check_plane(self.domain, self.contact, self.materials)
-            ds = ufl.ds(
-                domain=mesh,
-                subdomain_data=tags,
-                subdomain_id=self.domain.face_tags(self.contact.faces),
-                metadata={"quadrature_degree": self.contact.quadrature_degree},
-            )
-            n = self.plane_normal
-            gap = ufl.dot(n, ufl.SpatialCoordinate(mesh) + self.u) + self.plane_distance
-            pressure, stiffness = plane_pressure(gap, self.contact_lag, self.penalty, self.contact.ramp)
-            width = self.domain.width
-            residual = _sum(residual, -width * pressure * ufl.dot(n, v) * ds)
-            tangent = _sum(tangent, width * stiffness * ufl.dot(n, v) * ufl.dot(n, w) * ds)
-            self._contact_form = api.compile_form(width * pressure * ds)
-        return residual, tangent
+    def _obstacle_terms(self) -> list[ObstacleTerm]:
+        """The obstacle's surface term, with the stiffness of the cells known to it; refused unless it just touches."""
+        if self.contact is None:
+            return []
+        _check_touch(self.domain, self.contact, self.materials)
+        lam, mu = (field.x.array for field in self.lame)
+        young_modulus = np.divide(mu * (3.0 * lam + 2.0 * mu), lam + mu, out=np.zeros_like(mu), where=mu > 0.0)
+        return [self.contact.build(self.domain, self.V, young_modulus)]
 
 
 def _sum(form: api.Expr, term: api.Expr) -> api.Expr:
@@ -294,12 +271,12 @@ def _sum(form: api.Expr, term: api.Expr) -> api.Expr:
     return term if form is None else form + term
 
 
-def _check_plane(domain: Domain, contact: PlaneContact, materials: Mapping[str, Material]) -> None:
-    """Refuse a plane that does not just touch the body at 20 C, to a thousandth of its distance and its expansion."""
+def _check_touch(domain: Domain, contact: ObstacleContact, materials: Mapping[str, Material]) -> None:
+    """Refuse an obstacle that does not just touch the body at 20 C, to a thousandth of its distance and expansion."""
     domain.face_tags(contact.faces)
-    facets = contact_faces(domain.tagged, contact.faces)
-    reach = distance_at_touch(domain.tagged, facets, -np.asarray(contact.normal))
-    gap = contact.distance_at_touch - reach
+    points, _ = facet_samples(domain.tagged.points, contact_faces(domain.tagged, contact.faces))
+    gap = float(contact.gap(points, 0.0).min())
+    reach = contact.distance_at_touch - gap
     allowed = 1e-3 + 2.0 * max(abs(material.thermal_strain) for material in materials.values())
     if abs(gap) > allowed * max(abs(reach), abs(contact.distance_at_touch)):
         raise InputError(

@@ -1,4 +1,4 @@
-"""Boundary conditions of a static problem as data: supports, loads, and a rigid plane in contact."""
+"""Boundary conditions of a static problem as data: supports and loads; a plane in contact."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from contracts.errors import InputError
+from reference_fe.contact_obstacle import ObstacleContact
 from reference_fe.dolfinx_api import Expr
 
 __all__ = ["BodyForce", "EdgeLoad", "EndMoment", "PlaneContact", "Support", "Traction"]
@@ -128,33 +129,5 @@ class EndMoment:
             raise InputError("end moment director", self.director, "must be at right angles to the axis", "turn it")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlaneContact:
-    """Frictionless penalty contact of named faces with a rigid plane that is raised against them.
-
-    The plane's unit normal n points to the body. Its distance from the origin along -n is ``distance_at_touch`` minus
-    the control parameter. Normal gap (open > 0): g = n . x + distance; the pressure on the undeformed area follows
-    `reference_fe.contact_law.plane_pressure`.
-
-    Attributes
-    ----------
-    faces : face names that may touch the plane
-    normal : unit normal, plane to body, one component an axis of space [-]
-    distance_at_touch : distance of the plane from the origin at control parameter 0 [m]
-    stiffness : penalty stiffness [N/m^3]
-    ramp : gap below which the pressure begins, and above which (negative) it is linear [m]
-    quadrature_degree : degree of the facet quadrature [-]
-    """
-
-    faces: tuple[str, ...]
-    normal: tuple[float, ...]
-    distance_at_touch: float
-    stiffness: float
-    ramp: float = 5e-6
-    quadrature_degree: int = 8
-
-    def __post_init__(self) -> None:
-        if abs(math.hypot(*self.normal) - 1.0) > 1e-9:
-            raise InputError("plane normal", self.normal, "must have length 1", "normalise it")
-        if not (math.isfinite(self.stiffness) and self.stiffness > 0.0):
-            raise InputError("contact stiffness", f"{self.stiffness:g} N/m^3", "must be > 0", "about 1e12 suits metal")
+PlaneContact = ObstacleContact
+"""Contact with a rigid plane: the obstacle that an `ObstacleContact` has by default."""

@@ -35,6 +35,11 @@ class SurfaceAssembly:
         """Changes when any term couples other nodes than before."""
         return tuple(term.pattern_version for term in self.terms)
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether the stiffness of every term is symmetric; a term without the attribute ``symmetric`` says so."""
+        return all(getattr(term, "symmetric", True) for term in self.terms)
+
     def couplings(self) -> list[NDArray[np.int32]]:
         """Groups of nodes that any term may couple."""
         return [group[group >= 0].astype(np.int32) for term in self.terms for group in term.couplings()]

@@ -54,7 +54,7 @@ class WheelLoadCase:
     law : stored energy
     contact_stiffness : penalty stiffness per undeformed area [N/m^3]
     inner_contact_stiffness : the same between the wheel's own parts [N/m^3]
-    contact_ramp : gap at which the contact pressure begins [m], see `contact_law.plane_pressure`
+    contact_ramp : gap at which the contact pressure begins [m], see `contact_law.ramped_pressure`
     gauss_points : Gauss points along the curved axis and the others of a cell, see `Discretisation`; a planar mesh
         takes the first two
     transverse_constraint : planar mesh only, part -> how it is held across the plane, see `plane_state`

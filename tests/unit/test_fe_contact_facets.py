@@ -1,0 +1,56 @@
+"""Quadrature of contact faces: areas, points and shape functions agree with the mesh; local stiffness by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contracts.errors import InputError
+from reference_fe import dolfinx_api as api
+from reference_fe.contact_facets import ContactFacets, local_stiffness
+from reference_fe.domain import Domain
+from tests.structured_hexahedra import block_mesh
+
+FACES = ("x0", "x1", "y0", "y1", "z0", "z1")
+
+
+def sheared(X: np.ndarray) -> np.ndarray:
+    return np.column_stack([2.0 * X[:, 0] + 0.3 * X[:, 2], X[:, 1], 0.5 * X[:, 2]])
+
+
+@pytest.mark.parametrize("family", ["Lagrange", "S"])
+@pytest.mark.parametrize("face", FACES)
+def test_points_lie_on_the_face_and_shapes_reproduce_them(family: str, face: str) -> None:
+    domain = Domain.from_tagged(block_mesh((2, 1, 1), sheared))
+    V = api.fem.functionspace(domain.mesh, (family, 2, (3,)))
+    facets = ContactFacets.of(domain, V, (face,), 8)
+    A, b = np.array([[0.2, -1.0, 0.4], [2.0, 0.3, 0.0], [0.0, 0.1, 0.5]]), np.array([1.0, 2.0, 3.0])
+    u = api.fem.Function(V)
+    u.interpolate(lambda x: A @ x + b[:, None])
+    values = u.x.array.reshape(-1, 3)[facets.nodes]
+    at_points = np.einsum("mqk,mki->mqi", facets.shapes[facets.kind], values)
+    np.testing.assert_allclose(at_points, facets.positions @ A.T + b, atol=1e-12)
+    height = np.sqrt(0.3**2 + 0.5**2)
+    area = {"x": height, "y": 1.0, "z": 2.0}[face[0]]
+    assert facets.weights.sum() == pytest.approx(area)
+    level = {"y0": (1, 0.0), "y1": (1, 1.0), "z0": (2, 0.0), "z1": (2, 0.5)}
+    if face in level:
+        axis, value = level[face]
+        np.testing.assert_allclose(facets.positions[..., axis], value, atol=1e-14)
+
+
+def test_local_stiffness_of_a_thin_and_a_thick_cell() -> None:
+    """0.1 m wide cells 2 mm deep: bending, 10 E t^3 / h^4; on their edge: 10 E / h with h = 2 mm."""
+    domain = Domain.from_tagged(block_mesh((1, 1, 1), lambda X: X * [0.1, 0.2, 0.002]))
+    V = api.fem.functionspace(domain.mesh, ("Lagrange", 2, (3,)))
+    flat, edge = (ContactFacets.of(domain, V, (face,), 4) for face in ("z0", "x0"))
+    E = np.array([1e11])
+    np.testing.assert_allclose(local_stiffness(flat, E), 10 * 1e11 * 0.002**3 / 0.1**4)
+    np.testing.assert_allclose(local_stiffness(edge, E), 10 * 1e11 / 0.002)
+
+
+def test_an_unknown_face_is_refused() -> None:
+    domain = Domain.from_tagged(block_mesh((1, 1, 1), lambda X: X))
+    V = api.fem.functionspace(domain.mesh, ("Lagrange", 2, (3,)))
+    with pytest.raises(InputError, match="mesh face"):
+        ContactFacets.of(domain, V, ("nowhere",), 4)
