@@ -19,6 +19,7 @@ from tests.end_to_end.small_study import run, small_study_text
 TASKS = {
     *("mesh", "mesh_whole", "mesh_fine", "fe_phi000", "fe_fine"),
     *("ancf_phi000", "ancf_phi045", "brush", "ancf_plate", "metrics", "pictures"),
+    "environment_-40C",
 }
 
 type Finished = subprocess.CompletedProcess[str]
@@ -39,7 +40,8 @@ def test_summary_holds_the_agreed_fields(first_report: Finished, workspace: Path
     for wanted in ("fe.initial_tangent", "fe.deflection_at_160N", "fe.deflection_at_250N", "fe.residual", "fe.balance",
                    "fe.reach", "fe.mesh_uncertainty", "fe.yield", "fe.spread_20mm", "mesh.mass", "ancf.preset_phi000",
                    "ancf.preset_phi045", "ancf.flexible_mass", "ancf.plate_elastic_force", "ancf_vs_fe.relative_l2",
-                   "ancf_vs_fe.iso_18571", "brush_vs_fe.relative_l2"):  # fmt: skip
+                   "ancf_vs_fe.iso_18571", "brush_vs_fe.relative_l2", "fe.first_yield_load",
+                   "environment.similarity", "environment.stiffness_-40C"):  # fmt: skip
         assert wanted in ids
     gates = [c for c in summary["checks"] if c["role"] == "gate"]
     assert {c["status"] for c in gates} == {"pass"}
@@ -59,7 +61,7 @@ def test_junit_holds_the_same_checks(first_report: Finished, workspace: Path) ->
 def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished, workspace: Path) -> None:
     folder = workspace / "report" / "curves"
     names = {"fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
-             "brush_average.csv"}  # fmt: skip
+             "brush_average.csv", "fe_-40C_phi000.csv"}  # fmt: skip
     assert {p.name for p in folder.iterdir()} == names
     for path in folder.iterdir():
         lines = path.read_text(encoding="utf-8").splitlines()
