@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -47,6 +48,7 @@ def build_mesh(
     half_width: bool = True,
     refinement: Mapping[str, float] | None = None,
     parts: Literal["all", "flexible"] = "all",
+    factor: float = 1.0,
 ) -> TaggedMesh:
     """Mesh a wheel with structured hexahedra, conforming at every junction.
 
@@ -60,6 +62,8 @@ def build_mesh(
     half_width : mesh y in [0, width/2] with the face group ``"symmetry"`` at y = 0; else the full width
     refinement : part name -> element size [m] where it differs from ``element_size``
     parts : ``"all"``, or ``"flexible"`` without cone, impact springs and inner hub
+    factor : at least 1; every count of elements along strips and along the axle is multiplied by it and rounded up,
+        those through a thickness are not: whole factors give nested meshes
 
     Returns
     -------
@@ -77,7 +81,9 @@ def build_mesh(
 
     Verified by tests/verification/test_mesh_volume.py and tests/verification/test_mesh_conformity.py.
     """
-    size = mesh_size(design, element_size, axial_size, thickness_elements, refinement)
+    if not (math.isfinite(factor) and factor >= 1.0):
+        raise InputError("refinement factor", factor, "must be at least 1", "choose a larger element size instead")
+    size = replace(mesh_size(design, element_size, axial_size, thickness_elements, refinement), factor=factor)
     if order not in _HEXAHEDRON:
         raise InputError("order", order, "must be 1 or 2", "use 2 for curved geometry")
     names = part_names(design, parts)
@@ -124,7 +130,7 @@ def _cone_shape(
     return ConeShape(
         radii=radii,
         joints=(outer, inner),
-        n_radial=max(1, math.ceil(slant / size.of("cone") - 1e-6)),
+        n_radial=size.refined(max(1, math.ceil(slant / size.of("cone") - 1e-6))),
         n_thickness=size.thickness_elements,
     )
 

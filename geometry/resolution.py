@@ -41,16 +41,23 @@ class MeshSize:
     axial_size : largest element length along the axle [m]
     thickness_elements : elements through each thickness [-]
     refinement : part name -> element size [m] where it differs
+    factor : every count of elements along strips and along the axle that follows from these sizes is multiplied by this
+        one and rounded up; those through a thickness are not. A family of meshes for a grid convergence study [-]
     """
 
     element_size: float
     axial_size: float
     thickness_elements: int
     refinement: Mapping[str, float]
+    factor: float = 1.0
 
     def of(self, part: str) -> float:
         """Element size [m] of a part."""
         return self.refinement.get(part, self.element_size)
+
+    def refined(self, count: int) -> int:
+        """A count of elements times the factor, rounded up."""
+        return math.ceil(self.factor * count - 1e-6)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,11 +111,11 @@ def rim_ring(design: WheelDesign, size: MeshSize) -> Ring:
         intervals += _weld_intervals(springs, radius, size.of(springs.name) / radius)
     grouser = [(a, b) for a, b, limit in intervals if limit == math.inf]
     ring = _divide(intervals, size.of("tire") / design.tire.outer_radius)
-    counts = ring.counts.copy()
+    counts = np.array([size.refined(int(n)) for n in ring.counts])
     for a, b in grouser:
         for i in ring.span(a, b):
             share = ring.step(i) / (b - a)
-            counts[i] = max(counts[i], math.ceil(size.thickness_elements * share - 1e-6))
+            counts[i] = max(ring.counts[i], math.ceil(size.thickness_elements * share - 1e-6))
     return Ring(angles=ring.angles, counts=counts)
 
 
@@ -128,7 +135,8 @@ def hub_ring(design: WheelDesign, size: MeshSize, parts: Parts) -> Ring:
         largest = min(largest, size.of("cone") / hub)
     if design.inner_hub is not None and "inner_hub" in names:
         largest = min(largest, size.of("inner_hub") / design.inner_hub.outer_radius)
-    return _divide(intervals, largest)
+    ring = _divide(intervals, largest)
+    return Ring(angles=ring.angles, counts=np.array([size.refined(int(n)) for n in ring.counts]))
 
 
 def _weld_intervals(springs: SpringSet, rim: float, largest: float) -> list[Interval]:
@@ -197,7 +205,7 @@ def axial_bands(design: WheelDesign, size: MeshSize, levels: NDArray[np.float64]
     joints = cone_joints(design)
     bands = []
     for low, high in pairwise(levels):
-        count = max(1, math.ceil((high - low) / size.axial_size - 1e-6))
+        count = size.refined(max(1, math.ceil((high - low) / size.axial_size - 1e-6)))
         if any(abs(a - low) < _SAME_LEVEL and abs(b - high) < _SAME_LEVEL for a, b in joints):
             count = size.thickness_elements
         bands.append((float(low), float(high), count))

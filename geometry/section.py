@@ -159,7 +159,7 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> None:
 def _add_grousers(draft: _Draft, fins: Grousers, radius: float, ring: Ring) -> None:
     """Fins with parallel flanks on the rim's outer surface at ``radius``."""
     half, tip = 0.5 * fins.thickness, radius + fins.height
-    n_height = max(1, math.ceil(fins.height / draft.size.of("grousers") - 1e-6))
+    n_height = draft.size.refined(max(1, math.ceil(fins.height / draft.size.of("grousers") - 1e-6)))
     foot_angle = math.asin(half / radius)
     for k in range(fins.count):
         middle = fins.phase + 2.0 * math.pi * k / fins.count
@@ -232,7 +232,8 @@ def _add_leg(
             for k, line in enumerate(lines)
         ]
         sides = {"inner": f"{springs.name}_back", "outer": f"{springs.name}_front"}
-        draft.add_layers(springs.name, curves, math.ceil(per_half_ring / leg.segments), sides)
+        count = draft.size.refined(math.ceil(per_half_ring / leg.segments))
+        draft.add_layers(springs.name, curves, count, sides)
 
 
 def _leg_curve(leg: Leg, points: Array, normals: Array, ends: tuple[Key, Key]) -> Curve:

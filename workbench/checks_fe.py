@@ -6,7 +6,6 @@ Verified by tests/unit/test_workbench_checks.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -16,12 +15,13 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check, Role
 from workbench.check_rules import Claim, at_least, at_most, near, within
+from workbench.mesh_study import MeshRun
 from workbench.metrics import largest_spread
 from workbench.results import ModelCurves
 from workbench.study import Band
 from workbench.study_sections import ToleranceSection
 
-__all__ = ["FineRun", "band_checks", "mesh_checks", "reach_check", "solver_checks", "spread_checks", "yield_check"]
+__all__ = ["band_checks", "mesh_checks", "reach_check", "solver_checks", "spread_checks", "yield_check"]
 
 _OURS = "project's own requirement"
 _SPREAD_AT = (0.005, 0.020, 0.030)
@@ -86,43 +86,21 @@ def reach_check(fe: ModelCurves, tol: ToleranceSection) -> Check:
     return at_least(claim, reach, 1.0)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FineRun:
-    """The run on the fine mesh: its curve, its numbers, and where it is compared [deg, m]."""
-
-    curve: StiffnessCurve
-    numbers: Mapping[str, Any]
-    orientation_deg: float
-    deflection: float
-
-
-def solver_checks(fe: ModelCurves, fine: FineRun, tol: ToleranceSection) -> list[Check]:
-    """Residual and balance of every run, the fine one included, and the distance from the fine mesh."""
-    orientation, deflection = fine.orientation_deg, fine.deflection
-    coarse = fe.by_orientation[orientation]
-    runs = [*fe.by_orientation.values(), fine.curve]
-
-    def uncertainty() -> float:
-        load = float(fine.curve.load_at(deflection))
-        return abs(float(coarse.load_at(deflection)) - load) / load
-
+def solver_checks(fe: ModelCurves, others: Sequence[MeshRun], tol: ToleranceSection) -> list[Check]:
+    """Residual and balance of every run, those of the mesh study included."""
+    curves = [*fe.by_orientation.values(), *(run.curve for run in others)]
+    numbers = [*fe.numbers.values(), *(run.numbers for run in others)]
     residual = "FE: largest residual of any converged increment, relative to the nodal support and contact forces"
-    uncertain = f"FE: load at {deflection * 1e3:g} mm, {orientation:g} deg, against a finer mesh"
     return [
         at_most(
             _claim("fe.residual", residual, "residual", "-", "gate", _OURS),
-            lambda: largest_residual([*fe.numbers.values(), fine.numbers]),
+            lambda: largest_residual(numbers),
             tol.fe_residual,
         ),
         at_most(
             _claim("fe.balance", "FE: largest imbalance of forces over contact force", "imbalance", "-", "gate", _OURS),
-            lambda: max(float(np.abs(c.columns["force_imbalance"]).max()) for c in runs),
+            lambda: max(float(np.abs(c.columns["force_imbalance"]).max()) for c in curves),
             tol.fe_balance,
-        ),
-        at_most(
-            _claim("fe.mesh_uncertainty", uncertain, "difference", "-", "gate", _OURS),
-            uncertainty,
-            tol.mesh_uncertainty,
         ),
     ]
 

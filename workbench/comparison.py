@@ -9,9 +9,9 @@ from typing import Any
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Check, Status
+from workbench.agreement import Agreement, agreements, noted
 from workbench.checks_convergence import COMPLETE, completeness_check
 from workbench.checks_fe import (
-    FineRun,
     band_checks,
     mesh_checks,
     reach_check,
@@ -22,10 +22,12 @@ from workbench.checks_fe import (
 from workbench.checks_limits import circumferential_tangent_check, overlap_checks
 from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, user_checks
 from workbench.graph import degrees
+from workbench.mesh_study import MeshStudy
 from workbench.result_files import early_ends, read_result
 from workbench.results import CURVE, ModelCurves, UserCurve, model_curves
 from workbench.study import Study
 from workbench.study_models import part_materials
+from workbench.topic_mesh_study import MESH_STUDY
 from workbench.topics import topics_of
 
 __all__ = ["Comparison", "compare", "exit_status", "overall_status"]
@@ -38,29 +40,37 @@ class Comparison:
     Attributes
     ----------
     fe, ancf : curves of both wheel models
-    brush, fine : the brush line; the FE curve on the fine mesh
+    brush : the brush line
     users : the user's own curves
     mesh, mesh_whole : numbers of both meshes
     metrics : distances between curves by pair
     topics : results of each topic by its name
+    agreement_limit : relative L2 difference up to which two models agree [-]
     checks : the verdict, line by line
     """
 
     fe: ModelCurves
     ancf: ModelCurves
     brush: StiffnessCurve
-    fine: StiffnessCurve
     users: tuple[UserCurve, ...]
     mesh: Mapping[str, Any]
     mesh_whole: Mapping[str, Any]
     metrics: Mapping[str, Any]
     topics: Mapping[str, Any]
+    agreement_limit: float
     checks: tuple[Check, ...]
 
     @property
-    def mesh_uncertainty(self) -> float | None:
-        """Relative difference of load between the mesh and the finer one [-]; None if it could not be found."""
-        return next((c.value for c in self.checks if c.id == "fe.mesh_uncertainty"), None)
+    def mesh_study(self) -> MeshStudy:
+        """Three meshes, and the numerical uncertainty they give every FE curve."""
+        study = self.topics[MESH_STUDY.name]
+        assert isinstance(study, MeshStudy)
+        return study
+
+    @property
+    def agreements(self) -> Mapping[str, Agreement]:
+        """Each pair of the metrics judged against the limit and the numerical uncertainty."""
+        return agreements(self.metrics, self.fe, self.mesh_study, self.agreement_limit)
 
 
 def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
@@ -77,41 +87,35 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
         fe=fe,
         ancf=ancf,
         brush=read_curve(folders["brush"] / CURVE, model="brush"),
-        fine=read_curve(folders["fe_fine"] / CURVE, model="fe"),
         users=_users(study, folders["metrics"]),
         mesh=read_result(folders["mesh"]),
         mesh_whole=read_result(folders["mesh_whole"]),
         metrics=metrics,
         topics={topic.name: topic.read(study, folders) for topic in topics_of(study)},
+        agreement_limit=study.tolerances.model_agreement,
         checks=(),
     )
     plate = read_result(folders["ancf_plate"])
-    fine = FineRun(
-        curve=comparison.fine,
-        numbers=read_result(folders["fe_fine"]),
-        orientation_deg=degrees(study.fe.fine_orientation),
-        deflection=study.fe.fine_deflection,
-    )
     complete = completeness_check(early_ends(folders))
-    return replace(comparison, checks=(complete, *_checks(study, comparison, plate, fine)))
+    return replace(comparison, checks=(complete, *_checks(study, comparison, plate)))
 
 
-def _checks(study: Study, found: Comparison, plate: Mapping[str, float], fine: FineRun) -> list[Check]:
+def _checks(study: Study, found: Comparison, plate: Mapping[str, float]) -> list[Check]:
     tol, fe = study.tolerances, found.fe
     strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
     checks = band_checks(fe, study.reference, tol)
-    checks += [*solver_checks(fe, fine, tol), reach_check(fe, tol)]
+    checks += [*solver_checks(fe, found.mesh_study.runs, tol), reach_check(fe, tol)]
     checks += mesh_checks(found.mesh, found.mesh_whole, tol)
     checks += plate_checks(plate, tol)
     checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
-    checks += agreement_checks(found.metrics, tol)
+    checks += noted(agreement_checks(found.metrics, tol), found.agreements)
     checks += [
         *spread_checks(fe, tol),
         yield_check(fe, strength),
         *overlap_checks(fe, inner_contact=study.fe.inner_contact),
     ]
     checks.append(circumferential_tangent_check(fe, study.reference, tol))
-    checks += user_checks(found.users, found.metrics, tol)
+    checks += noted(user_checks(found.users, found.metrics, tol), found.agreements)
     return checks + [c for topic in topics_of(study) for c in topic.checks(study, found, found.topics[topic.name])]
 
 

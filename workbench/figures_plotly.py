@@ -12,12 +12,23 @@ import plotly.graph_objects as go  # type: ignore[import-untyped]
 from plotly.offline import get_plotlyjs  # type: ignore[import-untyped]
 
 from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from workbench.comparison import Comparison
+from workbench.mesh_study import MeshStudy
 from workbench.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.results import ModelCurves, UserCurve
 from workbench.study import Band
 
-__all__ = ["ancf_figure", "empty_figure", "fe_figure", "figure_html", "models_figure", "plotly_script", "stress_figure"]
+__all__ = [
+    "ancf_figure",
+    "empty_figure",
+    "fe_figure",
+    "figure_html",
+    "mesh_study_figure",
+    "models_figure",
+    "plotly_script",
+    "stress_figure",
+]
 
 _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 _MARKERS = ("circle", "square", "diamond", "triangle-up", "cross", "x")
@@ -33,7 +44,7 @@ def fe_figure(found: Comparison, band: Band) -> str:
     figure = empty_figure()
     _add_band(figure, band)
     _add_orientations(figure, found.fe, "FE")
-    _add_uncertainty(figure, found.fe.average, found.mesh_uncertainty)
+    _add_uncertainty(figure, found.fe.average, found.mesh_study)
     _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
     _add_users(figure, found.users)
     return figure_html(figure, "fe-curves")
@@ -52,12 +63,36 @@ def models_figure(found: Comparison, band: Band) -> str:
     """The averages of all models together, with the band and the user's curves."""
     figure = empty_figure()
     _add_band(figure, band)
-    _add_uncertainty(figure, found.fe.average, found.mesh_uncertainty)
+    _add_uncertainty(figure, found.fe.average, found.mesh_study)
     _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
     _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
     _add_line(figure, found.brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
     _add_users(figure, found.users)
     return figure_html(figure, "model-curves")
+
+
+def mesh_study_figure(study: MeshStudy) -> str:
+    """Load over the extrapolated load, or over the finest mesh's, against the square of the element size."""
+    figure = empty_figure("(element size / that of the coarsest mesh)²", "load / extrapolated load - 1 [%]")
+    sizes = np.array([run.size / study.runs[-1].size for run in study.runs])
+    for i, deflection in enumerate(study.deflections):
+        try:
+            found = study.convergence(deflection)
+        except InputError:
+            continue
+        base = found.extrapolated if found.extrapolated is not None else found.values[0]
+        figure.add_scatter(
+            x=sizes**2,
+            y=100.0 * (np.array(found.values) / base - 1.0),
+            error_y={"type": "data", "array": [100.0 * found.index_fine, 100.0 * found.index_medium,
+                                               100.0 * found.index_coarse], "thickness": 1.2, "width": 5},
+            name=f"{1e3 * deflection:g} mm",
+            mode="lines+markers",
+            line={"color": ORIENTATION_COLOURS[i % 6], "width": 2.0, "dash": _DASHES[i % 6]},
+            marker={"symbol": _MARKERS[i % 6], "size": 9},
+            hovertemplate="%{y:.3f} %",
+        )  # fmt: skip
+    return figure_html(figure, "mesh-study")
 
 
 def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:
@@ -136,17 +171,20 @@ def _add_orientations(figure: go.Figure, curves: ModelCurves, model: str, first_
         )
 
 
-def _add_uncertainty(figure: go.Figure, average: StiffnessCurve, uncertainty: float | None) -> None:
-    if uncertainty is None:
+def _add_uncertainty(figure: go.Figure, average: StiffnessCurve, study: MeshStudy) -> None:
+    """The average's numerical uncertainty as a grey band; nothing if the mesh study does not give one."""
+    try:
+        low, high = study.band(average)
+    except InputError:
         return
     d = average.deflection * 1e3
     figure.add_scatter(
         x=np.concatenate([d, d[::-1]]),
-        y=np.concatenate([average.load * (1.0 + uncertainty), average.load[::-1] * (1.0 - uncertainty)]),
+        y=np.concatenate([high, low[::-1]]),
         fill="toself",
-        fillcolor="rgba(26, 26, 26, 0.14)",
+        fillcolor="rgba(26, 26, 26, 0.22)",
         line={"width": 0},
-        name=f"mesh uncertainty ±{100.0 * uncertainty:.2g} %",
+        name="numerical uncertainty of the FE average",
         hoverinfo="skip",
     )
 

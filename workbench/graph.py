@@ -45,7 +45,7 @@ def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
     """Everything the report shows. ``curve_folder`` is where the study's own curve files lie."""
     fe = tuple(degrees(o) for o in study.fe.orientations)
     ancf = tuple(degrees(o) for o in study.ancf.orientations)
-    tasks = [*mesh_tasks(study), *_fe_tasks(study, fe), *_fine_tasks(study)]
+    tasks = [*mesh_tasks(study), *_fe_tasks(study, fe)]
     tasks += [*_ancf_tasks(study, ancf), _brush_task(study), _plate_task()]
     tasks += [task for topic in topics_of(study) for task in topic.tasks(study)]
     curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi"))]
@@ -56,7 +56,7 @@ def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
 
 def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
     """The mesh that is solved, and the whole wheel with every part for the picture and the mass; their files."""
-    whole = mesh_task(study, "mesh_whole", {"parts": "all", "half_width": False}, cost=20.0)
+    whole = mesh_task(study, "mesh_whole", {"parts": "all", "half_width": False}, cost=20.0, factor=1.0)
     solved = mesh_task(study, "mesh", cost=15.0)
     if not with_files:
         return solved, whole
@@ -85,14 +85,6 @@ def stiffness_tasks(study: Study, model: Model, orientations_deg: Sequence[float
 def _fe_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
     points = curve_deflections(study)
     return [fe_task(orientation_name("fe", o), fe_inputs(study, o, points)) for o in orientations_deg]
-
-
-def _fine_tasks(study: Study) -> tuple[Task, Task]:
-    """The same orientation on the fine mesh, to the one deflection where loads are compared, in two steps."""
-    end = round(study.fe.fine_deflection, 12)
-    inputs = fe_inputs(study, degrees(study.fe.fine_orientation), (0.5 * end, end)) | {"snapshot_loads": []}
-    mesh = mesh_task(study, "mesh_fine", cost=1000.0, factor=study.fe.fine_factor)
-    return mesh, fe_task("fe_fine", inputs, mesh.name, cost=500.0)
 
 
 def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:

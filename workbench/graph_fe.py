@@ -19,6 +19,7 @@ from workbench.task import Task
 __all__ = [
     "FE",
     "FILES",
+    "HUB_PARTS",
     "MESH",
     "Origin",
     "curve_deflections",
@@ -43,6 +44,8 @@ FE = Origin(
     sources=(*FILES, "reference_fe", "workbench.field_file"),
     libraries=("dolfinx-solver-real", "fenics-ufl", "fenics-basix", "fenics-ffcx", "numpy", "numba"),
 )
+HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
+"""Parts within the springs' welds on the hub, outside to inside."""
 
 
 def degrees(angle: float) -> float:
@@ -58,18 +61,19 @@ def orientation_name(model: str, orientation_deg: float) -> str:
 
 
 def mesh_task(
-    study: Study, name: str, changes: Mapping[str, Any] | None = None, *, cost: float, factor: float = 1.0
+    study: Study, name: str, changes: Mapping[str, Any] | None = None, *, cost: float, factor: float | None = None
 ) -> Task:
-    """A mesh of the study's wheel, ``factor`` times as fine as the study's, with other options changed."""
+    """A mesh of the study's wheel, with its own refinement factor and with other options changed."""
     mesh = study.mesh
     options = {
-        "element_size": mesh.element_size / factor,
-        "axial_size": mesh.axial_size / factor,
+        "element_size": mesh.element_size,
+        "axial_size": mesh.axial_size,
         "thickness_elements": mesh.thickness_elements,
         "order": mesh.order,
         "half_width": mesh.half_width,
-        "refinement": {part: size / factor for part, size in mesh.refinement.items()},
-        "parts": "flexible",
+        "refinement": dict(mesh.refinement),
+        "parts": "flexible" if study.fe.hub == "rigid" else "all",
+        "factor": factor or mesh.factor,
     }
     wheel = study.model_dump(mode="json", include={"name", "wheel", "materials"})
     inputs = {"wheel": wheel, "options": options | dict(changes or {})}
@@ -88,6 +92,7 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "contact_stiffness": fe.contact_stiffness,
         "inner_contact": fe.inner_contact,
         "relative_tolerance": fe.relative_tolerance,
+        "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
         "materials": {part: asdict(m) for part, m in wheel_design(study).materials.items()},
     }
 
@@ -102,4 +107,4 @@ def curve_deflections(study: Study) -> list[float]:
     """Deflections [m] of the points of every FE curve."""
     fe = study.fe
     grid = np.linspace(0.0, fe.max_deflection, fe.points + 1)[1:].round(12).tolist()
-    return sorted({*grid, round(fe.fine_deflection, 12)})
+    return sorted({*grid, *np.round(study.mesh_study.deflections, 12).tolist()})

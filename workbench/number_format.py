@@ -10,7 +10,14 @@ from contracts.records import Check
 __all__ = ["PERCENT_QUANTITIES", "displayed", "displayed_reference"]
 
 _SCALES = {"m": (1e3, "mm"), "N/m": (1e-3, "N/mm"), "Pa": (1e-6, "MPa"), "m^3": (1e6, "cm³")}
-PERCENT_QUANTITIES = ("spread", "difference", "relative L2 difference", "largest difference / load, 5 N at least")
+PERCENT_QUANTITIES = (
+    "spread",
+    "difference",
+    "relative L2 difference",
+    "largest difference / load, 5 N at least",
+    "grid convergence index",
+    "change of load",
+)
 """Quantities shown in percent."""
 
 

@@ -71,6 +71,7 @@ def render(content: PageContent) -> str:
         timings=content.timings,
         provenance=content.provenance,
         metrics=_metric_rows(found),
+        agreements=found.agreements,
         colours=PART_COLOURS,
     )
 
@@ -117,7 +118,7 @@ def _figures(content: PageContent) -> dict[str, str]:
     found, study = content.found, content.study
     first = next(iter(found.fe.by_orientation.values()))
     parts = found.mesh["parts"]
-    strengths = {p: study.materials[n["material"]].yield_strength for p, n in parts.items() if p != "outer_hub"}
+    strengths = {p: study.materials[n["material"]].yield_strength for p, n in parts.items()}
     figures = {
         "fe": fe_figure(found, study.reference),
         "ancf": ancf_figure(found),
@@ -156,8 +157,8 @@ def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:
     }
 
 
-def _metric_rows(found: Comparison) -> list[tuple[str, Mapping[str, Any]]]:
-    """Pairs of curves and their distances, with readable names."""
+def _metric_rows(found: Comparison) -> list[tuple[str, str, Mapping[str, Any]]]:
+    """Pairs of curves: key, readable name, distances."""
     names = {"ancf_average": "ANCF average, FE average", "brush": "brush line, FE average"}
     names |= {f"user_{i}": f"FE, {user.label}" for i, user in enumerate(found.users)}
     rows = []
@@ -166,5 +167,5 @@ def _metric_rows(found: Comparison) -> list[tuple[str, Mapping[str, Any]]]:
         name = names.get(key) or f"ANCF {orientation}°, FE {orientation}°"
         fe = found.fe.average if key in names else found.fe.by_orientation[float(orientation)]
         name += " (partial)" if fe.partial else ""
-        rows.append((name, numbers))
+        rows.append((key, name, numbers))
     return rows

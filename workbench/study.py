@@ -19,8 +19,10 @@ from workbench.study_sections import (
     BrushSection,
     CurveSection,
     FeSection,
+    HubStudySection,
     MaterialSection,
     MeshSection,
+    MeshStudySection,
     Positive,
     Section,
     ToleranceSection,
@@ -77,6 +79,8 @@ class Study(WheelStudy):
     wheel, materials, mesh : the wheel, its materials by name, its mesh
     fe, ancf, brush : the three models' settings
     environment : other temperatures, if the study asks for them
+    mesh_study : the meshes that give the numerical uncertainty of the FE curves
+    hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
     """
@@ -84,6 +88,8 @@ class Study(WheelStudy):
     title: Annotated[str, Field(min_length=1)]
     mesh: MeshSection
     fe: FeSection
+    mesh_study: MeshStudySection
+    hub_study: HubStudySection | None = None
     ancf: AncfSection
     brush: BrushSection
     compare: CompareSection = CompareSection()

@@ -37,6 +37,7 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
                 rule="names no part of the wheel",
                 hint=f"use {', '.join(parts)}",
             )
+    yield from _of_the_curves(study)
     tire, ancf = study.wheel.tire, study.ancf
     yield from _room(
         "fe", study.fe.max_deflection, tire.outer_radius - tire.thickness - study.wheel.outer_hub.outer_radius
@@ -69,6 +70,33 @@ def _environment(study: Study) -> Iterator[BrokenRule]:
                 value = f"{temperature - 273.15:g} C"
                 rule = f"{material.name}: {error.rule}"
                 yield BrokenRule(key="environment.temperatures", value=value, rule=rule, hint=error.hint)
+
+
+def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
+    """Mesh and hub study must lie on the FE curves: their orientations, their range, their mesh."""
+    fe, mesh_study = study.fe, study.mesh_study
+    for name, part in (("mesh_study", mesh_study), ("hub_study", study.hub_study)):
+        if part is not None and max(part.deflections) > fe.max_deflection:
+            yield BrokenRule(
+                key=f"{name}.deflections",
+                value=f"{1e3 * max(part.deflections):g} mm",
+                rule="must not exceed fe.max_deflection",
+                hint="choose smaller ones",
+            )
+    if not any(abs(mesh_study.orientation - o) < 1e-9 for o in fe.orientations):
+        yield BrokenRule(
+            key="mesh_study.orientation",
+            value=f"{math.degrees(mesh_study.orientation):g} deg",
+            rule="must be one of fe.orientations",
+            hint="add it there or choose one of them",
+        )
+    if study.mesh.factor not in mesh_study.factors:
+        yield BrokenRule(
+            key="mesh_study.factors",
+            value=", ".join(f"{factor:g}" for factor in mesh_study.factors),
+            rule=f"must contain mesh.factor = {study.mesh.factor:g}, the mesh of the curves",
+            hint="the uncertainty is that of the curves' mesh",
+        )
 
 
 def _room(section: str, deflection: float, gap: float) -> Iterator[BrokenRule]:

@@ -7,6 +7,7 @@ tests/unit/test_workbench_study.py.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictBool, StrictInt, model_validator
@@ -19,8 +20,10 @@ __all__ = [
     "BrushSection",
     "CurveSection",
     "FeSection",
+    "HubStudySection",
     "MaterialSection",
     "MeshSection",
+    "MeshStudySection",
     "Section",
     "Thickness",
     "ToleranceSection",
@@ -62,6 +65,7 @@ ElementSize = Annotated[Length, Positive, _between(0.2e-3, 0.5, "0.2 mm and 0.5 
 Thickness = Annotated[Length, Positive, _between(1e-5, math.inf, "0.01 mm", "check its unit; 0.6 mm is usual")]
 Modulus = Annotated[Pressure, Positive, _between(1e3, 1e13, "1e3 Pa and 1e13 Pa", "check its unit, e.g. 113.8 GPa")]
 Drop = Annotated[Length, Positive, _between(1e-3, math.inf, "1 mm", "check its unit; 36 mm is usual")]
+Factor = Annotated[Number, Field(ge=1.0, le=6.0)]
 GaussPoints = Annotated[StrictInt, Field(ge=1, le=10)]
 
 
@@ -90,12 +94,16 @@ class MaterialSection(Section):
 
 
 class MeshSection(Section):
-    """Mesh of the wheel: element lengths along strips and along the axle [m], counts, geometry order, symmetry."""
+    """Mesh of the wheel: element lengths along strips and along the axle [m], counts, geometry order, symmetry.
+
+    Every count of elements along strips and along the axle is then multiplied by ``factor`` and rounded up.
+    """
 
     element_size: ElementSize
     axial_size: ElementSize
     thickness_elements: Annotated[StrictInt, Field(ge=1, le=8)] = 1
     order: Literal[1, 2] = 2
+    factor: Factor = 1.0
     half_width: StrictBool = True
     refinement: dict[str, ElementSize] = Field(default_factory=dict)
 
@@ -115,20 +123,34 @@ class FeSection(Section):
     inner_contact: StrictBool = True
     """Whether springs, rim and hubs hold each other off; else they pass through each other."""
     relative_tolerance: Annotated[Number, _between(1e-12, 1e-4, "1e-12 and 1e-4", "1e-8 is usual")] = 1e-8
-    fine_orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)] = 0.0
-    fine_factor: Annotated[Number, Field(gt=1.0, le=8.0)] = 2.0
-    fine_deflection: Annotated[Length, Positive] = 0.020
+    hub: Literal["rigid", "elastic"] = "rigid"
+    """Rigid: the outer hub is held. Elastic: hubs, cone and impact springs deform; the inner hub's bore is held."""
+
+
+class MeshStudySection(Section):
+    """Three meshes of one family, which give the numerical uncertainty of the load at some deflections [m].
+
+    ``factors`` are those of ``mesh.factor``; one of them is that of the curves' mesh.
+    """
+
+    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
+    deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
 
     @model_validator(mode="after")
-    def _fine_point_is_on_the_curve(self) -> FeSection:
-        if self.fine_deflection > self.max_deflection:
-            raise in_key(
-                "fine_deflection", self.fine_deflection, "must not exceed max_deflection", "choose a smaller one"
-            )
-        if not any(abs(self.fine_orientation - o) < 1e-9 for o in self.orientations):
-            rule, hint = "must be one of the orientations", "add it to orientations or choose one of them"
-            raise in_key("fine_orientation", f"{math.degrees(self.fine_orientation):g} deg", rule, hint)
+    def _increasing(self) -> MeshStudySection:
+        for key, values in (("factors", self.factors), ("deflections", self.deflections)):
+            if not all(b > a for a, b in pairwise(values)):
+                shown = ", ".join(f"{v:g}" for v in values)
+                raise in_key(key, shown, "must increase", "sort them and give each once")
         return self
+
+
+class HubStudySection(Section):
+    """What elastic hubs, cone and impact springs add to the load, at one orientation and some deflections [m]."""
+
+    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020)
 
 
 class AncfSection(Section):
@@ -200,6 +222,7 @@ class ToleranceSection(Section):
     fe_residual: Annotated[Number, Positive] = 1e-8
     fe_balance: Annotated[Number, Positive] = 1e-6
     mesh_uncertainty: Annotated[Number, Positive] = 0.05
+    hub_compliance: Annotated[Number, Positive] = 0.01
     plate_element: Annotated[Number, Positive] = 1e-10
     model_agreement: Annotated[Number, Positive] = 0.10
     iso_rating: Annotated[Number, Positive] = 0.80

@@ -43,6 +43,7 @@ def solve_orientation(
         deflections=deflections,
         maximum_load=inputs["max_load"],
         snapshot_loads=tuple(inputs["snapshot_loads"]),
+        rigid_parts=tuple(inputs["rigid_parts"]),
         law=MaterialLaw(inputs["material_law"]),
         contact_stiffness=inputs["contact_stiffness"],
         inner_contact=inputs["inner_contact"],

@@ -20,11 +20,12 @@ CHANGES = {
     r"points = \d+": "points = 2",
     r"snapshot_loads = \[[^\]]*\]": 'snapshot_loads = ["20 N"]',
     r"temperatures = \[[^\]]*\]": 'temperatures = ["-40 degC", "20 degC"]',
-    r'\norientation = "[^"]*"': '\norientation = "0 deg"',
+    r'orientation = "15 deg"\nfactors': 'orientation = "0 deg"\nfactors',
+    r'\["10 mm", "20 mm", "30 mm"\]': '["6 mm"]',
+    r"\[hub_study\][^\[]*\[[^\[]*": "",
+    r'\norientation = "(?!0)[^"]*"': '\norientation = "0 deg"',
     r"variants = \[[^\]]*\]": "variants = []",
-    r'fine_orientation = "[^"]*"': 'fine_orientation = "0 deg"',
-    r"fine_factor = \S+": "fine_factor = 1.5",
-    r'fine_deflection = "[^"]*"': 'fine_deflection = "6 mm"',
+    r"\[tolerances\]": "[tolerances]\nmesh_uncertainty = 0.5",
     r"initial_tangent = \S+": 'initial_tangent = 0.9\nreach_deflection = "6 mm"',
 }
 """Pattern in the built-in study -> what the small study has; the first match only, which is the FE's."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from contracts.errors import InputError
 from geometry import Cone, build_mesh, exomars
@@ -55,6 +56,31 @@ def test_grouser_foot_has_as_many_elements_as_its_thickness() -> None:
     ring = rim_ring(WHEEL, size(thickness_elements=3))
     half = math.asin(0.5e-3 / 142.5e-3)
     assert sum(int(ring.counts[i]) for i in ring.span(-half, half)) == 3
+
+
+def test_the_factor_refines_along_strips_and_axle_and_not_across_a_grouser() -> None:
+    rim, divided = rim_ring(WHEEL, size()), rim_ring(WHEEL, replace(size(), factor=3.0))
+    foot = np.array([rim.step(i) * WHEEL.tire.outer_radius < 1.1e-3 for i in range(len(rim.angles))])
+    assert foot.sum() == 12
+    assert np.array_equal(divided.counts, np.where(foot, rim.counts, 3 * rim.counts))
+    hub, divided = hub_ring(WHEEL, size(), "all"), hub_ring(WHEEL, replace(size(), factor=3.0), "all")
+    assert np.array_equal(divided.counts, 3 * hub.counts)
+    levels = axial_levels(WHEEL, "flexible", half_width=True)
+    assert [n for *_, n in axial_bands(WHEEL, replace(size(), factor=3.0), levels)] == [3, 3, 3]
+    assert [n for *_, n in axial_bands(WHEEL, replace(size(), factor=1.5), levels)] == [2, 2, 2]
+
+
+def test_meshes_of_a_family_are_nested() -> None:
+    coarse, fine = (
+        build_mesh(WHEEL, element_size=30e-3, axial_size=60e-3, order=1, parts="flexible", factor=k) for k in (1.0, 2.0)
+    )
+    distance, _ = cKDTree(fine.points).query(coarse.points)
+    assert distance.max() < 1e-9
+    for part in ("springs_outer", "springs_inner", "outer_hub"):
+        cells = [int((mesh.cell_tags == mesh.parts[part]).sum()) for mesh in (coarse, fine)]
+        assert 3.8 * cells[0] < cells[1] <= 4 * cells[0]
+    with pytest.raises(InputError, match="refinement factor"):
+        build_mesh(WHEEL, element_size=30e-3, factor=0.5)
 
 
 def test_cuts_that_all_but_coincide_are_refused() -> None:

@@ -12,7 +12,6 @@ import pytest
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.records import Check
 from workbench.checks_fe import (
-    FineRun,
     band_checks,
     mesh_checks,
     reach_check,
@@ -22,6 +21,7 @@ from workbench.checks_fe import (
 )
 from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, preset_error, user_checks
 from workbench.comparison import exit_status, overall_status
+from workbench.mesh_study import MeshRun
 from workbench.preset_table import preset_table
 from workbench.results import ModelCurves, UserCurve
 from workbench.study import thesis_band
@@ -71,10 +71,10 @@ def test_band_checks_pass_on_a_curve_inside_and_fail_on_a_soft_one() -> None:
     assert soft["fe.deflection_at_250N"].value is None
 
 
-def _fine(residual: float, imbalance: float) -> FineRun:
+def _fine(residual: float, imbalance: float) -> MeshRun:
     records = [{"converged": True, "residuals": [1.0, residual], "target": 0.02, "step": 0.01}]
     curve = _fe_curve(0.0, 8700.0, force_imbalance=imbalance)
-    return FineRun(curve=curve, numbers={"increments": records}, orientation_deg=0.0, deflection=0.02)
+    return MeshRun(factor=2.0, curve=curve, numbers={"increments": records})
 
 
 @pytest.mark.parametrize(
@@ -83,14 +83,13 @@ def _fine(residual: float, imbalance: float) -> FineRun:
         ({}, set()),
         ({"residual": 2e-8}, {"fe.residual"}),
         ({"force_imbalance": 2e-6}, {"fe.balance"}),
-        ({"slopes": (3000.0, 8000.0)}, {"fe.mesh_uncertainty"}),
         ({"fine_residual": 2e-8}, {"fe.residual"}),
         ({"fine_imbalance": 2e-6}, {"fe.balance"}),
     ],
 )
 def test_solver_checks_catch_each_damage(damage: dict[str, Any], failing: set[str]) -> None:
     fine = _fine(damage.pop("fine_residual", 1e-9), damage.pop("fine_imbalance", 1e-9))
-    checks = _by_id(solver_checks(_fe(**damage), fine, TOLERANCES))
+    checks = _by_id(solver_checks(_fe(**damage), [fine], TOLERANCES))
     assert {c.id for c in checks.values() if c.status == "fail"} == failing
     assert {c.role for c in checks.values()} == {"gate"}
 

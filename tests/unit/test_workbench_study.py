@@ -88,16 +88,27 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
         'hub_radius = "130 mm"',
         ["ancf.hub_radius = 130 mm", "rim's inner radius"],
     ),
-    "fine orientation nobody solves": (
-        r'fine_orientation = "[^"]*"',
-        'fine_orientation = "7 deg"',
-        ["fe.fine_orientation = 7 deg", "must be one of the orientations"],
+    "mesh study where nobody solves": (
+        r'\norientation = "[^"]*"',
+        '\norientation = "7 deg"',
+        ["mesh_study.orientation = 7 deg", "must be one of fe.orientations"],
     ),
-    "fine deflection off the curve": (
-        r'fine_deflection = "[^"]*"',
-        'fine_deflection = "70 mm"',
-        ["fe.fine_deflection = 0.07", "must not exceed max_deflection"],
+    "mesh study off the curve": (
+        r'"20 mm", "30 mm"\]',
+        '"20 mm", "70 mm"]',
+        ["mesh_study.deflections = 70 mm", "must not exceed fe.max_deflection"],
     ),
+    "mesh study without the curves' mesh": (
+        r"factors = \[.*\]",
+        "factors = [1.2, 1.5, 2]",
+        ["mesh_study.factors = 1.2, 1.5, 2", "must contain mesh.factor = 1"],
+    ),
+    "mesh study that does not refine": (
+        r"factors = \[.*\]",
+        "factors = [1, 2, 2]",
+        ["mesh_study.factors = 1, 2, 2", "must increase"],
+    ),
+    "two meshes": (r"factors = \[.*\]", "factors = [1, 2]", ["mesh_study.factors", "at least 3"]),
     "small element": (
         r'element_size = "[^"]*"',
         'element_size = "0.1 mm"',
