@@ -1,6 +1,7 @@
 """Deformable cells of St. Venant-Kirchhoff material, assembled by the compiled loops of `cell_kernels`.
 
-The tangent lives in one CSR matrix whose values PETSc shares: assembling writes them in place and nothing is copied.
+Each process assembles its own cells into its own CSR matrix. On one process PETSc shares the values: assembling writes
+them in place and nothing is copied. On several, rows of nodes that belong to a neighbour are sent there.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ __all__ = ["CompiledCells"]
 
 
 class CompiledCells:
-    """Residual, tangent and stored stress of the deformable cells; one process only.
+    """Residual, tangent and stored stress of the deformable cells.
 
     Parameters
     ----------
@@ -46,12 +47,14 @@ class CompiledCells:
         self._gradients, self._weights = _gradients(domain, V, cells, gauss_points)
         self._stress = np.zeros((*self._weights.shape, 3, 3))
         self._V, self._nodes = V, nodes
+        self._force = api.fem.Function(V)
 
     def internal_force(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
-        """int S(E(u)) : DE(u)[v] dV, (n_dofs,) [N]; u (n_dofs,) [m]."""
-        out = np.zeros_like(u)
+        """int S(E(u)) : DE(u)[v] dV, (n_own_dofs,) [N]; u (n_dofs,) [m], neighbours' nodes included."""
+        out = self._force.x.array
+        out[:] = 0.0
         cell_kernels.internal_force(u, self._gradients, self._weights, self._moduli, self._dofs, out)
-        return out
+        return api.sum_shared(self._force)
 
     def store_stress(self, u: NDArray[np.float64], du: NDArray[np.float64]) -> None:
         """Store S(E(u)) + CC : DE(u)[du] at the Gauss points."""
@@ -71,12 +74,14 @@ class CompiledCells:
         held = np.zeros(len(indptr) - 1, dtype=bool)
         held[supported] = True
         self._fixed = np.flatnonzero(held[rows] | held[indices])
-        self._fixed_diagonal = np.flatnonzero(held[rows] & (rows == indices))
+        own = rows < 3 * self._V.dofmap.index_map.size_local
+        self._fixed_diagonal = np.flatnonzero(held[rows] & (rows == indices) & own)
         keys = rows * np.int64(len(held)) + indices
         first = 3 * self._nodes.astype(np.int64)
         wanted = first[:, :, None] * len(held) + first[:, None, :]
         self._blocks = (np.searchsorted(keys, wanted) - indptr[first][:, :, None]).astype(np.int32)
-        self._matrix = api.shared_matrix(self._csr)
+        alone = api.COMM.size == 1
+        self._matrix = api.shared_matrix(self._csr) if alone else api.distributed_matrix(self._csr, self._V)
 
     def assemble(self, u: NDArray[np.float64], boundary: api.Expr, surfaces: SurfaceAssembly) -> None:
         """Fill the matrix: the cells' tangent at u with the stored stress, plus a boundary form (or None), surfaces."""
@@ -91,12 +96,20 @@ class CompiledCells:
         """The assembled matrix with unit rows and zero columns at supported unknowns; one object for each pattern."""
         self._csr.data[self._fixed] = 0.0
         self._csr.data[self._fixed_diagonal] = 1.0
-        self._matrix.stateIncrease()
+        self._hand_over()
         return self._matrix
 
     def copied_matrix(self) -> api.PETSc.Mat:
         """The assembled matrix as it stands, as a new PETSc matrix."""
+        self._hand_over()
         return self._matrix.copy()
+
+    def _hand_over(self) -> None:
+        """Make PETSc see the values of the CSR matrices."""
+        if api.COMM.size == 1:
+            self._matrix.stateIncrease()
+        else:
+            api.distributed_values(self._matrix, self._csr)
 
 
 def _gradients(

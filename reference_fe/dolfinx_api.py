@@ -45,6 +45,8 @@ __all__ = [
     "cell_nodes",
     "compile_form",
     "create_matrix",
+    "distributed_matrix",
+    "distributed_values",
     "facet_midpoints",
     "facet_rule",
     "facet_tags_from_nodes",
@@ -52,9 +54,11 @@ __all__ = [
     "fem_petsc",
     "flush",
     "gauss_rule",
+    "global_norm",
     "lagrange_gradients",
     "lagrange_points",
     "lagrange_shapes",
+    "largest_of_all",
     "mesh_from_arrays",
     "meshtags",
     "quadrature_space",
@@ -91,11 +95,16 @@ def versions() -> dict[str, str]:
 
 
 def mesh_from_arrays(points: NDArray[np.float64], cells: NDArray[np.int64]) -> Mesh:
-    """DOLFINx mesh of hexahedra (8 or 27 nodes) or quadrilaterals (4 or 9) in gmsh's order; ``points`` (n, dim) [m]."""
+    """DOLFINx mesh of hexahedra (8 or 27 nodes) or quadrilaterals (4 or 9) in gmsh's order; ``points`` (n, dim) [m].
+
+    Every process of a parallel run gives the whole mesh and gets its share.
+    """
     dim = points.shape[1]
     degree = 1 if cells.shape[1] == 2**dim else 2
     element: Any = basix.ufl.element("Lagrange", _CELL[dim], degree, shape=(dim,))
     permutation = _gmsh_permutation(_CELL[dim], cells.shape[1])
+    if COMM.rank > 0:
+        points, cells = points[:0], cells[:0]
     return dolfinx_mesh.create_mesh(COMM, np.ascontiguousarray(cells[:, permutation]), element, points)
 
 
@@ -108,6 +117,8 @@ def facet_tags_from_nodes(mesh: Mesh, facets: NDArray[np.int64], values: NDArray
     """Facet tags from facets given by their node numbers (gmsh order, input numbering)."""
     dim = mesh.topology.dim
     permutation = _gmsh_permutation(_FACET[dim], facets.shape[1])
+    if COMM.rank > 0:
+        facets, values = facets[:0], values[:0]
     entities, local = distribute_entity_data(mesh, dim - 1, np.ascontiguousarray(facets[:, permutation]), values)
     mesh.topology.create_connectivity(dim - 1, dim)
     return dolfinx_mesh.meshtags_from_entities(mesh, dim - 1, adjacencylist(entities), local.astype(np.int32))
@@ -218,6 +229,21 @@ def sum_shared(function: Function) -> NDArray[np.float64]:
     return np.array(function.x.array[:own])
 
 
+def global_norm(own: NDArray[np.float64]) -> float:
+    """Euclidean norm of a vector of which each process holds its own entries."""
+    local = float(np.linalg.norm(own))
+    return local if COMM.size == 1 else float(np.sqrt(COMM.allreduce(local * local)))
+
+
+def largest_of_all(local: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Largest value over the processes, entry by entry."""
+    if COMM.size == 1:
+        return local
+    largest = np.empty_like(local)
+    COMM.Allreduce(np.ascontiguousarray(local), largest, op=MPI.MAX)
+    return largest
+
+
 def compile_form(expression: Expr) -> Any:
     """Compile a UFL form to machine code with this project's compiler flags."""
     return fem.form(expression, jit_options=JIT_OPTIONS)
@@ -251,9 +277,13 @@ def add_block(matrix: Any, rows: NDArray[np.int32], block: NDArray[np.float64]) 
 
 
 def cell_matrix(V: Any, groups: Sequence[NDArray[np.int32]], diagonal_blocks: NDArray[np.int32]) -> Any:
-    """Empty DOLFINx CSR matrix that couples the nodes of each group, with room on the diagonal of further nodes."""
+    """Empty DOLFINx CSR matrix that couples the nodes of each group, with room on the diagonal of further nodes.
+
+    It is this process' own: rows and columns are all nodes the process knows, those of its neighbours included.
+    """
     index_map = V.dofmap.index_map
-    pattern = dolfinx.cpp.la.SparsityPattern(COMM, [index_map, index_map], [3, 3])
+    nodes_here = dolfinx.common.IndexMap(MPI.COMM_SELF, index_map.size_local + index_map.num_ghosts)
+    pattern = dolfinx.cpp.la.SparsityPattern(MPI.COMM_SELF, [nodes_here, nodes_here], [3, 3])
     for nodes in groups:
         pattern.insert(nodes, nodes)
     pattern.insert_diagonal(diagonal_blocks)
@@ -270,6 +300,30 @@ def shared_matrix(csr: Any) -> PETSc.Mat:
     symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
     matrix.setOption(symmetric, True)
     return matrix
+
+
+def distributed_matrix(csr: Any, V: Any) -> PETSc.Mat:
+    """PETSc matrix over all processes with room for the sum of their own CSR matrices, see `distributed_values`."""
+    index_map, block = V.dofmap.index_map, V.dofmap.index_map_bs
+    here = index_map.size_local + index_map.num_ghosts
+    nodes = index_map.local_to_global(np.arange(here, dtype=np.int32))
+    numbers = (block * nodes[:, None] + np.arange(block)).ravel()
+    rows = np.repeat(numbers, np.diff(csr.indptr)).astype(PETSc.IntType)
+    sizes = (block * index_map.size_local, block * index_map.size_global)
+    matrix = PETSc.Mat().create(PETSc.COMM_WORLD)
+    matrix.setSizes((sizes, sizes))
+    matrix.setType("aij")
+    coordinates: Any = (rows, numbers[csr.indices].astype(PETSc.IntType))
+    matrix.setPreallocationCOO(*coordinates)
+    symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
+    matrix.setOption(symmetric, True)
+    return matrix
+
+
+def distributed_values(matrix: PETSc.Mat, csr: Any) -> None:
+    """Set a matrix from `distributed_matrix` to the sum of all processes' CSR matrices."""
+    replace: Any = PETSc.InsertMode.INSERT_VALUES
+    matrix.setValuesCOO(csr.data, replace)
 
 
 class PointEvaluation:

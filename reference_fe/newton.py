@@ -48,7 +48,7 @@ class NewtonOutcome:
     stalled : whether the residual stopped falling near the tolerance: round-off, which no smaller increment cures
     residuals : relative residual at each evaluation [-], one more than the number of linear solves; 1 stands for the
         start of an increment, where nothing balances yet
-    residual : (n_dofs,) residual at the last state, supported unknowns included [N]
+    residual : (n_own_dofs,) residual at the last state, supported unknowns included [N]
     """
 
     converged: bool
@@ -74,8 +74,8 @@ class NewtonSolver:
         self.problem, self.settings, self._inner_force = problem, settings, inner_force
         self._matrix: api.PETSc.Mat | None = None
         self._ksp: api.PETSc.KSP | None = None
-        self._free = np.ones(problem.dofs, dtype=bool)
-        self._free[problem.supported] = False
+        self._free = np.ones(problem.own_dofs, dtype=bool)
+        self._free[problem.own_supported] = False
 
     def solve(self, rise: float = 0.0) -> NewtonOutcome:
         """Iterate from the present displacement; leaves the last iterate in ``problem.u``.
@@ -93,7 +93,7 @@ class NewtonSolver:
             history.append(1.0)
         residual = problem.residual()
         while True:
-            history.append(self._relative(residual, moved=not history and bool(offset.any())))
+            history.append(self._relative(residual, moved=not history and offset.size > 0))
             if history[-1] <= self.settings.relative_tolerance:
                 if problem.surfaces.augment() and len(history) <= self.settings.maximum_iterations:
                     residual = problem.residual()
@@ -124,9 +124,9 @@ class NewtonSolver:
         """One linear solve; stores the extrapolated stress and moves u."""
         problem = self.problem
         right_hand_side = np.where(self._free, -residual, 0.0)
-        if offset.any():
+        if offset.size:
             right_hand_side -= self._lifted(offset)
-            right_hand_side[problem.supported] = offset[problem.supported]
+            right_hand_side[problem.own_supported] = offset[problem.own_supported]
         last, self._matrix = self._matrix, problem.tangent(self._matrix)
         if self._ksp is None or self._matrix is not last:
             self._ksp = _mumps(self._matrix, symmetric=problem.surfaces.symmetric)
@@ -134,7 +134,8 @@ class NewtonSolver:
         b.array[:] = right_hand_side
         self._ksp.setOperators(self._matrix)
         self._ksp.solve(b, x)
-        problem.du.x.array[:] = x.array
+        problem.du.x.array[: problem.own_dofs] = x.array
+        problem.du.x.scatter_forward()
         b.destroy()
         x.destroy()
         if problem.discretisation.mixed_integration_points:
@@ -142,14 +143,18 @@ class NewtonSolver:
         problem.u.x.array[:] += problem.du.x.array
 
     def _offset_at_supports(self) -> NDArray[np.float64]:
-        """Prescribed minus present displacement at supported unknowns, zero elsewhere, (n_dofs,) [m]."""
+        """Prescribed minus present displacement at supported unknowns, else zero, (n_own_dofs,) [m]; empty if none.
+
+        Empty on one process means empty on all.
+        """
         target = self.problem.u.x.array.copy()
         for bc in self.problem.bcs:
             bc.set(target)
-        return np.asarray(target - self.problem.u.x.array)
+        offset = np.asarray(target - self.problem.u.x.array)[: self.problem.own_dofs]
+        return offset if api.global_norm(offset) > 0.0 else np.zeros(0)
 
     def _lifted(self, offset: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Tangent times the supports' offset, (n_dofs,) [N]."""
+        """Tangent times the supports' offset, (n_own_dofs,) [N]."""
         full = self.problem.unsupported_tangent()
         x, y = full.createVecRight(), full.createVecLeft()
         x.array[:] = offset
@@ -162,9 +167,9 @@ class NewtonSolver:
     def _relative(self, residual: NDArray[np.float64], *, moved: bool) -> float:
         """Residual norm over free unknowns relative to that of the support and contact forces; inf before a move."""
         if moved:
-            return float("inf") if not np.isfinite(residual).all() else 1.0
-        out_of_balance = float(np.linalg.norm(residual[self._free]))
-        applied = float(np.linalg.norm(residual[~self._free])) + float(np.linalg.norm(self.problem.contact_force()))
+            return 1.0 if np.isfinite(api.global_norm(residual)) else float("inf")
+        out_of_balance = api.global_norm(residual[self._free])
+        applied = api.global_norm(residual[~self._free]) + float(np.linalg.norm(self.problem.contact_force()))
         applied += self._inner_force
         if applied == 0.0:
             return 0.0 if out_of_balance == 0.0 else 1.0

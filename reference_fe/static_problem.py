@@ -103,7 +103,7 @@ class StaticProblem:
         self.contact_lag = 0.0
         self._build_forms([*tractions, *(load for load in loads if not isinstance(load, EdgeLoad))])
         edge_loads = [edge_load_vector(domain, self.V, load) for load in loads if isinstance(load, EdgeLoad)]
-        self._edge_force = np.sum(edge_loads, axis=0) if edge_loads else np.zeros(self.dofs)
+        self._edge_force = np.sum(edge_loads, axis=0) if edge_loads else np.zeros(self.own_dofs)
         self.bcs, self._prescribed = build_supports(domain, self.V, supports)
         marked = [bc.dof_indices()[0] for bc in self.bcs]
         self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
@@ -117,6 +117,16 @@ class StaticProblem:
         """Number of displacement unknowns, supported ones included."""
         return int(self.V.dofmap.index_map.size_global * self.V.dofmap.index_map_bs)
 
+    @property
+    def own_dofs(self) -> int:
+        """Number of displacement unknowns that belong to this process."""
+        return int(self.V.dofmap.index_map.size_local * self.V.dofmap.index_map_bs)
+
+    @property
+    def own_supported(self) -> NDArray[np.int32]:
+        """Unknowns held by a support that belong to this process, ascending."""
+        return self.supported[self.supported < self.own_dofs]
+
     def set_control(self, control: float) -> None:
         """Set the control parameter: load factor of supports and tractions [-], or rise of the plane [m]."""
         self.load_factor.value = control
@@ -125,7 +135,7 @@ class StaticProblem:
         self.surfaces.set_control(control)
 
     def residual(self) -> NDArray[np.float64]:
-        """Internal minus external force at every unknown, supported ones included, (n_dofs,) [N]."""
+        """Internal minus external force at every unknown, supported ones included, (n_own_dofs,) [N]."""
         array = -float(self.load_factor.value) * self._edge_force
         if self._residual_form is not None:
             b = fem_petsc.assemble_vector(self._residual_form)
@@ -193,8 +203,9 @@ class StaticProblem:
 
     def reaction(self, residual: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sum of the support forces on the body, from the residual at supported unknowns, (dim,) [N]."""
-        rows, dim = self.supported, self.domain.dim
-        return np.array([residual[rows[rows % dim == axis]].sum() for axis in range(dim)])
+        rows, dim = self.own_supported, self.domain.dim
+        own = np.array([residual[rows[rows % dim == axis]].sum() for axis in range(dim)])
+        return np.asarray(self.domain.mesh.comm.allreduce(own))
 
     def store_stress(self, *, extrapolate: bool) -> None:
         """Store S(E(u)), with CC : DE(u)[du] added if ``extrapolate``, at the Gauss points; call before u changes."""
@@ -209,7 +220,8 @@ class StaticProblem:
         """Smallest principal stretch at any Gauss point [-]; zero or less where a cell is turned inside out."""
         F = self._deformation_gradient(self.domain.mesh, self._flexible_cells)
         squared = np.linalg.eigvalsh(np.swapaxes(F, -1, -2) @ F)[..., 0]
-        return float(np.min(np.sqrt(np.maximum(squared, 0.0)) * np.sign(np.linalg.det(F))))
+        stretch = np.sqrt(np.maximum(squared, 0.0)) * np.sign(np.linalg.det(F))
+        return -float(api.largest_of_all(np.max(-stretch, keepdims=True, initial=-np.inf).ravel())[0])
 
     def nodal_displacement(self) -> NDArray[np.float64]:
         """Displacement at the nodes of the tagged mesh, (n_points, dim) [m]."""
@@ -221,9 +233,11 @@ class StaticProblem:
         dofs, nodes = u.function_space.dofmap.list, api.cell_nodes(mesh)
         local = np.zeros((len(mesh.geometry.x), dim))
         local[nodes] = u.x.array.reshape(-1, dim)[dofs]
-        out = np.zeros_like(self.domain.tagged.points)
-        out[mesh.geometry.input_global_indices] = local
-        return out
+        out = np.full_like(self.domain.tagged.points, -np.inf)
+        here = np.unique(nodes[: mesh.topology.index_map(mesh.topology.dim).size_local])
+        out[mesh.geometry.input_global_indices[here]] = local[here]
+        out = api.largest_of_all(out)
+        return np.where(np.isneginf(out), 0.0, out)  # nodes without a cell
 
     def _check_parts(self, supports: Sequence[Support]) -> None:
         held = {part for support in supports for part in support.parts}
@@ -239,7 +253,7 @@ class StaticProblem:
         residual, tangent = None, None
         self._compiled, self._forms = None, None
         loops = choice.compiled and suits and choice.mixed_integration_points
-        if loops and domain.mesh.comm.size == 1 and domain.dim == 3:
+        if loops and domain.dim == 3:
             cells = self._flexible_cells
             moduli = cell_moduli(domain, self.materials, cells)
             self._compiled = CompiledCells(domain, self.V, cells, moduli, choice.gauss_points)

@@ -41,7 +41,8 @@ class StressRecovery:
     def largest_by_part(self) -> dict[str, float]:
         """Largest von Mises stress of each deformable part at the stations [Pa]."""
         values = self.cell_stations()
-        return {part: float(values[rows].max()) for part, rows in self._rows.items() if len(rows)}
+        largest = np.array([values[rows].max(initial=0.0) for rows in self._rows.values()])
+        return dict(zip(self._rows, api.largest_of_all(largest).tolist(), strict=True))
 
     def nodal_von_mises(self) -> NDArray[np.float64]:
         """Stress extrapolated to and averaged at each node of the tagged mesh, (n_points,) [Pa]; 0 on rigid parts."""
@@ -50,7 +51,8 @@ class StressRecovery:
         count = np.bincount(nodes, minlength=len(self.problem.domain.tagged.points))
         at_nodes = np.maximum(self.cell_stations() @ self._to_nodes.T, 0.0)
         total = np.bincount(nodes, weights=at_nodes.ravel(), minlength=len(count))
-        return np.asarray(total / np.maximum(count, 1))
+        comm = mesh.comm
+        return np.asarray(comm.allreduce(total) / np.maximum(comm.allreduce(count), 1))
 
 
 def _stations(order: int, dim: int, gauss_points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

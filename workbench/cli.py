@@ -9,12 +9,15 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from typer.exceptions import TyperException
 
 from contracts.errors import WorkbenchError
+
+if TYPE_CHECKING:
+    from workbench.runner import Computing
 
 __all__ = ["app", "main"]
 
@@ -32,9 +35,18 @@ StudyOrBuiltIn = Annotated[
     Path | None, typer.Argument(help="Study file (TOML); the built-in ExoMars study if left out.", show_default=False)
 ]
 Store = Annotated[Path, typer.Option(envvar="WORKBENCH_STORE", help="Folder where results are kept and found again.")]
-Workers = Annotated[int, typer.Option(min=1, max=256, help="Tasks that run at once, one core each.")]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        min=1, max=256, help="Tasks that run at once. Default: 2, or as many as the cores hold.", show_default=False
+    ),
+]
+Ranks = Annotated[int, typer.Option(min=1, max=256, help="MPI processes for each finite element task.")]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(help="Address of a Dask scheduler, tcp://host:port; its workers compute.", show_default=False),
+]
 DEFAULT_STORE = Path("build/store")
-DEFAULT_WORKERS = min(2, os.cpu_count() or 1)
 
 
 @app.command()
@@ -44,12 +56,14 @@ def report(
         "build/report"
     ),
     store: Store = DEFAULT_STORE,
-    workers: Workers = DEFAULT_WORKERS,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
 ) -> None:
     """Compute everything a study asks for, compare, and write the report."""
     from workbench.commands import run_report
 
-    raise typer.Exit(run_report(study, out, store, workers))
+    raise typer.Exit(run_report(study, out, store, _computing(workers, ranks, scheduler)))
 
 
 @app.command()
@@ -73,12 +87,15 @@ def stiffness(
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
     store: Store = DEFAULT_STORE,
-    workers: Workers = DEFAULT_WORKERS,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
 ) -> None:
     """Stiffness curves of one model."""
     from workbench.commands import run_stiffness
 
-    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, workers))
+    computing = _computing(workers, ranks, scheduler)
+    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, computing))
 
 
 @app.command()
@@ -99,6 +116,12 @@ def doctor() -> None:
     from workbench.commands import run_doctor
 
     raise typer.Exit(run_doctor())
+
+
+def _computing(workers: int | None, ranks: int, scheduler: str | None) -> Computing:
+    from workbench.runner import Computing
+
+    return Computing(workers=workers or max(1, min(2, os.cpu_count() or 1) // ranks), ranks=ranks, scheduler=scheduler)
 
 
 def main() -> None:

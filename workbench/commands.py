@@ -24,7 +24,7 @@ from workbench.outputs import check_folder, check_targets, junit, publish, summa
 from workbench.progress import RunDisplay
 from workbench.result_files import early_ends
 from workbench.results import mean_curve
-from workbench.runner import run_tasks
+from workbench.runner import Computing, run_tasks
 from workbench.store import Entry, Store
 from workbench.study_file import built_in_study, read_study
 from workbench.task import Task
@@ -35,12 +35,12 @@ console = Console()
 _MODELS = ("fe", "ancf", "brush")
 
 
-def run_report(study_path: Path | None, out: Path, store: Path, workers: int) -> int:
+def run_report(study_path: Path | None, out: Path, store: Path, computing: Computing) -> int:
     """Everything a study asks for, then the report."""
     path = study_path or built_in_study()
     study = read_study(path)
     check_folder(out)
-    entries = _compute(path, report_tasks(study, path.parent), store, workers)
+    entries = _compute(path, report_tasks(study, path.parent), store, computing)
 
     from workbench.comparison import compare, exit_status
     from workbench.provenance import provenance
@@ -79,7 +79,7 @@ def run_mesh(study_path: Path, out: Path, store: Path) -> int:
     """Mesh files, summary and picture of a study's wheel."""
     study = read_study(study_path)
     check_folder(out)
-    entries = _compute(study_path, mesh_tasks(study, with_files=True), store, 1)
+    entries = _compute(study_path, mesh_tasks(study, with_files=True), store, Computing(workers=1))
     out.mkdir(parents=True, exist_ok=True)
     check_targets(out, entries["mesh_files"].manifest["files"])
     for path in sorted(entries["mesh_files"].path.iterdir()):
@@ -92,7 +92,7 @@ def run_mesh(study_path: Path, out: Path, store: Path) -> int:
 
 
 def run_stiffness(
-    study_path: Path, model: str, orientations: tuple[float, ...], out: Path, store: Path, workers: int
+    study_path: Path, model: str, orientations: tuple[float, ...], out: Path, store: Path, computing: Computing
 ) -> int:
     """Curves of one model at the orientations asked for."""
     if model not in _MODELS:
@@ -104,7 +104,7 @@ def run_stiffness(
     study = read_study(study_path)
     check_folder(out)
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
-    entries = _compute(study_path, tasks, store, workers)
+    entries = _compute(study_path, tasks, store, computing)
     with _naming(study_path):
         curves = _curves(model, entries)
     publish(out, {}, curves)
@@ -184,11 +184,11 @@ def _naming(study_path: Path) -> Iterator[None]:
         raise RunError(f"{study_path}: {error}") from error
 
 
-def _compute(study_path: Path, tasks: Sequence[Task], store: Path, workers: int) -> dict[str, Entry]:
+def _compute(study_path: Path, tasks: Sequence[Task], store: Path, computing: Computing) -> dict[str, Entry]:
     """Run a study's graph with a display; entries in the order of the graph."""
     results = Store(store)
     with _naming(study_path), RunDisplay(console, len(tasks)) as display:
-        entries = run_tasks(tasks, results, display, workers)
+        entries = run_tasks(tasks, results, display, computing)
     console.print(
         f"{len(tasks) - display.reused} tasks computed, {display.reused} reused", highlight=False, markup=False
     )

@@ -100,7 +100,8 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
 def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh", *, cost: float = 100.0) -> Task:
     """One orientation solved on the mesh of the task ``mesh``."""
     function = "workbench.tasks_fe:solve_orientation"
-    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), cost=cost, resumable=True, **FE)
+    long = {"resumable": True, "shared": True}
+    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), cost=cost, **long, **FE)
 
 
 def curve_deflections(study: Study) -> list[float]:

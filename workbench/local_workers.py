@@ -16,7 +16,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
-from workbench.worker import Job, Lost, Message, serve
+from workbench.jobs import Job, Lost, Message
+from workbench.worker import serve
 
 __all__ = ["LocalWorkers"]
 

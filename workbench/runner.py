@@ -9,19 +9,37 @@ import os
 import shutil
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
 from workbench.errors import InterruptedRunError, RunError
+from workbench.jobs import Done, Failed, Job, Lost, Message, Progressed
 from workbench.local_workers import LocalWorkers
+from workbench.ranks import mpiexec
 from workbench.store import Entry, Store
 from workbench.task import Task, task_keys
-from workbench.worker import Done, Failed, Job, Lost, Message, Progressed
 
-__all__ = ["RESTARTS", "Listener", "Workers", "run_tasks"]
+__all__ = ["RESTARTS", "Computing", "Listener", "Workers", "run_tasks"]
 
 RESTARTS = 2
 """How often a task is started again after its worker died under it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Computing:
+    """Who computes.
+
+    Attributes
+    ----------
+    workers : local processes, one task each
+    ranks : MPI processes for each task that can be shared between them; results differ by round-off only
+    scheduler : address of a Dask scheduler, e.g. ``"tcp://host:8786"``, whose workers compute instead
+    """
+
+    workers: int = 2
+    ranks: int = 1
+    scheduler: str | None = None
 
 
 class Listener(Protocol):
@@ -63,7 +81,7 @@ class Workers(Protocol):
 
 
 def run_tasks(
-    tasks: Sequence[Task], store: Store, listener: Listener, workers: int = 2, scheduler: str | None = None
+    tasks: Sequence[Task], store: Store, listener: Listener, computing: Computing | None = None
 ) -> dict[str, Entry]:
     """Run every task that the store does not hold yet.
 
@@ -75,8 +93,7 @@ def run_tasks(
     tasks : graph in an order where each task follows those it needs
     store : where results are found and kept
     listener : told of every start, progress and end
-    workers : number of local processes
-    scheduler : address of a Dask scheduler whose workers compute instead
+    computing : who computes; two local processes if left out
 
     Returns
     -------
@@ -98,21 +115,27 @@ def run_tasks(
     waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -t.cost)
     if waiting:
         log = store.root / "log" / f"run-{os.getpid()}.log"
-        _Run(store, keys, listener, _workers(min(workers, len(waiting)), log, scheduler)).run(waiting, entries)
+        computing = computing or Computing()
+        workers = _workers(computing, len(waiting), log)
+        _Run(store, keys, listener, workers, computing.ranks).run(waiting, entries)
     return entries
 
 
-def _workers(count: int, log: Path, scheduler: str | None) -> Workers:
-    if scheduler is None:
-        return LocalWorkers(count, log)
-    raise NotImplementedError
+def _workers(computing: Computing, tasks: int, log: Path) -> Workers:
+    if computing.ranks > 1:
+        mpiexec()
+    if computing.scheduler is not None:
+        from workbench.dask_workers import DaskWorkers
+
+        return DaskWorkers(computing.scheduler, log)
+    return LocalWorkers(min(computing.workers, tasks), log)
 
 
 class _Run:
     """One run: which task may start, what became of it."""
 
-    def __init__(self, store: Store, keys: Mapping[str, str], listener: Listener, workers: Workers) -> None:
-        self.store, self.keys, self.listener, self.workers = store, keys, listener, workers
+    def __init__(self, store: Store, keys: Mapping[str, str], listener: Listener, workers: Workers, ranks: int) -> None:
+        self.store, self.keys, self.listener, self.workers, self.ranks = store, keys, listener, workers, ranks
         self.running: dict[str, tuple[Task, Path]] = {}
         self.restarts: Counter[str] = Counter()
         self.failures: list[str] = []
@@ -147,7 +170,9 @@ class _Run:
                 inputs=task.inputs,
                 needs=needs,
                 folder=folder,
+                origin=task.origin(),
                 checkpoint=checkpoint,
+                ranks=self.ranks if task.shared else 1,
             )
             self.workers.start(job)
             self.listener.started(task.name)

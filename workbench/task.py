@@ -38,6 +38,7 @@ class Task:
     libraries : distributions whose version decides the result
     cost : expected wall time, only to start long tasks first [s]
     resumable : the function takes a ``checkpoint``
+    shared : several MPI processes may run it together
     """
 
     name: str
@@ -48,6 +49,7 @@ class Task:
     libraries: tuple[str, ...] = ()
     cost: float = 1.0
     resumable: bool = False
+    shared: bool = False
 
     def key(self, needed_keys: Mapping[str, str]) -> str:
         """SHA-256 of function, inputs, source text, library versions and the keys of what it needs."""
@@ -57,11 +59,16 @@ class Task:
                     "function": self.function,
                     "inputs": self.inputs,
                     "needs": {name: needed_keys[name] for name in self.needs},
-                    "sources": {name: source_hash(name) for name in (self.function.partition(":")[0], *self.sources)},
-                    "libraries": library_versions(self.libraries),
+                    **self.origin(),
                 }
             )
         )
+
+    def origin(self) -> dict[str, Mapping[str, str]]:
+        """Hash of each source and version of each library that decides the result, under "sources" and "libraries"."""
+        modules = (self.function.partition(":")[0], *self.sources)
+        sources = {name: source_hash(name) for name in modules}
+        return {"sources": sources, "libraries": library_versions(self.libraries)}
 
 
 def task_keys(tasks: tuple[Task, ...]) -> dict[str, str]:

@@ -28,16 +28,19 @@ ARROWS: dict[str, set[str]] = {
     "workbench": {"contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics"},
 }
 FENICS = ("dolfinx", "dolfinx_solver", "petsc4py", "mpi4py", "ufl", "basix", "ffcx")
-FRONT = ("pydantic", "pint", "typer", "rich", "jinja2", "plotly")
+FRONT = ("pydantic", "pint", "typer", "rich", "jinja2", "plotly", "distributed")
 CONFINED: dict[str, set[str]] = {
     **{library: {"reference_fe"} for library in FENICS},
     **{library: {"workbench"} for library in FRONT},
     "gmsh": {"geometry"},
 }
 """Library -> the packages that may import it."""
-ONE_MODULE = ("gmsh", "meshio", "plotly", "matplotlib", "pyvista", "pint", "jinja2")
+ONE_MODULE = ("gmsh", "meshio", "plotly", "matplotlib", "pyvista", "pint", "jinja2", "distributed")
 """Libraries imported by at most one module of a package."""
-NEVER_ON_HELP = {"gmsh", "petsc4py", "dolfinx", "mpi4py", "vtk", "vtkmodules", "pyvista", "matplotlib", "numba"}
+NEVER_ON_HELP = {
+    *("gmsh", "petsc4py", "dolfinx", "mpi4py", "vtk", "vtkmodules"),
+    *("pyvista", "matplotlib", "numba", "distributed"),
+}
 
 
 class Import(NamedTuple):

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from workbench.errors import RunError
-from workbench.runner import run_tasks
+from workbench.runner import Computing, run_tasks
 from workbench.store import Entry, Store
 from workbench.task import Task, task_keys
 
@@ -126,7 +126,7 @@ def test_a_failure_stops_only_what_needs_it(tmp_path: Path) -> None:
     tasks = [*bad, _sum(tmp_path, "a", 1.0), _sum(tmp_path, "b", 1.0, ("bad",)), _sum(tmp_path, "c", 2.0, ("a",))]
     recorder = Recorder()
     with pytest.raises(RunError, match=r"task (bad|worse) failed: .*; task (bad|worse) failed: "):
-        run_tasks(tasks, Store(tmp_path / "store"), recorder, workers=1)
+        run_tasks(tasks, Store(tmp_path / "store"), recorder, Computing(workers=1))
     assert [name for kind, name in recorder.events if kind == "computed"] == ["a", "c"]
     assert {name for kind, name in recorder.events if kind == "failed"} == {"bad", "worse"}
     assert _runs(tmp_path) == ["a", "c"]

@@ -1,11 +1,13 @@
-"""A coarse wheel solved in a process of its own, to be killed: ``python -m tests.verification.wheel_process OUT FILE``.
+"""A coarse wheel solved in a process of its own: ``python -m tests.verification.wheel_process OUT FILE [FACTOR]``.
 
-OUT takes the curve as a NumPy array, FILE is the checkpoint.
+OUT takes the curve, its columns and the fields at 20 N as a NumPy archive, FILE is the checkpoint; FACTOR scales
+Young's modulus. May be run by mpiexec.
 """
 
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,26 +15,23 @@ import numpy as np
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
 from reference_fe.dolfinx_api import COMM
-from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.wheel import WheelLoadCase, solve_wheel
 
 DEFLECTIONS = (0.002, 0.004, 0.006, 0.008)
 
 
-def table(result: WheelResult) -> np.ndarray:
-    """Deflection, load and every column of the curve, then the fields kept at 20 N."""
-    curve = result.curve
-    fields = [array.ravel() for s in result.snapshots for array in (s.displacement, s.von_mises)]
-    return np.concatenate([curve.deflection, curve.load, *curve.columns.values(), *fields])
-
-
-def solve(checkpoint: Path | None) -> WheelResult:
-    """The wheel of the test: coarse, half width, one orientation."""
+def solve(checkpoint: Path, factor: float) -> dict[str, np.ndarray]:
+    """Curve, columns and fields of a coarse half wheel at one orientation."""
     mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
     case = WheelLoadCase(orientation_deg=15.0, deflections=DEFLECTIONS, snapshot_loads=(20.0,))
-    return solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case, checkpoint=checkpoint)
+    material = replace(TI_6AL_4V, young_modulus=factor * TI_6AL_4V.young_modulus)
+    result = solve_wheel(mesh, dict.fromkeys(mesh.parts, material), case, checkpoint=checkpoint)
+    (fields,) = result.snapshots
+    table = {"deflection_m": result.curve.deflection, "load_N": result.curve.load, **result.curve.columns}
+    return table | {"displacement_m": fields.displacement, "von_mises_Pa": fields.von_mises}
 
 
 if __name__ == "__main__":
-    result = solve(Path(sys.argv[2]))
+    found = solve(Path(sys.argv[2]), float(sys.argv[3]) if len(sys.argv) > 3 else 1.0)
     if COMM.rank == 0:
-        np.save(sys.argv[1], table(result))
+        np.savez(sys.argv[1], allow_pickle=False, **found)  # type: ignore[arg-type]
