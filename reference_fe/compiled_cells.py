@@ -6,8 +6,6 @@ them in place and nothing is copied. On several, rows of nodes that belong to a 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -60,12 +58,12 @@ class CompiledCells:
         """Store S(E(u)) + CC : DE(u)[du] at the Gauss points."""
         cell_kernels.point_stress(u, du, self._gradients, self._moduli, self._dofs, self._stress)
 
-    def prepare_matrix(self, supported: NDArray[np.int32], couplings: Sequence[NDArray[np.int32]] = ()) -> None:
+    def prepare_matrix(self, supported: NDArray[np.int32], surfaces: SurfaceAssembly) -> None:
         """Lay out the matrix: pattern, place of each cell's blocks, entries that the supports fix.
 
-        couplings : further groups of nodes with room for a full block each
+        surfaces : couple further groups of nodes, with room for a full block each
         """
-        groups = [*self._nodes, *couplings]
+        groups = [*self._nodes, *surfaces.couplings()]
         self._csr = api.cell_matrix(self._V, groups, np.unique(supported // 3).astype(np.int32))
         indptr, indices = self._csr.indptr, self._csr.indices
         rows = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
@@ -80,8 +78,12 @@ class CompiledCells:
         first = 3 * self._nodes.astype(np.int64)
         wanted = first[:, :, None] * len(held) + first[:, None, :]
         self._blocks = (np.searchsorted(keys, wanted) - indptr[first][:, :, None]).astype(np.int32)
-        alone = api.COMM.size == 1
-        self._matrix = api.shared_matrix(self._csr) if alone else api.distributed_matrix(self._csr, self._V)
+        self._whole = surfaces.whole
+        if api.COMM.size == 1:
+            self._matrix = api.shared_matrix(self._csr)
+        else:
+            far = surfaces.whole.lay_out(surfaces.whole_couplings(), supported) if surfaces.whole else None
+            self._matrix = api.distributed_matrix(self._csr, self._V, far)
 
     def assemble(self, u: NDArray[np.float64], boundary: api.Expr, surfaces: SurfaceAssembly) -> None:
         """Fill the matrix: the cells' tangent at u with the stored stress, plus a boundary form (or None), surfaces."""
@@ -96,20 +98,21 @@ class CompiledCells:
         """The assembled matrix with unit rows and zero columns at supported unknowns; one object for each pattern."""
         self._csr.data[self._fixed] = 0.0
         self._csr.data[self._fixed_diagonal] = 1.0
-        self._hand_over()
+        self._hand_over(supported=True)
         return self._matrix
 
     def copied_matrix(self) -> api.PETSc.Mat:
         """The assembled matrix as it stands, as a new PETSc matrix."""
-        self._hand_over()
+        self._hand_over(supported=False)
         return self._matrix.copy()
 
-    def _hand_over(self) -> None:
+    def _hand_over(self, *, supported: bool) -> None:
         """Make PETSc see the values of the CSR matrices."""
         if api.COMM.size == 1:
             self._matrix.stateIncrease()
         else:
-            api.distributed_values(self._matrix, self._csr)
+            far = np.zeros(0) if self._whole is None else self._whole.own_stiffness(supported=supported)
+            api.distributed_values(self._matrix, np.concatenate([self._csr.data, far]))
 
 
 def _gradients(

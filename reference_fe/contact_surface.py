@@ -12,6 +12,7 @@ from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
 from reference_fe.domain import Domain
 from reference_fe.inner_contact_kernels import surface_frames
+from reference_fe.whole_body import WholeBody, global_nodes
 
 __all__ = ["ContactSurface", "contact_surface", "node_positions"]
 
@@ -49,8 +50,9 @@ class ContactSurface:
 
 
 def node_positions(domain: Domain, V: api.Expr) -> NDArray[np.float64]:
-    """Undeformed positions of the space's nodes, (n_nodes, 3) [m]; the third is zero for a planar body."""
-    return np.ascontiguousarray(V.tabulate_dof_coordinates(), dtype=np.float64)
+    """Undeformed positions of all the space's nodes, (n_nodes, 3) [m]; the third is zero for a planar body."""
+    here = np.ascontiguousarray(V.tabulate_dof_coordinates(), dtype=np.float64)
+    return here if domain.mesh.comm.size == 1 else WholeBody(V).gathered(here.ravel()).reshape(-1, 3)
 
 
 def contact_surface(domain: Domain, V: api.Expr, face: str, gauss_points: int) -> ContactSurface:
@@ -80,18 +82,16 @@ def contact_surface(domain: Domain, V: api.Expr, face: str, gauss_points: int) -
 
 
 def _node_numbers(domain: Domain, V: api.Expr) -> NDArray[np.int64]:
-    """Node of the displacement space at each point of the tagged mesh, (n_points,)."""
+    """Node of the displacement space at each point of the tagged mesh, in numbers over all processes, (n_points,)."""
     nodes, dofs = api.cell_nodes(domain.mesh), V.dofmap.list
-    if domain.mesh.comm.size > 1:
-        raise InputError("inner contact", f"{domain.mesh.comm.size} processes", "runs in one process", "switch it off")
     if nodes.shape != dofs.shape:
         rule = "must be interpolated by the nodes of the geometry where bodies touch"
         raise InputError("displacement", f"{dofs.shape[1]} nodes a cell", rule, "use Lagrange of the mesh's order")
-    local = np.empty(len(domain.mesh.geometry.x), dtype=np.int64)
-    local[nodes] = dofs
-    out = np.empty(len(domain.tagged.points), dtype=np.int64)
+    local = np.full(len(domain.mesh.geometry.x), -1, dtype=np.int64)
+    local[nodes] = global_nodes(V)[dofs]
+    out = np.full(len(domain.tagged.points), -1, dtype=np.int64)
     out[domain.mesh.geometry.input_global_indices] = local
-    return out
+    return api.largest_of_all(out)
 
 
 def _outward(

@@ -235,7 +235,7 @@ def global_norm(own: NDArray[np.float64]) -> float:
     return local if COMM.size == 1 else float(np.sqrt(COMM.allreduce(local * local)))
 
 
-def largest_of_all(local: NDArray[np.float64]) -> NDArray[np.float64]:
+def largest_of_all[Number: (np.float64, np.int64)](local: NDArray[Number]) -> NDArray[Number]:
     """Largest value over the processes, entry by entry."""
     if COMM.size == 1:
         return local
@@ -302,28 +302,37 @@ def shared_matrix(csr: Any) -> PETSc.Mat:
     return matrix
 
 
-def distributed_matrix(csr: Any, V: Any) -> PETSc.Mat:
-    """PETSc matrix over all processes with room for the sum of their own CSR matrices, see `distributed_values`."""
+def distributed_matrix(
+    csr: Any, V: Any, further: tuple[NDArray[np.int64], NDArray[np.int64]] | None = None
+) -> PETSc.Mat:
+    """PETSc matrix over all processes with room for the sum of their own CSR matrices, see `distributed_values`.
+
+    further : rows and columns of further entries, in numbers over all processes
+    """
     index_map, block = V.dofmap.index_map, V.dofmap.index_map_bs
     here = index_map.size_local + index_map.num_ghosts
     nodes = index_map.local_to_global(np.arange(here, dtype=np.int32))
     numbers = (block * nodes[:, None] + np.arange(block)).ravel()
-    rows = np.repeat(numbers, np.diff(csr.indptr)).astype(PETSc.IntType)
+    rows = np.repeat(numbers, np.diff(csr.indptr))
     sizes = (block * index_map.size_local, block * index_map.size_global)
     matrix = PETSc.Mat().create(PETSc.COMM_WORLD)
     matrix.setSizes((sizes, sizes))
     matrix.setType("aij")
-    coordinates: Any = (rows, numbers[csr.indices].astype(PETSc.IntType))
+    columns = numbers[csr.indices]
+    if further is not None:
+        rows, columns = np.concatenate([rows, further[0]]), np.concatenate([columns, further[1]])
+    coordinates: Any = (rows.astype(PETSc.IntType), columns.astype(PETSc.IntType))
     matrix.setPreallocationCOO(*coordinates)
     symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
     matrix.setOption(symmetric, True)
     return matrix
 
 
-def distributed_values(matrix: PETSc.Mat, csr: Any) -> None:
-    """Set a matrix from `distributed_matrix` to the sum of all processes' CSR matrices."""
+def distributed_values(matrix: PETSc.Mat, values: NDArray[np.float64]) -> None:
+    """Set a matrix from `distributed_matrix` to the sum of all processes' values: CSR data, then further entries."""
+    entries: Any = values  # the stubs know lists only
     replace: Any = PETSc.InsertMode.INSERT_VALUES
-    matrix.setValuesCOO(csr.data, replace)
+    matrix.setValuesCOO(entries, replace)
 
 
 class PointEvaluation:

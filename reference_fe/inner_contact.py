@@ -84,12 +84,14 @@ class InnerContactTerm:
     reference_positions : (n_nodes, 3) of the displacement space's nodes [m]
     pattern_version : changes when facets meet that had no room in the matrix
     largest_penetration : at the last evaluation [m]
+    whole_body : its nodes have the numbers over all processes, and every process evaluates all of it
 
     Verified by tests/unit/test_fe_inner_contact.py and tests/verification/test_fe_touching_parts.py.
     """
 
     def __init__(self, description: InnerContact, domain: Domain, V: api.Expr) -> None:
         self._law, self._dim = description, int(V.dofmap.index_map_bs)
+        self.whole_body = domain.mesh.comm.size > 1
         self.reference_positions = node_positions(domain, V)
         names = {name for pair in description.pairs for name in (pair.slave, pair.master)}
         made = {name: contact_surface(domain, V, name, description.gauss_points) for name in sorted(names)}

@@ -185,7 +185,7 @@ class StaticProblem:
         assert self._compiled is not None
         if self._pattern_version != self.surfaces.pattern_version:
             self._pattern_version = self.surfaces.pattern_version
-            self._compiled.prepare_matrix(self.supported, self.surfaces.couplings())
+            self._compiled.prepare_matrix(self.supported, self.surfaces)
         self._compiled.assemble(self.u.x.array, self._tangent_form, self.surfaces)
 
     def state(self) -> ProblemState:

@@ -8,8 +8,10 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
 from reference_fe.surface_term import SurfaceForces, SurfaceTerm, TermState
+from reference_fe.whole_body import WholeBody
 
 __all__ = ["SurfaceAssembly"]
 
@@ -27,6 +29,9 @@ class SurfaceAssembly:
 
     def __init__(self, terms: Sequence[SurfaceTerm], V: api.Expr) -> None:
         self.terms, self._dim = tuple(terms), int(V.dofmap.index_map_bs)
+        self._whole_terms = [t for t in self.terms if getattr(t, "whole_body", False)]
+        self._local_terms = [t for t in self.terms if t not in self._whole_terms]
+        self.whole = WholeBody(V) if self._whole_terms else None
         self._forces = api.fem.Function(V)
         self._batches: tuple[SurfaceForces, ...] = ()
 
@@ -41,8 +46,12 @@ class SurfaceAssembly:
         return all(getattr(term, "symmetric", True) for term in self.terms)
 
     def couplings(self) -> list[NDArray[np.int32]]:
-        """Groups of nodes that any term may couple."""
-        return [group[group >= 0].astype(np.int32) for term in self.terms for group in term.couplings()]
+        """Groups of nodes that a term may couple, in this process' numbers; without terms of the whole body."""
+        return [group[group >= 0].astype(np.int32) for term in self._local_terms for group in term.couplings()]
+
+    def whole_couplings(self) -> list[NDArray[np.int64]]:
+        """Groups of nodes that each term of the whole body may couple, in numbers over all processes."""
+        return [term.couplings() for term in self._whole_terms]
 
     def set_control(self, control: float) -> None:
         """Set every term's control parameter."""
@@ -51,12 +60,16 @@ class SurfaceAssembly:
 
     def force(self, u: NDArray[np.float64], lag: float) -> NDArray[np.float64]:
         """Force on the body at every own unknown, (n_own_dofs,) [N]; keeps the blocks for the matrix."""
-        self._batches = tuple(term.evaluate(u, lag) for term in self.terms)
+        self._batches = tuple(term.evaluate(u, lag) for term in self._local_terms)
         total = self._forces.x.array
         total[:] = 0.0
         for batch in self._batches:
             _add_forces(batch.nodes, batch.force, total)
-        return api.sum_shared(self._forces)
+        force = api.sum_shared(self._forces)
+        if self.whole is not None:
+            everywhere = self.whole.gathered(u)
+            force += self.whole.own_force([term.evaluate(everywhere, lag) for term in self._whole_terms])
+        return force
 
     def add_to_csr(self, indptr: NDArray[np.int32], indices: NDArray[np.int32], data: NDArray[np.float64]) -> None:
         """Add the stiffness of the last evaluation to a CSR matrix that has room for it."""
@@ -64,7 +77,16 @@ class SurfaceAssembly:
             _add_blocks(batch.nodes, batch.stiffness, indptr, indices, data)
 
     def add_to_matrix(self, matrix: api.PETSc.Mat, supported: NDArray[np.int32]) -> None:
-        """Add the stiffness of the last evaluation to a PETSc matrix, not at supported unknowns."""
+        """Add the stiffness of the last evaluation to a PETSc matrix, not at supported unknowns.
+
+        Raises
+        ------
+        InputError
+            For terms of the whole body, which only compiled cells can take.
+        """
+        if self.whole is not None:
+            rule = "needs the compiled cells (St. Venant-Kirchhoff, three dimensions)"
+            raise InputError("contact between parts", f"{api.COMM.size} processes", rule, "use one process")
         free = np.ones(len(self._forces.x.array))
         free[supported] = 0.0
         for batch in self._batches:

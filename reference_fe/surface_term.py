@@ -38,7 +38,11 @@ class SurfaceForces:
 
 
 class SurfaceTerm(Protocol):
-    """One contact while it is being solved. History changes in `accept` and `augment` only."""
+    """One contact while it is being solved. History changes in `accept` and `augment` only.
+
+    On several processes a term sees its own process' facets and numbers its nodes likewise; `resultant` sums over the
+    processes. A term with an attribute ``whole_body`` that is true is evaluated whole by each, see `whole_body`.
+    """
 
     @property
     def pattern_version(self) -> int:
