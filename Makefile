@@ -19,10 +19,10 @@ export OMP_NUM_THREADS := 1
 # Certificates of the machine, not uv's own list: works behind a company's proxy too.
 export UV_SYSTEM_CERTS ?= true
 
-.PHONY: help setup report test lint unit bench clean distclean
+.PHONY: help setup report test lint unit bench test-debian clean distclean
 
 help: ## show this list
-	@grep -hE '^[a-z]+:.*## ' Makefile | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 18
+	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 18
 
 setup: $(READY) ## install the pinned environment (the other targets do it when needed)
 
@@ -44,6 +44,11 @@ bench: $(READY) ## run one benchmark: make bench NAME=fe_wheel
 	@test -n "$(NAME)" || { echo "make bench: NAME is not given; one of:" $(basename $(notdir $(wildcard benchmarks/*.py))) >&2; exit 2; }
 	@test -f "benchmarks/$(NAME).py" || { echo "make bench: benchmarks/$(NAME).py is not there; one of:" $(basename $(notdir $(wildcard benchmarks/*.py))) >&2; exit 2; }
 	$(PYTHON) "benchmarks/$(NAME).py"
+
+test-debian: $(READY) ## FE tests and a wheel curve on Debian's DOLFINx, 13 and unstable (needs root and debootstrap)
+	mkdir -p build/debian
+	$(PYTHON) tests/debian/wheel_curve.py build/debian/wheel_build.csv
+	tests/debian/run.sh
 
 clean: ## remove results and caches, keep the environment
 	rm -rf build .mypy_cache .ruff_cache .pytest_cache .hypothesis

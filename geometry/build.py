@@ -26,6 +26,7 @@ from geometry.resolution import (
 )
 from geometry.rules import require_count, require_positive_length
 from geometry.section import build_section
+from geometry.sidewall_mesh import sidewall_cells
 from geometry.solids import ConeShape, Solids, add_cone, add_section, mesh_solids
 from geometry.wheel import WheelDesign
 
@@ -96,6 +97,9 @@ def build_mesh(
             solids = add_cones(gmsh, design, size, half_width)
             mesh_solids(gmsh, solids, order)
             raw = join(raw, _extract(gmsh, solids, order))
+    if design.sidewall_springs is not None:
+        rim = rim_ring(design, size), axial_levels(design, parts, half_width)
+        raw = join(raw, sidewall_cells(design, size, rim, order, half_width))
     return assemble(raw, names)
 
 

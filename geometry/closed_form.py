@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from contracts.materials import Material
 from geometry.parts import Grousers, SpringSet
 from geometry.resolution import part_bands
+from geometry.sidewall import SidewallSprings, weld_half_angle
 from geometry.springs import leg_sides, spring_leg, weld_angle
 from geometry.wheel import WheelDesign
 
@@ -22,7 +23,8 @@ def closed_form_volume(design: WheelDesign, half_width: bool = True) -> Mapping[
     """Volume of each part [m^3], over y >= 0 or over the full width.
 
     tire and hubs: pi (r_o^2 - r_i^2) w; weld of angle a: a/2 (r_o^2 - r_i^2) w; strip: L t w; cone with joints of axial
-    width b: pi (r_o^2 - r_i^2) b; grouser: w int_{-t/2}^{t/2} sqrt((R + h)^2 - x^2) - sqrt(R^2 - x^2) dx.
+    width b: pi (r_o^2 - r_i^2) b; sidewall strip: L t b;
+    grouser: w int_{-t/2}^{t/2} sqrt((R + h)^2 - x^2) - sqrt(R^2 - x^2) dx.
     """
     widths = {name: _width(bands, half_width) for name, bands in part_bands(design).items()}
     rim = design.tire.inner_radius
@@ -32,7 +34,7 @@ def closed_form_volume(design: WheelDesign, half_width: bool = True) -> Mapping[
     for springs in design.spring_sets:
         sections[springs.name] = _spring_section(springs, (design.outer_hub.outer_radius, rim))
     for name, ring in (("outer_hub", design.outer_hub), ("inner_hub", design.inner_hub)):
-        if ring is not None:
+        if ring is not None and name in widths:
             sections[name] = math.pi * (ring.outer_radius**2 - ring.inner_radius**2)
     if design.impact_springs is not None and design.inner_hub is not None:
         gap = (design.inner_hub.outer_radius, design.outer_hub.inner_radius)
@@ -42,6 +44,9 @@ def closed_form_volume(design: WheelDesign, half_width: bool = True) -> Mapping[
         r_o, r_i = design.outer_hub.inner_radius, design.inner_hub.outer_radius
         cones = 1.0 if half_width else 2.0
         volumes["cone"] = cones * math.pi * (r_o**2 - r_i**2) * design.cone.axial_width(r_o, r_i)
+    if design.sidewall_springs is not None:
+        sides = 1.0 if half_width else 2.0
+        volumes |= {n: sides * v for n, v in _sidewall_volumes(design.sidewall_springs, rim).items()}
     return {name: volumes[name] for name in design.materials}
 
 
@@ -61,6 +66,12 @@ def closed_form_joint_areas(design: WheelDesign, half_width: bool = True) -> Map
         angle = springs.count * weld_angle(springs, tire.inner_radius) * widths[springs.name]
         add(springs.name, "tire", angle * tire.inner_radius)
         add(springs.name, "outer_hub", angle * hub.outer_radius)
+    sidewall = design.sidewall_springs
+    if sidewall is not None:
+        strips = sidewall.count * (1.0 if half_width else 2.0)
+        arc = 2.0 * weld_half_angle(sidewall, tire.inner_radius) * tire.inner_radius
+        add(sidewall.name, "tire", strips * arc * sidewall.weld_length)
+        add(sidewall.name, "outer_hub", strips * sidewall.width * sidewall.thickness)
     if inner is not None and design.impact_springs is not None:
         impact = design.impact_springs
         angle = impact.count * weld_angle(impact, hub.inner_radius) * widths["impact_springs"]
@@ -93,6 +104,21 @@ def _spring_section(springs: SpringSet, gap: tuple[float, float]) -> float:
     else:
         strip = math.pi * 0.5 * (rim - hub - t) * t
     return springs.count * (welds + len(sides) * strip)
+
+
+def _sidewall_volumes(springs: SidewallSprings, rim: float) -> dict[str, float]:
+    """Volume [m^3] of the strips at one side and of their clamped ends.
+
+    On the curl the section, curved like the rim at first (mid-surface radius R), lies nearer to the curl's axis by
+    width^2 / (24 R) in the mean, fading out as (1 + cos theta) / 2; Pappus' rule then takes off pi / 2 of that length.
+    """
+    weld = weld_half_angle(springs, rim) * (rim**2 - (rim - springs.thickness) ** 2) * springs.weld_length
+    section = springs.width * springs.thickness
+    nearer = springs.width**2 / (24.0 * (rim - 0.5 * springs.thickness))
+    return {
+        springs.name: springs.count * (weld + (springs.free_length - 0.5 * math.pi * nearer) * section),
+        "outer_hub": springs.count * springs.clamp_length * section,
+    }
 
 
 def _grouser_section(grousers: Grousers, radius: float) -> float:

@@ -17,10 +17,22 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from geometry.parts import SpringSet
+from geometry.sidewall import SidewallSprings, weld_half_angle
 from geometry.springs import station_angles, weld_angle
 from geometry.wheel import WheelDesign
 
-__all__ = ["MeshSize", "Ring", "active_parts", "axial_bands", "axial_levels", "hub_ring", "part_names", "rim_ring"]
+__all__ = [
+    "MeshSize",
+    "Ring",
+    "active_parts",
+    "axial_bands",
+    "axial_levels",
+    "hub_ring",
+    "part_bands",
+    "part_names",
+    "rim_ring",
+    "sidewall_angles",
+]
 
 Parts = Literal["all", "flexible"]
 Interval = tuple[float, float, float]
@@ -109,6 +121,10 @@ def rim_ring(design: WheelDesign, size: MeshSize) -> Ring:
             intervals.append((middle - half, middle + half, math.inf))
     for springs in design.spring_sets:
         intervals += _weld_intervals(springs, radius, size.of(springs.name) / radius)
+    if design.sidewall_springs is not None:
+        half = weld_half_angle(design.sidewall_springs, radius)
+        limit = size.of(design.sidewall_springs.name) / radius
+        intervals += [(a - half, a + half, limit) for a in sidewall_angles(design.sidewall_springs)]
     grouser = [(a, b) for a, b, limit in intervals if limit == math.inf]
     ring = _divide(intervals, size.of("tire") / design.tire.outer_radius)
     counts = np.array([size.refined(int(n)) for n in ring.counts])
@@ -117,6 +133,11 @@ def rim_ring(design: WheelDesign, size: MeshSize) -> Ring:
             share = ring.step(i) / (b - a)
             counts[i] = max(ring.counts[i], math.ceil(size.thickness_elements * share - 1e-6))
     return Ring(angles=ring.angles, counts=counts)
+
+
+def sidewall_angles(springs: SidewallSprings) -> NDArray[np.float64]:
+    """Circumferential positions of the strips' middles, shape (count,) [rad]."""
+    return springs.phase + 2.0 * math.pi / springs.count * np.arange(springs.count, dtype=np.float64)
 
 
 def hub_ring(design: WheelDesign, size: MeshSize, parts: Parts) -> Ring:
@@ -166,6 +187,8 @@ def _divide(intervals: Iterable[Interval], largest: float) -> Ring:
 def _unique_angles(angles: Iterable[float]) -> NDArray[np.float64]:
     """Angles [rad] in [0, 2 pi), sorted, equal ones once; raises InputError for cuts that all but coincide."""
     turned = np.sort(np.mod(np.fromiter(angles, dtype=np.float64), 2.0 * math.pi))
+    if len(turned) == 0:
+        return np.zeros(1)
     turned[np.abs(turned - 2.0 * math.pi) < _SAME_ANGLE] = 0.0
     turned = np.sort(turned)
     kept = turned[np.concatenate([[True], np.diff(turned) > _SAME_ANGLE])]
@@ -188,6 +211,9 @@ def axial_levels(design: WheelDesign, parts: Parts, half_width: bool) -> NDArray
             rule = "half width needs bands that mirror each other about y = 0"
             raise InputError(f"{name} bands", bands, rule, "mesh the full width (half_width=False)")
         levels += [y for band in bands for y in band]
+    if design.sidewall_springs is not None:
+        inner = 0.5 * design.tire.width - design.sidewall_springs.weld_length
+        levels += [inner, -inner]
     joints = cone_joints(design) if "cone" in names else ()
     levels += [y for joint in joints for y in joint]
     ordered = np.sort(np.array(levels))
@@ -228,14 +254,15 @@ def cone_joints(design: WheelDesign) -> tuple[tuple[float, float], ...]:
 
 
 def part_bands(design: WheelDesign) -> dict[str, tuple[tuple[float, float], ...]]:
-    """Axial bands [m] of every part made by extrusion (all but the cone)."""
+    """Axial bands [m] of every part made by extrusion: all but the cone, sidewall springs and a hub of clamps alone."""
     half = 0.5 * design.tire.width
     bands: dict[str, tuple[tuple[float, float], ...]] = {"tire": ((-half, half),)}
     if design.grousers is not None:
         bands["grousers"] = bands["tire"]
     sets = (*design.spring_sets, *([design.impact_springs] if design.impact_springs else []))
     bands |= {springs.name: springs.bands for springs in sets}
-    for name, ring in (("outer_hub", design.outer_hub), ("inner_hub", design.inner_hub)):
+    carries_springs = bool(design.spring_sets) or design.inner_hub is not None
+    for name, ring in (("outer_hub", design.outer_hub if carries_springs else None), ("inner_hub", design.inner_hub)):
         if ring is not None:
             bands[name] = ((-0.5 * ring.width, 0.5 * ring.width),)
     return bands

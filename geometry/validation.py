@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from contracts.errors import InputError
 from geometry.clearance import require_clear_of_rings, require_clear_sets
 from geometry.parts import Cone, Grousers, HubRing, SpringSet
+from geometry.sidewall import SidewallSprings, weld_half_angle
 from geometry.springs import weld_angle
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ def validate_wheel(design: WheelDesign) -> None:
     for springs in design.spring_sets:
         _check_springs(springs, (hub.outer_radius, tire.inner_radius), half_width)
     require_clear_sets(design.spring_sets, (hub.outer_radius, tire.inner_radius))
+    if design.sidewall_springs is not None:
+        _check_sidewall(design.sidewall_springs, design)
     if design.inner_hub is None:
         if design.cone is not None or design.impact_springs is not None:
             rule = "cone and impact springs need an inner hub"
@@ -41,9 +44,10 @@ def validate_wheel(design: WheelDesign) -> None:
 
 
 def _check_names(design: WheelDesign) -> None:
-    if not design.spring_sets:
-        raise InputError("spring sets", "none", "the rim needs springs", "give at least one SpringSet")
-    names = [springs.name for springs in design.spring_sets]
+    sidewall = [design.sidewall_springs.name] if design.sidewall_springs else []
+    names = [springs.name for springs in design.spring_sets] + sidewall
+    if not names:
+        raise InputError("spring sets", "none", "the rim needs springs", "give a SpringSet or SidewallSprings")
     for name in names:
         if name in RESERVED_NAMES:
             raise InputError("spring set name", name, "is the name of another part", "choose another name")
@@ -82,6 +86,31 @@ def _check_springs(springs: SpringSet, gap: tuple[float, float], half_width: flo
         rule = f"must be smaller than the spacing of the welds, {spacing * 1e3:.4g} mm"
         raise InputError(f"{springs.name} weld length", f"{springs.weld_length * 1e3:g} mm", rule, "shorten the weld")
     require_clear_of_rings(springs, gap)
+
+
+def _check_sidewall(springs: SidewallSprings, design: WheelDesign) -> None:
+    rim, hub = design.tire.inner_radius, design.outer_hub.outer_radius
+    if design.spring_sets or design.inner_hub is not None:
+        rule = "cannot be combined with springs in the wheel's plane or an inner hub"
+        raise InputError("sidewall springs", springs.name, rule, "leave the other springs and the inner hub out")
+    if springs.weld_length > 0.5 * design.tire.width + 1e-12:
+        rule = f"must not exceed half the tire's width, {0.5e3 * design.tire.width:g} mm"
+        raise InputError(f"{springs.name} weld length", f"{springs.weld_length * 1e3:g} mm", rule, "shorten the weld")
+    if springs.width >= 2.0 * rim or 2.0 * weld_half_angle(springs, rim) >= 2.0 * math.pi / springs.count:
+        spacing = 2.0e3 * math.pi * rim / springs.count
+        rule = f"must be smaller than the spacing of the strips on the rim, {spacing:.4g} mm"
+        raise InputError(f"{springs.name} width", f"{springs.width * 1e3:g} mm", rule, "use narrower or fewer strips")
+    centre = rim - 0.5 * springs.thickness - 2.0 * springs.curl_radius - springs.arc_radius
+    lowest = centre + springs.arc_radius * math.cos(springs.sweep)
+    clamp = lowest - springs.clamp_length * math.sin(springs.sweep)
+    room = 0.5 * springs.width / math.tan(math.pi / springs.count) if springs.count > 2 else 0.0
+    if min(lowest, clamp) < max(hub - 1e-9, 0.0):
+        text = f"strip down to radius {min(lowest, clamp) * 1e3:.4g} mm"
+        rule = f"must stay outside the outer hub, radius {hub * 1e3:.4g} mm"
+        raise InputError(f"{springs.name} arc radius", text, rule, "use a smaller arc, curl, sweep or hub")
+    if lowest < room:
+        rule = f"neighbours overlap at the hub: they need a radius of {room * 1e3:.4g} mm"
+        raise InputError(f"{springs.name} width", f"{springs.width * 1e3:g} mm", rule, "use narrower or fewer strips")
 
 
 def _check_inner_hub(design: WheelDesign, inner: HubRing) -> None:

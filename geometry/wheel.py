@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from contracts.materials import Material
 from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+from geometry.sidewall import SidewallSprings
 from geometry.validation import validate_wheel
 
 __all__ = ["WheelDesign", "exomars"]
@@ -78,8 +79,9 @@ class WheelDesign:
     name : name in reports
     tire : the rim
     grousers : the fins, or None
-    spring_sets : any number (>= 1) of sets between rim and outer hub
-    outer_hub : ring that carries the springs
+    spring_sets : any number of sets between rim and outer hub; at least one where there are no sidewall springs
+    sidewall_springs : strips at the sides of the wheel, or None
+    outer_hub : ring that carries the springs; of a wheel with sidewall springs only their clamped ends are meshed
     cone : shell between the hubs, or None
     impact_springs : spring set between the hubs, or None
     inner_hub : ring inside, or None (then neither cone nor impact springs)
@@ -96,6 +98,7 @@ class WheelDesign:
     tire: Tire = field(default_factory=_tire)
     grousers: Grousers | None = field(default_factory=_grousers)
     spring_sets: tuple[SpringSet, ...] = field(default_factory=_spring_sets)
+    sidewall_springs: SidewallSprings | None = None
     outer_hub: HubRing = field(default_factory=lambda: HubRing(outer_radius=50.0e-3, thickness=2.0e-3, width=120.0e-3))
     cone: Cone | None = field(
         default_factory=lambda: Cone(thickness=1.5e-3, outer_position=36.0e-3, inner_position=22.0e-3)
@@ -114,6 +117,7 @@ class WheelDesign:
         optional = {
             "grousers": self.grousers,
             **{springs.name: springs for springs in self.spring_sets},
+            **({self.sidewall_springs.name: self.sidewall_springs} if self.sidewall_springs else {}),
             "outer_hub": self.outer_hub,
             "cone": self.cone,
             "impact_springs": self.impact_springs,

@@ -1,4 +1,4 @@
-"""Every call whose spelling depends on the DOLFINx version, and the one place that imports it.
+"""Every call whose spelling depends on the DOLFINx version (0.9 to 0.11), and the one place that imports it.
 
 ``dolfinx_solver`` must be imported first where the PyPI wheel provides DOLFINx; Debian and conda builds do without it.
 """
@@ -9,7 +9,7 @@ import contextlib
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 with contextlib.suppress(ModuleNotFoundError):
     import dolfinx_solver  # noqa: F401  (sets up the libraries of the PyPI wheel)
@@ -70,10 +70,13 @@ __all__ = [
 ]
 
 COMM = MPI.COMM_WORLD
-Mesh = dolfinx_mesh.Mesh[np.float64]
+if TYPE_CHECKING:
+    Mesh = dolfinx_mesh.Mesh[np.float64]
+    Function = _fem.Function[np.float64]
+    DirichletBC = _fem.DirichletBC[np.float64]
+else:  # generic at run time only from 0.10 on
+    Mesh, Function, DirichletBC = dolfinx_mesh.Mesh, _fem.Function, _fem.DirichletBC
 MeshTags = dolfinx_mesh.MeshTags
-Function = _fem.Function[np.float64]
-DirichletBC = _fem.DirichletBC[np.float64]
 type Expr = Any
 # UFL carries no types and DOLFINx's are partial: both are used untyped, our own code around them is not.
 dolfinx: Any = _dolfinx
@@ -105,7 +108,8 @@ def mesh_from_arrays(points: NDArray[np.float64], cells: NDArray[np.int64]) -> M
     permutation = _gmsh_permutation(_CELL[dim], cells.shape[1])
     if COMM.rank > 0:
         points, cells = points[:0], cells[:0]
-    return dolfinx_mesh.create_mesh(COMM, np.ascontiguousarray(cells[:, permutation]), element, points)
+    own = np.ascontiguousarray(cells[:, permutation])
+    return dolfinx_mesh.create_mesh(COMM, cells=own, e=element, x=points)  # 0.9 has e and x the other way round
 
 
 def _gmsh_permutation(cell: str, nodes: int) -> NDArray[np.int64]:
@@ -149,10 +153,19 @@ def gauss_rule(points_per_axis: tuple[int, ...]) -> tuple[NDArray[np.float64], N
     return np.stack(grids, axis=-1).reshape(-1, len(rules)), weights.ravel()
 
 
+class _Signed(np.ndarray[Any, np.dtype[np.float64]]):
+    """Array with the signature by which UFL tells two forms apart; UFL 2024 (DOLFINx 0.9) knows no plain arrays."""
+
+    @property
+    def ufl_signature(self) -> str:
+        return repr(self.tolist())
+
+
 def cell_measure(mesh: Mesh, tags: MeshTags, ids: tuple[int, ...], points_per_axis: tuple[int, ...]) -> Any:
     """UFL measure over the tagged cells with a tensor Gauss rule."""
     points, weights = gauss_rule(points_per_axis)
-    metadata = {"quadrature_rule": "custom", "quadrature_points": points, "quadrature_weights": weights}
+    rule = {"quadrature_points": points.view(_Signed), "quadrature_weights": weights.view(_Signed)}
+    metadata = {"quadrature_rule": "custom", **rule}
     return ufl.dx(domain=mesh, subdomain_data=tags, subdomain_id=ids, metadata=metadata)
 
 
@@ -346,7 +359,9 @@ class PointEvaluation:
 
     def __init__(self, expression: Expr, points: NDArray[np.float64]) -> None:
         self._compiled = fem.Expression(expression, points, jit_options=JIT_OPTIONS)
+        self._shape = (len(points), *expression.ufl_shape)
 
     def __call__(self, mesh: Mesh, cells: NDArray[np.int32]) -> NDArray[np.float64]:
         """Values, (n_cells, n_points, *shape)."""
-        return np.asarray(self._compiled.eval(mesh, cells))
+        values = np.asarray(self._compiled.eval(mesh, cells))  # 0.9 gives them flat, (n_cells, n_points * size)
+        return values.reshape(len(cells), *self._shape)

@@ -27,6 +27,7 @@ _LATTICE = np.array(
     ],
     dtype=np.int64,
 )
+_STRAIGHT = 1e-5  # relative sagitta below which an axis counts as straight
 _NUMBER = {tuple(position): node for node, position in enumerate(_LATTICE.tolist())}
 
 
@@ -36,8 +37,8 @@ def curved_axis_first(mesh: TaggedMesh, straight: NDArray[np.float64] | None = N
     Parameters
     ----------
     mesh : any tagged mesh
-    straight : (3,) direction along which nothing bends, e.g. a wheel's axle, or None; a cell's axis along it never
-        comes first. Give it where strips are flat: a flat cell does not show which way it will bend.
+    straight : (3,) direction along which nothing bends, e.g. a wheel's axle, or None; a cell's straight axis along it
+        never comes first. Give it where strips are flat: a flat cell does not show which way it will bend.
 
     Notes
     -----
@@ -57,7 +58,9 @@ def curved_axis_first(mesh: TaggedMesh, straight: NDArray[np.float64] | None = N
     if straight is not None:
         edges = nodes[:, [1, 3, 4]] - nodes[:, [0]]
         along = np.abs(edges @ straight) / np.linalg.norm(edges, axis=-1)
-        np.put_along_axis(curvature, np.argmax(along, axis=-1)[:, None], -1.0, axis=-1)
+        axis = np.argmax(along, axis=-1)[:, None]
+        kept = np.take_along_axis(curvature, axis, axis=-1)
+        np.put_along_axis(curvature, axis, np.where(kept > _STRAIGHT, kept, -1.0), axis=-1)
     first = np.argmax(curvature, axis=-1)
     turns = np.array([[_NUMBER[tuple(np.roll(position, axis).tolist())] for position in _LATTICE] for axis in range(3)])
     return replace(mesh, cells=np.take_along_axis(mesh.cells, turns[first], axis=1))

@@ -50,7 +50,8 @@ def part_materials(study: WheelStudy) -> dict[str, str]:
     """Material name of each part of the mesh."""
     wheel = study.wheel
     single = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
-    parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in wheel.springs}
+    springs = (*wheel.springs, *([wheel.sidewall_springs] if wheel.sidewall_springs else []))
+    parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in springs}
     return {name: part.material for name, part in parts.items() if part is not None}
 
 
@@ -77,13 +78,15 @@ class _WheelParts:
     def build(self) -> dict[str, Any]:
         """Keyword arguments of WheelDesign."""
         from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+        from geometry.sidewall import SidewallSprings
 
         wheel = self.wheel
-        impact = wheel.impact_springs
+        impact, sidewall = wheel.impact_springs, wheel.sidewall_springs
         return {
             "tire": self._part(Tire, "tire", wheel.tire),
             "grousers": wheel.grousers and self._part(Grousers, "grousers", wheel.grousers),
             "spring_sets": tuple(self._part(SpringSet, f"springs[{i}]", s) for i, s in enumerate(wheel.springs)),
+            "sidewall_springs": sidewall and self._part(SidewallSprings, "sidewall_springs", sidewall),
             "outer_hub": self._part(HubRing, "outer_hub", wheel.outer_hub),
             "cone": wheel.cone and self._part(Cone, "cone", wheel.cone),
             "impact_springs": impact and self._part(SpringSet, "impact_springs", impact, name="impact_springs"),

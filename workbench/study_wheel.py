@@ -18,6 +18,7 @@ __all__ = [
     "GrousersSection",
     "HubSection",
     "ImpactSpringsSection",
+    "SidewallSpringsSection",
     "SpringsSection",
     "TireSection",
     "WheelSection",
@@ -67,6 +68,22 @@ class SpringsSection(ImpactSpringsSection):
     name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
 
+class SidewallSpringsSection(Section):
+    """Strips at the sides of the wheel, like a radial tire's sidewalls [m]; sweep of their arc and phase [rad]."""
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
+    count: Count
+    phase: Angle = 0.0
+    width: Annotated[Length, Positive]
+    thickness: Thickness
+    curl_radius: Annotated[Length, Positive]
+    arc_radius: Annotated[Length, Positive]
+    sweep: Angle
+    weld_length: Annotated[Length, Positive]
+    clamp_length: Annotated[Length, Positive]
+    material: MaterialName
+
+
 class HubSection(Section):
     """A cylindrical ring of the hub [m]."""
 
@@ -90,7 +107,8 @@ class WheelSection(Section):
 
     tire: TireSection
     grousers: GrousersSection | None = None
-    springs: Annotated[tuple[SpringsSection, ...], Field(min_length=1)]
+    springs: tuple[SpringsSection, ...] = ()
+    sidewall_springs: SidewallSpringsSection | None = None
     outer_hub: HubSection
     cone: ConeSection | None = None
     impact_springs: ImpactSpringsSection | None = None
