@@ -50,8 +50,9 @@ def part_materials(study: WheelStudy) -> dict[str, str]:
     """Material name of each part of the mesh."""
     wheel = study.wheel
     single = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
-    springs = (*wheel.springs, *([wheel.sidewall_springs] if wheel.sidewall_springs else []))
-    parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in springs}
+    parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in wheel.springs}
+    if wheel.sidewall_springs is not None:
+        parts[wheel.sidewall_springs.name] = wheel.sidewall_springs
     return {name: part.material for name, part in parts.items() if part is not None}
 
 
