@@ -32,7 +32,7 @@ from workbench.task import Task
 __all__ = ["run_compare", "run_doctor", "run_mesh", "run_report", "run_stiffness"]
 
 console = Console()
-_MODELS = ("fe", "ancf", "brush")
+_MODELS = ("fe", "section", "ancf", "brush")
 
 
 def run_report(study_path: Path | None, out: Path, store: Path, computing: Computing) -> int:

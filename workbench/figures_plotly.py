@@ -27,6 +27,7 @@ __all__ = [
     "mesh_study_figure",
     "models_figure",
     "plotly_script",
+    "section_figure",
     "stress_figure",
 ]
 
@@ -93,6 +94,27 @@ def mesh_study_figure(study: MeshStudy) -> str:
             hovertemplate="%{y:.3f} %",
         )  # fmt: skip
     return figure_html(figure, "mesh-study")
+
+
+def section_figure(section: ModelCurves, fe: ModelCurves) -> str:
+    """Section model at each orientation as lines, the solid model's points on them, both averages."""
+    figure = empty_figure()
+    for i, (orientation, curve) in enumerate(section.by_orientation.items()):
+        colour = ORIENTATION_COLOURS[i % 6]
+        _add_line(figure, curve, f"section {orientation:g}°", colour, width=1.8, dash=_DASHES[i % 6])
+        solid = fe.by_orientation.get(orientation)
+        if solid is not None:
+            figure.add_scatter(
+                x=solid.deflection * 1e3,
+                y=solid.load,
+                name=f"solid {orientation:g}°" + (" (partial)" if solid.partial else ""),
+                mode="markers",
+                marker={"symbol": _MARKERS[i % 6], "size": 6, "color": colour},
+                hovertemplate="%{y:.1f} N",
+            )
+    _add_line(figure, section.average, "section average", MODEL_COLOURS["section"], width=4.0)
+    _add_line(figure, fe.average, "solid average", MODEL_COLOURS["fe"], width=2.0, dash="dot")
+    return figure_html(figure, "section-curves")
 
 
 def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:

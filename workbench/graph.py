@@ -19,6 +19,7 @@ from workbench.graph_fe import (
     mesh_task,
     orientation_name,
 )
+from workbench.graph_section import section_tasks
 from workbench.preset_table import preset_table
 from workbench.study import Study
 from workbench.study_models import ancf_preset, brush_parameters, wheel_design
@@ -28,7 +29,7 @@ from workbench.topics import topics_of
 __all__ = ["Model", "degrees", "mesh_tasks", "orientation_name", "report_tasks", "stiffness_tasks"]
 
 type Model = str
-"""``"fe"``, ``"ancf"`` or ``"brush"``."""
+"""``"fe"``, ``"section"``, ``"ancf"`` or ``"brush"``."""
 
 
 _ANCF = Origin(sources=(*FILES, "ancf_reduced"), libraries=("numpy", "numba"))
@@ -77,6 +78,8 @@ def stiffness_tasks(study: Study, model: Model, orientations_deg: Sequence[float
     if model == "fe":
         wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
         return (mesh_task(study, "mesh", cost=15.0), *_fe_tasks(study, wanted))
+    if model == "section":
+        return tuple(section_tasks(study, orientations_deg))
     if model == "ancf":
         return tuple(_ancf_tasks(study, orientations_deg or [degrees(o) for o in study.ancf.orientations]))
     return (_brush_task(study),)

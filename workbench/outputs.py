@@ -112,7 +112,7 @@ def _replace_files(fresh: Path, target: Path, suffix: str) -> None:
     for path in fresh.iterdir():
         path.replace(target / path.name)
     for old in target.glob(f"*{suffix}"):
-        if old.name.startswith(("fe_", "ancf_", "brush_")) and old.name not in names:
+        if old.name.startswith(("fe_", "section_", "ancf_", "brush_")) and old.name not in names:
             old.unlink()
 
 

@@ -24,7 +24,7 @@ from workbench.mesh_file import MESH, read_mesh
 from workbench.result_files import FAILURE, write_result
 from workbench.task import Progress
 
-__all__ = ["solve_orientation"]
+__all__ = ["converged_part", "load_case", "solve_orientation"]
 
 
 def solve_orientation(
@@ -37,24 +37,13 @@ def solve_orientation(
     """
     (mesh_folder,) = needs.values()
     mesh = read_mesh(mesh_folder / MESH)
-    deflections = tuple(inputs["deflections"])
-    case = WheelLoadCase(
-        orientation_deg=inputs["orientation_deg"],
-        deflections=deflections,
-        maximum_load=inputs["max_load"],
-        snapshot_loads=tuple(inputs["snapshot_loads"]),
-        rigid_parts=tuple(inputs["rigid_parts"]),
-        law=MaterialLaw(inputs["material_law"]),
-        contact_stiffness=inputs["contact_stiffness"],
-        inner_contact=inputs["inner_contact"],
-        newton=NewtonSettings(relative_tolerance=inputs["relative_tolerance"]),
-    )
+    case = load_case(inputs)
     materials = {part: Material(**values) for part, values in inputs["materials"].items()}
 
     def report(deflection: float, load: float) -> None:
-        progress(max(deflection / deflections[-1], load / inputs["max_load"]))
+        progress(max(deflection / case.deflections[-1], load / inputs["max_load"]))
 
-    result, failure = _solve(lambda: solve_wheel(mesh, materials, case, report, checkpoint))
+    result, failure = converged_part(lambda: solve_wheel(mesh, materials, case, report, checkpoint))
     write_curve(result.curve, out / "curve.csv")
     for snapshot in result.snapshots:
         _, wanted = min((abs(load - snapshot.load), load) for load in inputs["snapshot_loads"])
@@ -71,7 +60,7 @@ def solve_orientation(
     return result.dofs
 
 
-def _solve(solve: Callable[[], WheelResult]) -> tuple[WheelResult, str | None]:
+def converged_part(solve: Callable[[], WheelResult]) -> tuple[WheelResult, str | None]:
     """The result, or what there is of it with the reason why it ends early; raises if there is no curve at all."""
     try:
         return solve(), None
@@ -79,6 +68,21 @@ def _solve(solve: Callable[[], WheelResult]) -> tuple[WheelResult, str | None]:
         if not isinstance(error.last_good, WheelResult):
             raise
         return error.last_good, str(error)
+
+
+def load_case(inputs: Mapping[str, Any]) -> WheelLoadCase:
+    """The load case from a task's inputs."""
+    return WheelLoadCase(
+        orientation_deg=inputs["orientation_deg"],
+        deflections=tuple(inputs["deflections"]),
+        maximum_load=inputs["max_load"],
+        snapshot_loads=tuple(inputs["snapshot_loads"]),
+        rigid_parts=tuple(inputs["rigid_parts"]),
+        law=MaterialLaw(inputs["material_law"]),
+        contact_stiffness=inputs["contact_stiffness"],
+        inner_contact=inputs["inner_contact"],
+        newton=NewtonSettings(relative_tolerance=inputs["relative_tolerance"]),
+    )
 
 
 def _write_fields(mesh: TaggedMesh, snapshot: FieldSnapshot, stem: Path) -> None:

@@ -19,7 +19,7 @@ from tests.end_to_end.small_study import run, small_study_text
 TASKS = {
     *("mesh", "mesh_whole", "fe_phi000"),
     *("mesh_x1.5", "fe_x1.5", "mesh_x2", "fe_x2"),
-    *("ancf_phi000", "ancf_phi045", "brush", "ancf_plate", "metrics", "pictures"),
+    *("section_phi000", "ancf_phi000", "ancf_phi045", "brush", "ancf_plate", "metrics", "pictures"),
     "environment_-40C",
 }
 
@@ -63,7 +63,7 @@ def test_junit_holds_the_same_checks(first_report: Finished, workspace: Path) ->
 def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished, workspace: Path) -> None:
     folder = workspace / "report" / "curves"
     names = {"fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
-             "brush_average.csv", "fe_-40C_phi000.csv"}  # fmt: skip
+             "brush_average.csv", "section_phi000.csv", "section_average.csv", "fe_-40C_phi000.csv"}  # fmt: skip
     assert {p.name for p in folder.iterdir()} == names
     for path in folder.iterdir():
         lines = path.read_text(encoding="utf-8").splitlines()

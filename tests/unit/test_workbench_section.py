@@ -1,0 +1,76 @@
+"""The section model in the workbench: its tasks, and checks that pass on a close curve and fail on a distant one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from contracts.curves import StiffnessCurve, average_curve
+from contracts.errors import InputError
+from workbench.checks_section import largest_difference, section_checks
+from workbench.graph import report_tasks, stiffness_tasks
+from workbench.results import ModelCurves
+from workbench.study import Study
+from workbench.study_file import built_in_study, read_study
+from workbench.study_sections import ToleranceSection
+from workbench.task import task_keys
+from workbench.topics import topics_of
+
+D = np.linspace(0.0, 0.03, 16)
+
+
+def curves(model: str, factor: float) -> ModelCurves:
+    found = {
+        o: StiffnessCurve(model=model, orientation_deg=o, deflection=D, load=factor * (8e3 + 10.0 * o) * D)
+        for o in (0.0, 22.5)
+    }
+    return ModelCurves(model=model, by_orientation=found, average=average_curve(list(found.values())), numbers={})
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    return read_study(built_in_study())
+
+
+@pytest.mark.parametrize(("factor", "status"), [(1.04, "pass"), (0.96, "pass"), (1.06, "fail"), (0.94, "fail")])
+def test_five_per_cent_is_the_limit(factor: float, status: str) -> None:
+    checks = section_checks(curves("section", factor), curves("fe", 1.0), ToleranceSection())
+    assert [c.id for c in checks] == ["section.vs_solid_phi000", "section.vs_solid_phi022.5", "section.agreement"]
+    assert {(c.status, c.role) for c in checks} == {(status, "finding")}
+
+
+def test_the_difference_is_found_where_it_is_largest() -> None:
+    solid = curves("fe", 1.0).by_orientation[0.0]
+    bent = replace(solid, load=solid.load + np.where(np.arange(len(D)) == 7, 9.0, 0.0))
+    assert largest_difference(bent, solid) == pytest.approx(9.0 / solid.load[7])
+    short = replace(bent, deflection=D[:6], load=bent.load[:6])
+    assert largest_difference(short, solid) == pytest.approx(0.0, abs=1e-12)
+    with pytest.raises(InputError, match="same orientation"):
+        largest_difference(bent, None)
+
+
+def test_an_orientation_the_solid_model_lacks_is_not_evaluated() -> None:
+    fe = curves("fe", 1.0)
+    lone = replace(fe, by_orientation={0.0: fe.by_orientation[0.0]})
+    by_id = {c.id: c for c in section_checks(curves("section", 1.0), lone, ToleranceSection())}
+    assert by_id["section.vs_solid_phi022.5"].status == "error"
+
+
+def test_section_tasks_need_no_mesh_and_see_every_size(study: Study) -> None:
+    tasks = stiffness_tasks(study, "section", [7.5])
+    assert [t.name for t in tasks] == ["section_phi007.5"]
+    assert tasks[0].needs == ()
+    finer = study.model_copy(update={"mesh": study.mesh.model_copy(update={"element_size": 6e-3})})
+    longer = study.model_copy(update={"mesh": study.mesh.model_copy(update={"axial_size": 6e-3})})
+    keys = [task_keys(stiffness_tasks(s, "section", [7.5]))["section_phi007.5"] for s in (study, finer, longer)]
+    assert keys[0] != keys[1]
+    assert keys[0] == keys[2]
+
+
+def test_a_law_without_planar_form_leaves_the_topic_out(study: Study) -> None:
+    neo = study.model_copy(update={"fe": study.fe.model_copy(update={"material_law": "neo_hookean"})})
+    assert "section" in {t.name for t in topics_of(study)}
+    assert "section" not in {t.name for t in topics_of(neo)}
+    assert not any(t.name.startswith("section_") for t in report_tasks(neo, built_in_study().parent))

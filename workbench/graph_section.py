@@ -1,0 +1,42 @@
+"""Tasks of the planar section model. Verified by tests/unit/test_workbench_section.py."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from workbench.graph_fe import FE, MESH, Origin, curve_deflections, degrees, fe_inputs, orientation_name
+from workbench.study import Study
+from workbench.task import Task
+
+__all__ = ["section_task", "section_tasks"]
+
+_SECTION = Origin(
+    sources=tuple(dict.fromkeys((*MESH["sources"], *FE["sources"], "workbench.tasks_fe", "workbench.tasks_mesh"))),
+    libraries=tuple(dict.fromkeys((*MESH["libraries"], *FE["libraries"]))),
+)
+
+
+def section_tasks(study: Study, orientations_deg: Sequence[float] = ()) -> list[Task]:
+    """One task an orientation, ``section_phi015``; no orientation means those of the study's FE runs."""
+    wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
+    points = curve_deflections(study)
+    return [section_task(study, orientation_name("section", o), o, points) for o in wanted]
+
+
+def section_task(study: Study, name: str, orientation_deg: float, deflections: Sequence[float]) -> Task:
+    """The planar model at one orientation, meshed as finely along the strips as the study's solid mesh."""
+    mesh = study.mesh
+    options: dict[str, Any] = {
+        "element_size": mesh.element_size,
+        "thickness_elements": mesh.thickness_elements,
+        "order": mesh.order,
+        "refinement": dict(mesh.refinement),
+    }
+    inputs = fe_inputs(study, orientation_deg, deflections) | {
+        "wheel": study.model_dump(mode="json", include={"name", "wheel", "materials"}),
+        "options": options,
+        "snapshot_loads": [],
+        "rigid_parts": ["outer_hub"],
+    }
+    return Task(name=name, function="workbench.tasks_section:solve_orientation", inputs=inputs, cost=8.0, **_SECTION)
