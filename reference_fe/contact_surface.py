@@ -10,6 +10,7 @@ from scipy.sparse import csr_array
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe.contact_patch import facet_widths
 from reference_fe.domain import Domain
 from reference_fe.inner_contact_kernels import surface_frames
 from reference_fe.whole_body import WholeBody, global_nodes
@@ -36,6 +37,7 @@ class ContactSurface:
     lattice : nodes along the lattice's two axes
     at : (q, 2) Gauss points in [-1, 1]^2
     weights : (q,) their weights
+    widths : (f,) width of each facet's part across a planar mesh [m]; ones for a solid mesh
     """
 
     facets: NDArray[np.int64]
@@ -43,6 +45,7 @@ class ContactSurface:
     lattice: tuple[int, int]
     at: NDArray[np.float64]
     weights: NDArray[np.float64]
+    widths: NDArray[np.float64]
 
     def frames(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Positions (f, q, 3) [m], outward unit normals (f, q, 3) and area ratios (f, q) [m^2] at the Gauss points."""
@@ -78,6 +81,7 @@ def contact_surface(domain: Domain, V: api.Expr, face: str, gauss_points: int) -
         lattice=lattice,
         at=at,
         weights=np.outer(weights, across[1]).ravel(),
+        widths=facet_widths(mesh, facets),
     )
 
 

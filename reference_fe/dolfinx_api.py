@@ -274,6 +274,11 @@ def create_matrix(
     matrix: PETSc.Mat = dolfinx.cpp.la.petsc.create_matrix(COMM, pattern)
     symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
     matrix.setOption(symmetric, True)
+    size = matrix.getBlockSize()
+    for nodes in couplings:  # PETSc drops room that nothing has been written to
+        rows = (size * nodes[:, None] + np.arange(size)).ravel().astype(np.int32)
+        add_block(matrix, rows, np.zeros((len(rows), len(rows))))
+    flush(matrix)
     return matrix
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -154,7 +155,7 @@ class _TwoSides:
     def __init__(self, slave: ContactSurface, master: ContactSurface, X: Array, law: InnerContact) -> None:
         self.slave, self.master, self.law = slave, master, law
         _, _, areas = slave.frames(X)
-        self.areas = areas * slave.weights
+        self.areas = areas * slave.weights * slave.widths[:, None]
         self.shape = shape_values(slave.lattice, slave.at)
         self.known, self.touching = set[tuple[int, int]](), np.zeros((0, 2), dtype=np.int64)
         self.largest_penetration = 0.0
@@ -208,9 +209,9 @@ class _TwoSides:
         mid_m, radius_m = _balls(x, master.facets)
         far = self.law.depth + above
         found = cKDTree(mid_m).query_ball_point(mid_s, radius_s + radius_m.max(initial=0.0) + far)
-        kept = [self._kept(f, np.asarray(c, dtype=np.int64)) for f, c in enumerate(found)]
+        kept = [self._kept(f, candidates) for f, candidates in enumerate(found)]
         starts = np.concatenate([[0], np.cumsum([len(c) for c in kept])]).astype(np.int64)
-        wanted = np.concatenate([np.zeros(0, dtype=np.int64), *kept])
+        wanted = np.fromiter(chain.from_iterable(kept), dtype=np.int64)
         return nearest_contacts(
             x,
             positions,
@@ -220,9 +221,9 @@ class _TwoSides:
             (above, self.law.depth, margin),
         )
 
-    def _kept(self, f: int, candidates: Index) -> Index:
-        candidates = np.sort(candidates)
-        return candidates if self.shared is None else candidates[~np.isin(candidates, self.shared[f])]
+    def _kept(self, f: int, candidates: list[int]) -> list[int]:
+        """Candidates in a fixed order, without neighbours of the slave facet."""
+        return sorted(candidates if self.shared is None else set(candidates) - self.shared[f])
 
 
 def _balls(x: Array, facets: Index) -> tuple[Array, Array]:
@@ -232,16 +233,13 @@ def _balls(x: Array, facets: Index) -> tuple[Array, Array]:
     return middle, np.linalg.norm(nodes - middle[:, None], axis=-1).max(axis=1)
 
 
-def _share_nodes(slave: ContactSurface, master: ContactSurface) -> list[Index]:
+def _share_nodes(slave: ContactSurface, master: ContactSurface) -> list[set[int]]:
     """Master facets that share a node with each slave facet."""
     holders: dict[int, list[int]] = {}
     for m, nodes in enumerate(master.facets.tolist()):
         for node in nodes:
             holders.setdefault(node, []).append(m)
-    return [
-        np.unique(np.concatenate([holders.get(n, []) for n in nodes])).astype(np.int64)
-        for nodes in slave.facets.tolist()
-    ]
+    return [set(chain.from_iterable(holders.get(n, []) for n in nodes)) for nodes in slave.facets.tolist()]
 
 
 def _joined(batches: Sequence[SurfaceForces], dim: int) -> SurfaceForces:

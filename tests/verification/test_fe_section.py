@@ -21,6 +21,7 @@ from geometry import WheelDesign, build_mesh, build_planar_mesh
 from reference_fe.discretisation import Discretisation
 from reference_fe.domain import Domain
 from reference_fe.hyperelastic import MaterialLaw
+from reference_fe.inner_contact_pairs import wheel_contact_pairs
 from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.plane_state import PLANE_STRAIN, PLANE_STRESS
 from reference_fe.section import solve_section, strip_constraints
@@ -86,12 +87,29 @@ def test_records_of_a_section_run() -> None:
     assert result.dofs < 6000
 
 
+def test_springs_are_held_off_the_rim_and_cross_each_other() -> None:
+    """At 30 mm they would overlap by 3.7 mm. Sets of different bands may lie over each other and must not touch."""
+    design = WheelDesign()
+    mesh = build_planar_mesh(design, element_size=10e-3)
+    pairs = {(pair.slave, pair.master) for pair in wheel_contact_pairs(mesh)}
+    assert ("springs_outer_front", "tire_inner") in pairs
+    assert not any("springs_outer" in a and "springs_inner" in b for a, b in pairs | {(b, a) for a, b in pairs})
+    case = replace(CASE, orientation_deg=30.0)
+    held, free = (solve_section(mesh, design, replace(case, inner_contact=on)).curve for on in (True, False))
+    assert held.columns["spring_rim_gap_m"][-1] > -20e-6
+    assert free.columns["spring_rim_gap_m"][-1] < -2e-3
+    assert held.load[-1] > 1.2 * free.load[-1]
+
+
 def test_iterations_to_30_mm() -> None:
-    """20 points between two grousers, where the contact changes most, in at most 100 iterations (measured: 85)."""
+    """20 points between two grousers, where contact changes most, in at most 130 iterations (measured: 113).
+
+    Without inner contact 85 were measured.
+    """
     case = WheelLoadCase(orientation_deg=15.0, deflections=tuple(np.linspace(0.0, 0.03, 21)[1:].tolist()))
     design = WheelDesign()
     result = solve_section(build_planar_mesh(design, element_size=8e-3), design, case)
-    assert sum(len(record.residuals) - 1 for record in result.increments) <= 100
+    assert sum(len(record.residuals) - 1 for record in result.increments) <= 130
     assert all(record.converged for record in result.increments)
 
 
