@@ -55,14 +55,21 @@ class FaceOverlap:
         The others cannot have the smallest gap; those near a rim's centre, which has no nearest sample, would make the
         search among all samples slow.
         """
-        corners = current[self._facets[:, :4]]
-        gap, diagonals = self._gaps_to_middles(current), np.linalg.norm(corners[:, 2:] - corners[:, :2], axis=-1)
-        return self._nodes[gap <= gap.min() + diagonals.max()]
+        gap = self._gaps_to_middles(current)
+        ends = current[self._facets[:, : 2 ** (self._mesh.dim - 1)]]
+        opposite = len(ends[0]) // 2
+        sizes = np.linalg.norm(ends[:, opposite:] - ends[:, :opposite], axis=-1)
+        return self._nodes[gap <= gap.min() + sizes.max()]
 
     def _gaps_to_middles(self, current: NDArray[np.float64]) -> NDArray[np.float64]:
         """Signed distance of each node from the middle of its nearest facet, along that facet's normal [m]."""
-        corners = current[self._facets[:, :4]]
-        middles, normals = corners.mean(axis=1), np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        corners = current[self._facets[:, : 2 ** (self._mesh.dim - 1)]]
+        middles = corners.mean(axis=1)
+        if self._mesh.dim == 2:
+            along = corners[:, 1] - corners[:, 0]
+            normals = np.column_stack([along[:, 1], -along[:, 0]])
+        else:
+            normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
         normals /= np.linalg.norm(normals, axis=1, keepdims=True)
         _, nearest = cKDTree(middles).query(current[self._nodes])
         offset = current[self._nodes] - middles[nearest]
