@@ -99,6 +99,22 @@ def stiffness(
 
 
 @app.command()
+def calibrate(
+    study: StudyOrBuiltIn = None,
+    target: Annotated[
+        str | None, typer.Option(help="Initial tangent, e.g. '8.25 N/mm'; that of the study's reference if left out.")
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of calibration.json and the study.")] = Path("build/calibration"),
+    store: Store = DEFAULT_STORE,
+    workers: Workers = DEFAULT_WORKERS,
+) -> None:
+    """Find the strip thickness for an initial tangent: section model first, confirmed by the solid one."""
+    from workbench.command_calibrate import run_calibrate
+
+    raise typer.Exit(run_calibrate(study, target, out, store, workers))
+
+
+@app.command()
 def compare(
     curve: Annotated[Path, typer.Argument(help="CSV with deflection_m,load_N.", show_default=False)],
     reference: Annotated[Path, typer.Argument(help="CSV it is held against.", show_default=False)],

@@ -1,0 +1,68 @@
+"""A study file with other strip thicknesses: changed line by line, so that comments and order stay.
+
+Verified by tests/unit/test_workbench_calibration.py.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+__all__ = ["rewritten_study"]
+
+_TABLE = re.compile(r"\s*\[{1,2}\s*([^\[\]]+?)\s*\]{1,2}")
+_VALUE = re.compile(r"""^(\s*)("[^"]*"|[\w.-]+)(\s*=\s*)("[^"]*"|'[^']*'|[^\s#]+)(.*)$""", re.DOTALL)
+
+
+def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder: Path) -> str:
+    """The text of a study file with new thicknesses.
+
+    Parameters
+    ----------
+    text : the old file
+    thickness : of ``"tire"`` and of each spring set by its name [m]
+    note : one line, put first as a comment and as the reason of an inferred tire thickness
+    folder : where the old file lies; the user's curves are named from there
+    """
+    lines, table, blocks = text.splitlines(keepends=True), "", list[list[str]]()
+    for line in lines:
+        if not blocks or _TABLE.match(line):
+            blocks.append([])
+        blocks[-1].append(line)
+    out = [f"# {note}\n"]
+    for block in blocks:
+        found = _TABLE.match(block[0])
+        table = found[1] if found else ""
+        out += _changed(block, table, thickness, (note, folder))
+    return "".join(out)
+
+
+def _changed(block: list[str], table: str, thickness: Mapping[str, float], about: tuple[str, Path]) -> Iterator[str]:
+    """Lines of one table, with its own changes."""
+    note, folder = about
+    name = "tire" if table == "wheel.tire" else _name(block) if table == "wheel.springs" else ""
+    for line in block:
+        key = found[2].strip('"') if (found := _VALUE.match(line)) else ""
+        if key == "thickness" and name in thickness:
+            yield _with_value(line, f'"{thickness[name] * 1e3:.4f} mm"')
+        elif table == "inferred" and key == "wheel.tire.thickness":
+            yield _with_value(line, f'"{note}"')
+        elif table == "compare.curves" and key == "file":
+            assert found is not None
+            yield _with_value(line, f'"{(folder / found[4].strip(chr(34))).resolve()}"')
+        else:
+            yield line
+
+
+def _name(block: list[str]) -> str:
+    """Value of the key ``name`` of a table."""
+    for line in block:
+        found = _VALUE.match(line)
+        if found and found[2] == "name":
+            return found[4].strip("\"'")
+    return ""
+
+
+def _with_value(line: str, value: str) -> str:
+    return _VALUE.sub(lambda found: f"{found[1]}{found[2]}{found[3]}{value}{found[5]}", line)
