@@ -7,7 +7,9 @@ rim and hub alone. Verified by tests/verification/test_planar_mesh.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -43,6 +45,7 @@ def build_planar_mesh(
     thickness_elements: int = 1,
     order: int = 2,
     refinement: Mapping[str, float] | None = None,
+    factor: float = 1.0,
 ) -> TaggedMesh:
     """Mesh a wheel's section with structured quadrilaterals, conforming where parts are joined.
 
@@ -53,6 +56,7 @@ def build_planar_mesh(
     thickness_elements : elements through every thickness
     order : 1 for 4-node, 2 for 9-node quadrilaterals on the curved geometry
     refinement : part name -> element size [m] where it differs from ``element_size``
+    factor : at least 1; every count of elements along strips is multiplied by it and rounded up
 
     Returns
     -------
@@ -64,7 +68,9 @@ def build_planar_mesh(
     InputError
         For sizes out of range or unknown part names.
     """
-    size = mesh_size(design, element_size, None, thickness_elements, refinement)
+    if not (math.isfinite(factor) and factor >= 1.0):
+        raise InputError("refinement factor", factor, "must be at least 1", "choose a larger element size instead")
+    size = replace(mesh_size(design, element_size, None, thickness_elements, refinement), factor=factor)
     if order not in _LINE:
         raise InputError("order", order, "must be 1 or 2", "use 2 for curved geometry")
     names = part_names(design, "flexible")

@@ -106,12 +106,14 @@ def calibrate(
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of calibration.json and the study.")] = Path("build/calibration"),
     store: Store = DEFAULT_STORE,
-    workers: Workers = DEFAULT_WORKERS,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
 ) -> None:
     """Find the strip thickness for an initial tangent: section model first, confirmed by the solid one."""
     from workbench.command_calibrate import run_calibrate
 
-    raise typer.Exit(run_calibrate(study, target, out, store, workers))
+    raise typer.Exit(run_calibrate(study, target, out, store, _computing(workers, ranks, scheduler)))
 
 
 @app.command()

@@ -24,7 +24,7 @@ from workbench.outputs import check_folder, check_targets, publish, to_json
 from workbench.progress import RunDisplay
 from workbench.quantities import to_si
 from workbench.results import CURVE, mean_curve
-from workbench.runner import run_tasks
+from workbench.runner import Computing, run_tasks
 from workbench.store import Store
 from workbench.study import Study
 from workbench.study_file import built_in_study, read_study
@@ -38,7 +38,7 @@ console = Console()
 _NAMES = {"section": "section model", "fe": "solid model"}
 
 
-def run_calibrate(study_path: Path | None, target: str | None, out: Path, store: Path, workers: int) -> int:
+def run_calibrate(study_path: Path | None, target: str | None, out: Path, store: Path, computing: Computing) -> int:
     """Find the strip thickness for a target tangent; 0 if the solid model confirms it within the study's tolerance."""
     path = study_path or built_in_study()
     study = read_study(path)
@@ -49,7 +49,7 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     check_folder(out)
     name = f"{path.stem}_calibrated.toml"
     check_targets(out, ("calibration.json", name))
-    runs = _Runs(study=study, store=Store(store), workers=workers)
+    runs = _Runs(study=study, store=Store(store), computing=computing)
     found = calibrate(wanted, runs.tangent("section"), runs.tangent("fe"))
     note = f"strip thickness found by workbench calibrate for an initial tangent of {wanted * 1e-3:g} N/mm"
     thickness = strip_thicknesses(study, found.corrected.factor)
@@ -78,7 +78,7 @@ class _Runs:
 
     study: Study
     store: Store
-    workers: int
+    computing: Computing
 
     def tangent(self, model: str) -> Callable[[float], float]:
         """Thickness factor -> initial tangent of the mean over the study's orientations [N/m]."""
@@ -103,7 +103,7 @@ class _Runs:
 
     def _solve(self, model: str, tasks: Sequence[Task]) -> float:
         with RunDisplay(console, len(tasks)) as display:
-            entries = run_tasks(tasks, self.store, display, self.workers)
+            entries = run_tasks(tasks, self.store, display, self.computing)
         folders = [entry.path for name, entry in entries.items() if name.startswith(f"{model}_phi")]
         curves = [read_curve(folder / CURVE, model=model) for folder in folders]
         if any(curve.partial for curve in curves):

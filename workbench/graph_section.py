@@ -32,6 +32,7 @@ def section_task(study: Study, name: str, orientation_deg: float, deflections: S
         "thickness_elements": mesh.thickness_elements,
         "order": mesh.order,
         "refinement": dict(mesh.refinement),
+        "factor": mesh.factor,
     }
     inputs = fe_inputs(study, orientation_deg, deflections) | {
         "wheel": study.model_dump(mode="json", include={"name", "wheel", "materials"}),
