@@ -49,8 +49,9 @@ def solve_thermal_state(
     problem = StaticProblem(
         domain, materials, supports, discretisation=discretisation, transverse_constraint=transverse_constraint
     )
-    held_back = float(np.linalg.norm(problem.residual()))
-    largest = max(materials, key=lambda part: len(domain.cells_of([part])))
+    held_back = float(np.sqrt(domain.mesh.comm.allreduce(float(np.sum(problem.residual() ** 2)))))
+    tagged = domain.tagged
+    largest = max(materials, key=lambda part: int(np.count_nonzero(tagged.cell_tags == tagged.parts[part])))
     dilate(problem.u, materials[largest].thermal_stretch)
     outcome = NewtonSolver(problem, settings, inner_force=held_back).solve()
     if not outcome.converged:

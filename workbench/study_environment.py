@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Field, StrictInt
 from pydantic_core import PydanticCustomError
 
 from workbench.quantities import Angle, Temperature
-from workbench.study_sections import Section
+from workbench.study_sections import Drop, Section
 
 __all__ = ["EnvironmentSection"]
 
@@ -28,11 +28,13 @@ def _increasing(temperatures: tuple[float, ...]) -> tuple[float, ...]:
 class EnvironmentSection(Section):
     """The wheel at other temperatures [K] than 20 C, at one orientation [rad], on the study's mesh.
 
-    ``points`` is the number of points of these curves, taken from those of the curve at 20 C. ``variants`` names
-    materials that in turn replace that of every part: the wheel of another metal, at 20 C and the lowest temperature.
+    ``points`` is the number of points of these curves, of those of the curve at 20 C up to ``max_deflection`` [m] (that
+    of the FE if not given). ``variants`` names materials that in turn replace that of every part: the wheel of another
+    metal, at 20 C and the lowest temperature.
     """
 
     temperatures: Annotated[tuple[Temperature, ...], Field(min_length=1), AfterValidator(_increasing)]
     orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    max_deflection: Drop | None = None
     points: Annotated[StrictInt, Field(ge=2, le=500)] = 8
     variants: tuple[Annotated[str, Field(min_length=1)], ...] = ()

@@ -55,6 +55,11 @@ def _environment(study: Study) -> Iterator[BrokenRule]:
         value, rule = f"{math.degrees(section.orientation):g} deg", "must be one of fe.orientations"
         hint = "its curve at 20 C is what the others are held against"
         yield BrokenRule(key="environment.orientation", value=value, rule=rule, hint=hint)
+    first = study.fe.max_deflection / study.fe.points
+    if section.max_deflection is not None and section.max_deflection < first:
+        value, rule = f"{1e3 * section.max_deflection:g} mm", f"lies before the first point, {1e3 * first:g} mm"
+        hint = "raise it, or fe.points"
+        yield BrokenRule(key="environment.max_deflection", value=value, rule=rule, hint=hint)
     known = materials(study)
     for name in section.variants:
         if name not in known:

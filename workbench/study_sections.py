@@ -19,6 +19,7 @@ __all__ = [
     "AncfSection",
     "BrushSection",
     "CurveSection",
+    "Drop",
     "FeSection",
     "HubStudySection",
     "MaterialSection",

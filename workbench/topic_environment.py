@@ -34,7 +34,8 @@ _DESIGN = ""
 def environment_tasks(study: Study) -> list[Task]:
     """One run for each temperature but 20 C, which the study's curves have; of a variant at 20 C and the coldest."""
     section = _section(study)
-    deflections = chosen_points(curve_deflections(study), section.points)
+    end = section.max_deflection or study.fe.max_deflection
+    deflections = chosen_points([d for d in curve_deflections(study) if d <= end * (1.0 + 1e-9)], section.points)
     inputs = fe_inputs(study, degrees(section.orientation), deflections) | {"snapshot_loads": []}
     return [
         fe_task(

@@ -93,6 +93,7 @@ def test_tasks_are_one_for_each_curve_the_study_does_not_have() -> None:
     tasks = {task.name: task.inputs for task in environment_tasks(study)}
     names = ["-143C", "-40C", "35C", "AISI_301_20C", "AISI_301_-143C"]
     assert list(tasks) == [f"environment_{name}" for name in names]
+    assert tasks["environment_-143C"]["deflections"] == [0.006, 0.010, 0.016, 0.020, 0.026, 0.030]
     cold = tasks["environment_-143C"]["materials"]["tire"]
     assert Material(**cold) == replace(TI_6AL_4V.at(COLD), name="Ti-6Al-4V")
     assert tasks["environment_AISI_301_20C"]["materials"]["outer_hub"]["young_modulus"] == 193e9
@@ -108,6 +109,7 @@ BAD = {
         "environment.orientation",
         "fe.orientations",
     ),
+    "too short": ('max_deflection = "30 mm"', 'max_deflection = "1 mm"', "environment.max_deflection", "first point"),
     "variant": (r'variants = \["AISI 301"\]', 'variants = ["gold"]', "environment.variants", "is not in [materials]"),
     "data": ('temperature_data = "AISI 301"', 'temperature_data = "gold"', "temperature_data", "is not known"),
     "no data": ('temperature_data = "Ti-6Al-4V".*', "", "environment.temperatures", "has no temperature data"),
