@@ -25,8 +25,13 @@ _OVERLAP_ALLOWED = 50e-6
 _LOADS = (160.0, 250.0)
 
 
-def circumferential_tangent_check(fe: ModelCurves, band: Band, tolerances: ToleranceSection) -> Check:
-    """Initial tangent of the mean around the wheel, each orientation weighted by the arc it stands for."""
+def circumferential_tangent_check(
+    fe: ModelCurves, band: Band, tolerances: ToleranceSection, period_deg: float = 360.0
+) -> Check:
+    """Initial tangent of the mean around the wheel, each orientation weighted by the arc it stands for.
+
+    Orientations that cover one period [deg] of the wheel evenly weigh alike.
+    """
     up_to = tolerances.initial_tangent_up_to
     claim = Claim(
         id="fe.initial_tangent_around",
@@ -36,14 +41,17 @@ def circumferential_tangent_check(fe: ModelCurves, band: Band, tolerances: Toler
         role="finding",
         source=f"{band.source}; which mean the thesis means is not known",
     )
-    return near(claim, lambda: _tangent_around(fe, up_to), band.initial_tangent, tolerances.initial_tangent)
+    return near(claim, lambda: _tangent_around(fe, up_to, period_deg), band.initial_tangent, tolerances.initial_tangent)
 
 
-def _tangent_around(fe: ModelCurves, up_to: float) -> float:
+def _tangent_around(fe: ModelCurves, up_to: float, period_deg: float) -> float:
     angles = np.array(sorted(fe.by_orientation))
     if len(angles) < 2:
         raise InputError("orientations", len(angles), "two or more are needed for a mean", "add an orientation")
     tangents = np.array([fe.by_orientation[angle].initial_tangent(up_to) for angle in angles])
+    steps = np.diff([*angles, angles[0] + period_deg])
+    if np.allclose(steps, steps[0]):
+        return float(tangents.mean())
     return float(np.trapezoid(tangents, angles) / (angles[-1] - angles[0]))
 
 

@@ -59,11 +59,14 @@ def report(
     workers: Workers = None,
     ranks: Ranks = 1,
     scheduler: Scheduler = None,
+    full: Annotated[
+        bool, typer.Option("--full", help="Every orientation until the wheel repeats itself, on a finer mesh: hours.")
+    ] = False,
 ) -> None:
     """Compute everything a study asks for, compare, and write the report."""
     from workbench.commands import run_report
 
-    raise typer.Exit(run_report(study, out, store, _computing(workers, ranks, scheduler)))
+    raise typer.Exit(run_report(study, out, store, _computing(workers, ranks, scheduler), full=full))
 
 
 @app.command()

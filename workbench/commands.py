@@ -19,6 +19,7 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError, StudyError
 from contracts.records import Check
 from workbench.errors import InterruptedRunError, RunError
+from workbench.full_study import full_study
 from workbench.graph import mesh_tasks, report_tasks, stiffness_tasks
 from workbench.outputs import check_folder, check_targets, junit, publish, summary, to_json
 from workbench.progress import RunDisplay
@@ -35,10 +36,13 @@ console = Console()
 _MODELS = ("fe", "section", "ancf", "brush")
 
 
-def run_report(study_path: Path | None, out: Path, store: Path, computing: Computing) -> int:
-    """Everything a study asks for, then the report."""
+def run_report(study_path: Path | None, out: Path, store: Path, computing: Computing, *, full: bool = False) -> int:
+    """Everything a study asks for, or its full study, then the report."""
     path = study_path or built_in_study()
     study = read_study(path)
+    if full:
+        with _naming(path):
+            study = full_study(study)
     check_folder(out)
     entries = _compute(path, report_tasks(study, path.parent), store, computing)
 

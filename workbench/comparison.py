@@ -21,6 +21,7 @@ from workbench.checks_fe import (
 )
 from workbench.checks_limits import circumferential_tangent_check, overlap_checks
 from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, user_checks
+from workbench.full_study import rotational_period
 from workbench.graph import degrees
 from workbench.mesh_study import MeshStudy
 from workbench.result_files import early_ends, read_result
@@ -114,7 +115,7 @@ def _checks(study: Study, found: Comparison, plate: Mapping[str, float]) -> list
         yield_check(fe, strength),
         *overlap_checks(fe, inner_contact=study.fe.inner_contact),
     ]
-    checks.append(circumferential_tangent_check(fe, study.reference, tol))
+    checks.append(circumferential_tangent_check(fe, study.reference, tol, rotational_period(study)))
     checks += noted(user_checks(found.users, found.metrics, tol), found.agreements)
     return checks + [c for topic in topics_of(study) for c in topic.checks(study, found, found.topics[topic.name])]
 

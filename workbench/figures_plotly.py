@@ -31,6 +31,8 @@ __all__ = [
     "stress_figure",
 ]
 
+_MANY = 8
+"""More orientations than this are drawn alike."""
 _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 _MARKERS = ("circle", "square", "diamond", "triangle-up", "cross", "x")
 
@@ -181,6 +183,10 @@ def _add_line(
 
 
 def _add_orientations(figure: go.Figure, curves: ModelCurves, model: str, first_colour: int = 0) -> None:
+    """A line for each orientation; of more than can be told apart only their range is named."""
+    if len(curves.by_orientation) > _MANY:
+        _add_cloud(figure, curves, model)
+        return
     for i, (orientation, curve) in enumerate(curves.by_orientation.items(), start=first_colour):
         figure.add_scatter(
             x=curve.deflection * 1e3,
@@ -190,6 +196,21 @@ def _add_orientations(figure: go.Figure, curves: ModelCurves, model: str, first_
             line={"color": ORIENTATION_COLOURS[i % 6], "width": 1.6, "dash": _DASHES[i % 6]},
             marker={"symbol": _MARKERS[i % 6], "size": 5, "maxdisplayed": 12},
             hovertemplate="%{y:.1f} N",
+        )
+
+
+def _add_cloud(figure: go.Figure, curves: ModelCurves, model: str) -> None:
+    first, *_, last = curves.by_orientation
+    for orientation, curve in curves.by_orientation.items():
+        figure.add_scatter(
+            x=curve.deflection * 1e3,
+            y=curve.load,
+            name=f"{model} {first:g}° to {last:g}°",
+            legendgroup=model,
+            showlegend=orientation == first,
+            mode="lines",
+            line={"color": "#9aa0a6", "width": 1.0},
+            hoverinfo="skip",
         )
 
 

@@ -19,6 +19,7 @@ from workbench.study_sections import (
     BrushSection,
     CurveSection,
     FeSection,
+    FullSection,
     HubStudySection,
     MaterialSection,
     MeshSection,
@@ -80,6 +81,7 @@ class Study(WheelStudy):
     fe, ancf, brush : the three models' settings
     environment : other temperatures, if the study asks for them
     mesh_study : the meshes that give the numerical uncertainty of the FE curves
+    full : what `workbench report --full` takes instead of the study's orientations and mesh
     hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
@@ -90,6 +92,7 @@ class Study(WheelStudy):
     fe: FeSection
     mesh_study: MeshStudySection
     hub_study: HubStudySection | None = None
+    full: FullSection = FullSection()
     ancf: AncfSection
     brush: BrushSection
     compare: CompareSection = CompareSection()

@@ -21,6 +21,7 @@ __all__ = [
     "CurveSection",
     "Drop",
     "FeSection",
+    "FullSection",
     "HubStudySection",
     "MaterialSection",
     "MeshSection",
@@ -152,6 +153,24 @@ class HubStudySection(Section):
 
     orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
     deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020)
+
+
+class FullSection(Section):
+    """What ``workbench report --full`` takes instead: step of orientations [rad], mesh, meshes of the mesh study."""
+
+    orientation_step: Annotated[Angle, Positive] = math.radians(5.0)
+    factor: Factor = 1.5
+    mesh_study_factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
+
+    @model_validator(mode="after")
+    def _factors_hold_the_mesh(self) -> FullSection:
+        factors = self.mesh_study_factors
+        if self.factor not in factors or not all(b > a for a, b in pairwise(factors)):
+            shown = ", ".join(f"{factor:g}" for factor in factors)
+            raise in_key(
+                "mesh_study_factors", shown, f"must increase and contain factor = {self.factor:g}", "e.g. 1, 1.5, 2"
+            )
+        return self
 
 
 class AncfSection(Section):

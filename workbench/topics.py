@@ -7,12 +7,13 @@ from workbench.topic import Topic
 from workbench.topic_environment import ENVIRONMENT
 from workbench.topic_hub import HUB
 from workbench.topic_mesh_study import MESH_STUDY
+from workbench.topic_orientations import ORIENTATIONS
 from workbench.topic_section import SECTION
 from workbench.topic_strength import STRENGTH
 
 __all__ = ["TOPICS", "topics_of"]
 
-TOPICS: tuple[Topic, ...] = (MESH_STUDY, SECTION, HUB, STRENGTH, ENVIRONMENT)
+TOPICS: tuple[Topic, ...] = (ORIENTATIONS, MESH_STUDY, SECTION, HUB, STRENGTH, ENVIRONMENT)
 
 
 def topics_of(study: Study) -> tuple[Topic, ...]:

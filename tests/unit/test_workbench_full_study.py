@@ -1,0 +1,106 @@
+"""The full study: what its graph holds, the wheel's own symmetry, the map of load over orientation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from workbench.full_study import full_study, is_mirrored, rotational_period
+from workbench.graph import report_tasks
+from workbench.study import Study
+from workbench.study_file import built_in_study, read_study
+from workbench.study_rules import broken_rules
+from workbench.topic_orientations import ORIENTATIONS, OrientationMap
+
+HERE = built_in_study().parent
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    return read_study(built_in_study())
+
+
+def _springs(study: Study, **changes: object) -> Study:
+    """The study with its first spring set changed."""
+    first, *others = study.wheel.springs
+    wheel = study.wheel.model_copy(update={"springs": (first.model_copy(update=changes), *others)})
+    return study.model_copy(update={"wheel": wheel})
+
+
+def test_the_graph_holds_every_orientation_of_a_period_on_the_finer_mesh(study: Study) -> None:
+    full = full_study(study)
+    assert list(broken_rules(full)) == []
+    tasks = {task.name: task for task in report_tasks(full, HERE)}
+    solved = [name for name in tasks if name.startswith("fe_phi")]
+    assert solved == [f"fe_phi{o:03d}" for o in range(0, 120, 5)]
+    assert tasks["mesh"].inputs["options"]["factor"] == 1.5
+    assert {"fe_x1", "fe_x2"} <= set(tasks)
+    assert "fe_x1.5" not in tasks
+    assert set(report_tasks(study, HERE)[0].inputs["options"]) == set(tasks["mesh"].inputs["options"])
+    metrics = tasks["metrics"].needs
+    assert set(solved) <= set(metrics)
+
+
+def test_meshes_of_default_and_full_study_are_shared(study: Study) -> None:
+    default, full = ({t.name: t for t in report_tasks(s, HERE)} for s in (study, full_study(study)))
+    assert default["mesh_x1.5"].inputs == full["mesh"].inputs
+    assert default["mesh"].inputs == full["mesh_x1"].inputs
+    assert default["fe_x2"].key({"mesh_x2": "m"}) == full["fe_x2"].key({"mesh_x2": "m"})
+
+
+def test_the_wheel_repeats_itself_after_the_common_divisor_of_its_counts(study: Study) -> None:
+    assert rotational_period(study) == 120.0
+    assert rotational_period(_springs(study, count=4)) == 360.0
+    bare = study.wheel.model_copy(update={"grousers": None})
+    assert rotational_period(study.model_copy(update={"wheel": bare})) == 120.0
+
+
+def test_mirror_symmetry_needs_phases_and_two_sided_springs(study: Study) -> None:
+    assert is_mirrored(study)
+    assert not is_mirrored(_springs(study, phase=math.radians(10.0)))
+    assert not is_mirrored(_springs(study, shape="arc"))
+    elastic = study.model_copy(update={"fe": study.fe.model_copy(update={"hub": "elastic"})})
+    assert not is_mirrored(elastic)  # the impact springs are arcs
+
+
+@pytest.mark.parametrize(("step", "word"), [(7.0, "must divide 120 deg"), (8.0, "is not among 0 to 112 deg")])
+def test_a_step_that_does_not_fit_is_refused(study: Study, step: float, word: str) -> None:
+    full = study.full.model_copy(update={"orientation_step": math.radians(step)})
+    with pytest.raises(InputError, match=word):
+        full_study(study.model_copy(update={"full": full}))
+
+
+def _map(orientations: tuple[float, ...] = (0.0, 30.0, 60.0, 90.0), damage: float = 0.0) -> OrientationMap:
+    d = np.linspace(0.0, 0.02, 11)
+    curves = {}
+    for phi in orientations:
+        load = (8000.0 + 500.0 * math.cos(math.radians(3.0 * phi)) + damage * phi) * d
+        curves[phi] = StiffnessCurve(model="fe", orientation_deg=phi, deflection=d, load=load)
+    return OrientationMap(curves=curves, period=120.0, mirrored=True)
+
+
+def test_mirrored_orientations_are_found_and_held_against_each_other(study: Study) -> None:
+    found = _map()
+    assert found.mirror_pairs == ((30.0, 90.0),)
+    assert found.complete
+    assert not _map((0.0, 15.0, 30.0)).complete
+    assert found.mirror_error() == pytest.approx(0.0, abs=1e-12)
+    assert _map(damage=10.0).mirror_error() == pytest.approx(600.0 / 8600.0, rel=1e-9)
+    for damage, status in ((0.0, "pass"), (10.0, "fail")):
+        (check,) = ORIENTATIONS.checks(study, None, _map(damage=damage))  # type: ignore[arg-type]
+        assert (check.id, check.role, check.status) == ("fe.mirror_symmetry", "finding", status)
+    assert replace(found, mirrored=False).mirror_pairs == ()
+    assert ORIENTATIONS.checks(study, None, _map((0.0, 15.0, 60.0))) == ()  # type: ignore[arg-type]
+
+
+def test_loads_over_orientation_reach_as_far_as_every_curve() -> None:
+    found = _map()
+    deflections = found.deflections(5e-3)
+    assert deflections == pytest.approx([0.005, 0.010, 0.015, 0.020])
+    assert found.loads(deflections).shape == (4, 4)
+    assert found.loads(deflections)[:, 0] == pytest.approx(8500.0 * deflections)
