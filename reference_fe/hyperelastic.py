@@ -25,6 +25,7 @@ __all__ = [
     "green_lagrange",
     "linearised_strain",
     "second_piola_kirchhoff",
+    "stored_energy_density",
     "stress_increment",
     "thermal_moduli",
     "von_mises_cauchy",
@@ -71,6 +72,17 @@ def second_piola_kirchhoff(law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], s
     F = deformation_gradient(u) / stretch
     C_inv = ufl.inv(F.T * F)
     return stretch * (mu * (eye - C_inv) + lam * ufl.ln(ufl.det(F)) * C_inv)
+
+
+def stored_energy_density(law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0) -> Expr:
+    """Energy per undeformed volume theta^3 psi(F/theta) [J/m^3]."""
+    lam, mu = lame
+    if law is MaterialLaw.ST_VENANT_KIRCHHOFF:
+        E = (green_lagrange(u) - 0.5 * (stretch**2 - 1.0) * _unit(u)) / stretch**2
+        return stretch**3 * (0.5 * lam * ufl.tr(E) ** 2 + mu * ufl.inner(E, E))
+    F = deformation_gradient(u) / stretch
+    log_volume = ufl.ln(ufl.det(F))
+    return stretch**3 * (0.5 * mu * (ufl.tr(F.T * F) - 3.0) - mu * log_volume + 0.5 * lam * log_volume**2)
 
 
 def stress_increment(law: MaterialLaw, u: Expr, du: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0) -> Expr:

@@ -29,6 +29,7 @@ from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.orientation import curved_axis_first
 from reference_fe.overlap import FaceOverlap
 from reference_fe.static_problem import Discretisation, StaticProblem
+from reference_fe.stored_energy import StoredEnergy
 from reference_fe.stress import StressRecovery
 from reference_fe.supports import PlaneContact, Support
 from reference_fe.thermal_state import solve_thermal_state
@@ -147,7 +148,8 @@ def solve_wheel(
         ``penetration_m``, ``force_imbalance`` (support plus contact force over contact force),
         ``relative_residual``, ``newton_iterations``, ``spring_rim_gap_m`` (smallest distance of the springs from the
         rim's inside; negative is overlap: the contact's penetration, or more without inner contact),
-        ``inner_penetration_m`` (largest at any point of inner contact) and ``max_von_mises_{part}_Pa``
+        ``stored_energy_J`` (elastic energy), ``inner_penetration_m`` (largest at any point of inner contact) and
+        ``max_von_mises_{part}_Pa``
 
     Raises
     ------
@@ -223,10 +225,12 @@ class _WheelRun:
             self.problem.u.x.array[:] = expanded.u.x.array
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress = StressRecovery(self.problem)
+        self.energy = StoredEnergy(self.problem)
         springs = tuple(part for part in flexible if part not in ("tire", "grousers", *HUB_PARTS))
         self.overlap = FaceOverlap(mesh, springs, "tire_inner") if springs and "tire_inner" in mesh.faces else None
         self.history: list[IncrementRecord] = []
         self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
+        self.rows[0]["stored_energy_J"] = self._sides * self.energy.value()
         self.snapshots: list[FieldSnapshot] = []
 
     @property
@@ -255,6 +259,7 @@ class _WheelRun:
         if self.overlap is not None:
             row["spring_rim_gap_m"] = self.overlap.smallest_gap(displacement)
         row["inner_penetration_m"] = max((t.largest_penetration for t in self._inner_terms), default=0.0)
+        row["stored_energy_J"] = self._sides * self.energy.value()
         row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
         self.rows.append(row)
         return load

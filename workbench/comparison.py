@@ -11,6 +11,7 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Check, Status
 from workbench.agreement import Agreement, agreements, noted
 from workbench.checks_convergence import COMPLETE, completeness_check
+from workbench.checks_energy import energy_check
 from workbench.checks_fe import (
     band_checks,
     mesh_checks,
@@ -106,6 +107,7 @@ def _checks(study: Study, found: Comparison, plate: Mapping[str, float]) -> list
     strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
     checks = band_checks(fe, study.reference, tol)
     checks += [*solver_checks(fe, found.mesh_study.runs, tol), reach_check(fe, tol)]
+    checks.append(energy_check(list(fe.by_orientation.values()), tol.fe_energy))
     checks += mesh_checks(found.mesh, found.mesh_whole, tol)
     checks += plate_checks(plate, tol)
     checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []

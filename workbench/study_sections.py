@@ -241,6 +241,7 @@ class ToleranceSection(Section):
     reach_load: Annotated[Force, Positive] = 300.0
     fe_residual: Annotated[Number, Positive] = 1e-8
     fe_balance: Annotated[Number, Positive] = 1e-6
+    fe_energy: Annotated[Number, Positive] = 0.01
     mesh_uncertainty: Annotated[Number, Positive] = 0.05
     hub_compliance: Annotated[Number, Positive] = 0.01
     plate_element: Annotated[Number, Positive] = 1e-10

@@ -25,7 +25,7 @@ CHANGES = {
     r"\[hub_study\][^\[]*\[[^\[]*": "",
     r'\norientation = "(?!0)[^"]*"': '\norientation = "0 deg"',
     r"variants = \[[^\]]*\]": "variants = []",
-    r"\[tolerances\]": "[tolerances]\nmesh_uncertainty = 0.5",
+    r"\[tolerances\]": "[tolerances]\nmesh_uncertainty = 0.5\nfe_energy = 0.1",
     r"initial_tangent = \S+": 'initial_tangent = 0.9\nreach_deflection = "6 mm"',
 }
 """Pattern in the built-in study -> what the small study has; the first match only, which is the FE's."""

@@ -1,0 +1,37 @@
+"""Work of the ground against stored energy, on made-up curves."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from contracts.curves import StiffnessCurve
+from workbench.checks_energy import energy_check, energy_error, quadrature_error
+
+
+def _curve(points: int = 21, energy: float = 1.0, start: float = 0.0) -> StiffnessCurve:
+    """F = k d + c d^2, whose energy is known; ``energy`` is a factor on it, ``start`` what was stored before [J]."""
+    d = np.linspace(0.0, 0.04, points)
+    stored = start + energy * (0.5 * 8000.0 * d**2 + 1e5 / 3.0 * d**3)
+    return StiffnessCurve(
+        model="fe", orientation_deg=0.0, deflection=d, load=8000.0 * d + 1e5 * d**2, columns={"stored_energy_J": stored}
+    )
+
+
+def test_the_error_of_a_sound_curve_is_that_of_the_trapezoid_rule() -> None:
+    for points in (11, 12, 21):
+        curve = _curve(points)
+        assert energy_error(curve) == pytest.approx(quadrature_error(curve), rel=0.15)
+    assert energy_error(_curve(21)) == pytest.approx(0.25 * energy_error(_curve(11)), rel=0.01)
+
+
+def test_energy_stored_before_the_first_touch_does_not_count() -> None:
+    assert energy_error(_curve(start=3.0)) == pytest.approx(energy_error(_curve()))
+
+
+def test_lost_energy_fails() -> None:
+    sound = energy_check([_curve(), _curve(31)], 0.01)
+    assert (sound.id, sound.role, sound.status) == ("fe.energy", "gate", "pass")
+    assert energy_check([_curve(), _curve(energy=0.98)], 0.01).status == "fail"
+    bare = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=np.array([0.0, 1e-3]), load=np.array([0.0, 8.0]))
+    assert energy_check([bare], 0.01).status == "error"
