@@ -108,9 +108,9 @@ def _strip(springs: SidewallSprings, rim: float, rows: tuple[Array, int], size: 
     weld, n_across = rows
     largest = size.of(springs.name)
     counts = (
-        max(LEAST_PER_CURL, math.ceil(math.pi * springs.curl_radius / largest - 1e-6)),
-        max(LEAST_PER_ARC, math.ceil(springs.sweep * springs.arc_radius / largest - 1e-6)),
-        max(1, math.ceil(springs.clamp_length / largest - 1e-6)),
+        size.refined(max(LEAST_PER_CURL, math.ceil(math.pi * springs.curl_radius / largest - 1e-6))),
+        size.refined(max(LEAST_PER_ARC, math.ceil(springs.sweep * springs.arc_radius / largest - 1e-6))),
+        size.refined(max(1, math.ceil(springs.clamp_length / largest - 1e-6))),
     )
     curl, arc, clamp = (order * n for n in counts)
     profile = sidewall_profile(springs, rim, weld, (curl, arc, clamp))

@@ -37,9 +37,9 @@ def _springs(study: Study) -> list[ImpactSpringsSection]:
 
 def _patterns(study: Study) -> list[tuple[int, float]]:
     """(count, phase [deg]) of everything that repeats around the axle and bears on the load."""
-    grousers = study.wheel.grousers
     patterns = [(springs.count, degrees(springs.phase)) for springs in _springs(study)]
-    return patterns if grousers is None else [*patterns, (grousers.count, degrees(grousers.phase))]
+    others = (study.wheel.grousers, study.wheel.sidewall_springs)
+    return patterns + [(part.count, degrees(part.phase)) for part in others if part is not None]
 
 
 def full_study(study: Study) -> Study:

@@ -19,7 +19,6 @@ IMPOSSIBLE = {
     r'max_deflection = "6 mm"': 'max_deflection = "250 mm"',
     r'max_load = "[^"]*"': 'max_load = "100 kN"',
     r'element_size = "14 mm"': 'element_size = "20 mm"',
-    r'fine_deflection = "6 mm"': 'fine_deflection = "125 mm"',
 }
 
 type Finished = subprocess.CompletedProcess[str]

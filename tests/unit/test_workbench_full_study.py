@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -51,6 +52,13 @@ def test_meshes_of_default_and_full_study_are_shared(study: Study) -> None:
     assert default["mesh_x1.5"].inputs == full["mesh"].inputs
     assert default["mesh"].inputs == full["mesh_x1"].inputs
     assert default["fe_x2"].key({"mesh_x2": "m"}) == full["fe_x2"].key({"mesh_x2": "m"})
+
+
+@pytest.mark.parametrize("path", sorted(HERE.glob("*.toml")), ids=lambda path: path.stem)
+def test_every_shipped_study_has_a_full_study(path: Path) -> None:
+    full = full_study(read_study(path))
+    steps = np.diff([math.degrees(o) for o in full.fe.orientations])
+    assert len(steps) * steps[0] + steps[0] == pytest.approx(rotational_period(full))
 
 
 def test_the_wheel_repeats_itself_after_the_common_divisor_of_its_counts(study: Study) -> None:
