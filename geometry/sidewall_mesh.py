@@ -107,11 +107,11 @@ def _strip(springs: SidewallSprings, rim: float, rows: tuple[Array, int], size: 
     """Divide one strip; ``rows`` are the positions on the weld and the number of nodes across."""
     weld, n_across = rows
     largest = size.of(springs.name)
-    counts = (
-        size.refined(max(LEAST_PER_CURL, math.ceil(math.pi * springs.curl_radius / largest - 1e-6))),
-        size.refined(max(LEAST_PER_ARC, math.ceil(springs.sweep * springs.arc_radius / largest - 1e-6))),
-        size.refined(max(1, math.ceil(springs.clamp_length / largest - 1e-6))),
-    )
+    lengths = math.pi * springs.curl_radius, springs.sweep * springs.arc_radius, springs.clamp_length
+    counts = [
+        size.refined(max(least, math.ceil(length / largest - 1e-6)))
+        for least, length in zip((LEAST_PER_CURL, LEAST_PER_ARC, 1), lengths, strict=True)
+    ]
     curl, arc, clamp = (order * n for n in counts)
     profile = sidewall_profile(springs, rim, weld, (curl, arc, clamp))
     depths = springs.thickness * np.linspace(-0.5, 0.5, order * size.thickness_elements + 1)

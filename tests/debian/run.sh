@@ -25,7 +25,7 @@ mirror="${DEBIAN_MIRROR:-$(own_mirror)}"
 
 # Real arithmetic: python3-dolfinx alone could also be met by the complex build.
 packages="python3-dolfinx-real python3-petsc4py-real python3-gmsh python3-numba python3-scipy
-  python3-pytest python3-pytest-timeout python3-pytest-xdist python3-hypothesis gcc"
+  python3-pydantic python3-pint python3-pytest python3-pytest-timeout python3-pytest-xdist python3-hypothesis gcc"
 tests="${FE_TESTS:-tests/unit/test_fe_*.py tests/verification/test_fe_*.py}"
 reference="${REFERENCE:-build/debian/wheel_build.csv}"
 [ -f "$reference" ] || fail "$reference is not there; make test-debian computes it with the project's environment"

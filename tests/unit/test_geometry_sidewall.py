@@ -80,6 +80,14 @@ def test_a_weld_over_the_whole_width_ends_in_the_symmetry_plane_or_joins_the_oth
     assert len(facets) == len(at_plane) > 0
 
 
+def test_a_factor_multiplies_every_count() -> None:
+    coarse, fine = (build_mesh(wheel(), element_size=14e-3, axial_size=20e-3, factor=f) for f in (1.0, 2.0))
+    for part in coarse.parts:
+        cells = [np.count_nonzero(m.cell_tags == m.parts[part]) for m in (coarse, fine)]
+        assert cells[1] == 4 * cells[0]
+    check_mesh(fine)
+
+
 def test_grousers_may_stand_over_the_strips() -> None:
     design = wheel(grousers=Grousers(count=8, height=7e-3, thickness=1e-3))
     mesh = build_mesh(design, element_size=8e-3, axial_size=12e-3)

@@ -29,6 +29,11 @@ def _write(tmp_path: Path, old: str, new: str) -> Path:
     return path
 
 
+@pytest.mark.parametrize("path", sorted((Path(__file__).parents[2] / "studies").glob("*.toml")), ids=lambda p: p.stem)
+def test_every_shipped_study_is_valid(path: Path) -> None:
+    assert read_study(path).name == path.stem
+
+
 def test_built_in_study_is_read_in_si() -> None:
     study = read_study(built_in_study())
     assert study.name == "exomars"
