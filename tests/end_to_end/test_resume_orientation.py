@@ -1,0 +1,75 @@
+"""A run killed in the middle of an orientation goes on behind its last increment and writes the same bytes."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.end_to_end.small_study import command, environment, run, small_study_text
+
+DEADLINE = 240.0
+MARK_S = 1e6
+"""Seconds added to the time in the checkpoint: a run that takes it up shows them, one that starts anew does not."""
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The small study with six points on its curve."""
+    text, count = re.subn(r"points = 2", "points = 6", small_study_text(), count=1)
+    assert count == 1
+    path = tmp_path_factory.mktemp("study") / "study.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def _stiffness(study: Path, folder: Path) -> tuple[str | Path, ...]:
+    return ("stiffness", study, "--out", folder / "out", "--store", folder / "store", "--workers", "1")
+
+
+@pytest.fixture(scope="module")
+def killed(study: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of a run that was killed once an increment was kept."""
+    folder = tmp_path_factory.mktemp("killed")
+    process = subprocess.Popen(
+        command(*_stiffness(study, folder)),
+        env=environment(),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    start = time.monotonic()
+    while not list((folder / "store").glob("checkpoints/*.npz")):
+        assert process.poll() is None, "the run ended before it could be killed"
+        assert time.monotonic() - start < DEADLINE
+        time.sleep(0.01)
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait(10.0)
+    return folder
+
+
+def test_it_goes_on_behind_its_last_increment(study: Path, killed: Path, tmp_path: Path) -> None:
+    (checkpoint,) = (p for p in (killed / "store" / "checkpoints").iterdir() if not p.name.startswith("."))
+    with np.load(checkpoint, allow_pickle=False) as archive:
+        kept = dict(archive)
+    kept["recorded/wall_s"] = kept["recorded/wall_s"] + MARK_S
+    np.savez(checkpoint, allow_pickle=False, **kept)
+    assert run(*_stiffness(study, killed)).returncode == 0
+    assert run(*_stiffness(study, tmp_path)).returncode == 0
+    name = "curves/fe_phi000.csv"
+    assert (killed / "out" / name).read_bytes() == (tmp_path / "out" / name).read_bytes()
+    assert _solve_time(killed) > MARK_S > _solve_time(tmp_path)
+    assert list((killed / "store" / "checkpoints").iterdir()) == []
+
+
+def _solve_time(folder: Path) -> float:
+    """Time that the result in the store says the solve took [s]."""
+    results = [json.loads(path.read_text(encoding="utf-8")) for path in (folder / "store").glob("??/*/result.json")]
+    (seconds,) = (numbers["solve_s"] for numbers in results if "solve_s" in numbers)
+    return float(seconds)
