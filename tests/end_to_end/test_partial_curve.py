@@ -1,96 +1,154 @@
-"""A study whose solve really does not converge: the report is written, its curve marked partial, the exit status 2.
+"""A curve that ends early: everything is written, marked partial wherever it appears, and the exit status is 2.
 
-The ground is driven through the hub's place, which no wheel can follow: the solve gives up on the way there.
+First a solve that really does not converge. Then the report of the small study, from a store in which its curve was cut
+off.
 """
 
 from __future__ import annotations
 
 import json
 import re
+import shutil
 import subprocess
+from collections.abc import Mapping
+from dataclasses import asdict, replace
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from contracts.curves import read_curve
-from tests.end_to_end.small_study import run, small_study_text
+from contracts.materials import TI_6AL_4V
+from contracts.mesh import TaggedMesh
+from tests.end_to_end.small_study import run
+from tests.structured_hexahedra import block_mesh
+from tests.unit.test_workbench_runner import Recorder
+from workbench.fingerprint import file_sha256
+from workbench.mesh_file import MESH, write_mesh
+from workbench.result_files import FAILURE, read_result, write_result
+from workbench.runner import run_tasks
+from workbench.store import Store
+from workbench.task import Progress, Task
+from workbench.tasks_fe import solve_orientation
 
-IMPOSSIBLE = {
-    r'max_deflection = "6 mm"': 'max_deflection = "250 mm"',
-    r'max_load = "[^"]*"': 'max_load = "100 kN"',
-    r'element_size = "14 mm"': 'element_size = "20 mm"',
-}
+REASON = "orientation 0 deg, curve reached 3 mm: a made-up reason; try another wheel"
 
 type Finished = subprocess.CompletedProcess[str]
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder with the study."""
-    folder = tmp_path_factory.mktemp("partial")
-    text = small_study_text()
-    for pattern, new in IMPOSSIBLE.items():
-        text, count = re.subn(pattern, new, text, count=1)
-        assert count == 1
-    (folder / "study.toml").write_text(text, encoding="utf-8")
-    return folder
+def _column() -> TaggedMesh:
+    """A column of titanium, 80 mm high, under a rigid hub: a wheel as far as the solver is concerned."""
+    block = block_mesh((1, 1, 5), lambda x: (x - np.array([0.5, 0.5, 1.0])) * np.array([0.05, 0.05, 0.1]))
+    tags = np.array([1, 1, 1, 1, 2], dtype=np.int32)
+    faces = {"tire_outer": block.faces["z0"], **{name: tag for name, tag in block.faces.items() if name != "z0"}}
+    return replace(block, cell_tags=tags, parts={"tire": 1, "outer_hub": 2}, faces=faces)
+
+
+def _inputs(end: float) -> dict[str, Any]:
+    return {
+        "orientation_deg": 0.0,
+        "deflections": [0.004, end],
+        "max_load": 1e12,
+        "snapshot_loads": [],
+        "material_law": "st_venant_kirchhoff",
+        "contact_stiffness": 1e15,
+        "inner_contact": False,
+        "relative_tolerance": 1e-8,
+        "rigid_parts": ["outer_hub"],
+        "materials": {"tire": asdict(TI_6AL_4V)},
+    }
+
+
+def _solve(folder: Path, end: float) -> dict[str, Any]:
+    """Result of the task that presses the column by ``end`` [m], run by a worker."""
+    (folder / "mesh").mkdir()
+    write_mesh(_column(), folder / "mesh" / MESH)
+    task = Task(name="fe_phi000", function=f"{__name__}:press", inputs={"mesh": str(folder / "mesh")} | _inputs(end))
+    entry = run_tasks([task], Store(folder / "store"), Recorder())["fe_phi000"]
+    shutil.copyfile(entry.path / "curve.csv", folder / "curve.csv")
+    return read_result(entry.path)
+
+
+def press(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """The task of the report, with a mesh of our own."""
+    return solve_orientation(inputs, {"mesh": Path(inputs["mesh"])}, out, progress)
+
+
+def test_a_solve_that_does_not_converge_leaves_its_partial_curve_and_the_reason(tmp_path: Path) -> None:
+    """St. Venant-Kirchhoff material cannot be pressed below a stretch of 0.577: 34 mm of the column's 80 mm."""
+    result = _solve(tmp_path, end=0.060)
+    assert re.match(
+        r"orientation 0 deg, curve reached \d\S* mm at \S+ N: the increment to control \S+ ", result[FAILURE]
+    )
+    assert "; try " in result[FAILURE]
+    assert sum(not record["converged"] for record in result["increments"]) > 5
+    curve = read_curve(tmp_path / "curve.csv")
+    assert curve.partial
+    assert "# partial: True" in (tmp_path / "curve.csv").read_text(encoding="utf-8")
+    assert 0.02 < curve.deflection[-1] < 0.036
+
+
+def test_a_solve_that_converges_leaves_neither(tmp_path: Path) -> None:
+    """Negative control: the same column pressed by 8 mm."""
+    assert _solve(tmp_path, end=0.008)[FAILURE] is None
+    assert not read_curve(tmp_path / "curve.csv").partial
 
 
 @pytest.fixture(scope="module")
-def report(folder: Path) -> Finished:
-    """The report of it."""
-    return run("report", "study.toml", "--out", "report", "--store", "store", folder=folder)
+def cut_off(workspace: Path, first_report: Finished, tmp_path_factory: pytest.TempPathFactory) -> tuple[Finished, Path]:
+    """A second report of the small study, whose stored curve lost its last point; and its folder."""
+    folder = tmp_path_factory.mktemp("cut")
+    shutil.copytree(workspace / "store", folder / "store")
+    for manifest in (folder / "store").glob("??/*/manifest.json"):
+        record = json.loads(manifest.read_text(encoding="utf-8"))
+        if record["task"] in ("metrics", "pictures"):
+            shutil.rmtree(manifest.parent)
+        if record["task"] == "fe_phi000":
+            _cut(manifest.parent, record)
+    arguments = ("report", workspace / "study.toml", "--out", "report", "--store", "store")
+    return run(*arguments, folder=folder), folder / "report"
 
 
-def test_exit_status_2_and_one_message(report: Finished) -> None:
-    assert report.returncode == 2
-    (line,) = report.stderr.splitlines()
-    for told in (
-        r"workbench: error: .*study\.toml: fe_phi000 did not converge, its curve is partial",
-        r"orientation 0 deg, curve reached \d\S* mm at \d\S* N",
-        r"the increment to control \S+ (does not converge|ends in a state)",
-        r"relative residuals of the last attempt \d|last sound state",
-        r"; try ",
-    ):
-        assert re.search(told, line), (told, line)
+def _cut(entry: Path, record: dict[str, object]) -> None:
+    """Turn a stored run into one that ended early."""
+    source, *rows = (entry / "curve.csv").read_text(encoding="utf-8").splitlines()
+    (entry / "curve.csv").write_text("\n".join([source, "# partial: True", *rows[:-1], ""]), encoding="utf-8")
+    write_result(entry, read_result(entry) | {FAILURE: REASON})
+    names = record["files"]
+    assert isinstance(names, dict)
+    record["files"] = {name: file_sha256(entry / name) for name in names}
+    (entry / "manifest.json").write_text(json.dumps(record), encoding="utf-8")
 
 
-def test_the_report_is_there_and_says_error(report: Finished, folder: Path) -> None:
-    summary = json.loads((folder / "report" / "summary.json").read_text(encoding="utf-8"))
+def test_the_report_is_written_and_then_complains(cut_off: tuple[Finished, Path]) -> None:
+    done, folder = cut_off
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert f"fe_phi000 did not converge, its curve is partial: {REASON}" in line
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     assert summary["status"] == "error"
-    assert list(summary["provenance"]["partial"]) == ["fe_phi000"]
+    assert summary["provenance"]["partial"] == {"fe_phi000": REASON}
     (complete,) = [c for c in summary["checks"] if c["id"] == "fe.complete"]
     assert (complete["status"], complete["value"]) == ("error", 1.0)
     assert "fe_phi000" in complete["title"]
 
 
-def test_the_curve_is_marked_partial_everywhere(report: Finished, folder: Path) -> None:
+def test_the_curve_is_marked_partial_everywhere(cut_off: tuple[Finished, Path]) -> None:
+    _, folder = cut_off
     for name in ("fe_phi000", "fe_average"):
-        curve = read_curve(folder / "report" / "curves" / f"{name}.csv")
-        assert curve.partial
-        assert 0.0 < curve.deflection[-1] < 0.25
-        assert "# partial: True" in (folder / "report" / "curves" / f"{name}.csv").read_text(encoding="utf-8")
-    assert not read_curve(folder / "report" / "curves" / "ancf_average.csv").partial
-    page = (folder / "report" / "report.html").read_text(encoding="utf-8")
+        assert read_curve(folder / "curves" / f"{name}.csv").partial
+    assert not read_curve(folder / "curves" / "ancf_average.csv").partial
+    page = (folder / "report.html").read_text(encoding="utf-8")
     assert re.search(r"mm, \d+ N \(partial\)</td>", page)
-    assert "<b>fe_phi000 is partial.</b>" in page
+    assert f"<b>fe_phi000 is partial.</b> {REASON}" in page
     assert page.count("FE average (partial)") >= 3  # two figures and the table of distances
     assert "ANCF average (partial)" not in page
 
 
-def test_stiffness_writes_its_curves_and_then_complains(report: Finished, folder: Path) -> None:
-    """It finds the partial result in the store: nothing is solved again, and the verdict is the same."""
-    again = run("stiffness", "study.toml", "--out", "curves", "--store", "store", folder=folder)
-    assert again.returncode == 2
-    assert "0 tasks computed" in again.stdout
-    assert re.search(r"fe 0 deg: .* N \(partial\)", again.stdout)
-    assert "fe_phi000 did not converge, its curve is partial" in again.stderr
-    assert (folder / "curves" / "curves" / "fe_phi000.csv").exists()
-
-
 def test_the_small_study_itself_is_complete(first_report: Finished, workspace: Path) -> None:
-    """Negative control: the same study with a ground it can follow has no mark of a partial curve."""
-    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    """Negative control: before the cut nothing is marked."""
     assert first_report.returncode == 0
-    assert "(partial)" not in page
-    assert json.loads((workspace / "report" / "summary.json").read_text())["provenance"]["partial"] == {}
+    assert "(partial)" not in (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    summary = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))
+    assert summary["provenance"]["partial"] == {}
