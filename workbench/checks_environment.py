@@ -110,6 +110,8 @@ class Series:
         theta, reference = 1.0 + strain, self.reference.curve
         d, load = run.curve.deflection[1:], run.curve.load[1:]
         inside = d / theta <= reference.deflection[-1]
+        if not inside.any():
+            raise InputError("curves", self.label, "share no point", "a curve is partial: compute it further")
         expected = theta**2 * modulus * reference.load_at(d[inside] / theta)
         return float(np.max(np.abs(load[inside] - expected) / load[inside]))
 

@@ -87,6 +87,10 @@ class OrientationMap:
 def _distance(one: StiffnessCurve, other: StiffnessCurve) -> float:
     n = min(len(one.load), len(other.load))
     same = np.isclose(one.deflection[:n], other.deflection[:n], rtol=0.0, atol=1e-9) & (one.load[:n] > 0.0)
+    if not same.any():
+        raise InputError(
+            "curves of mirror images", "0 points", "share no point", "a curve is partial: compute it further"
+        )
     a, b = one.load[:n][same], other.load[:n][same]
     return float(np.max(np.abs(a - b) / (0.5 * (a + b))))
 
