@@ -6,6 +6,7 @@ Verified by tests/unit/test_workbench_outputs.py and tests/end_to_end/test_repor
 from __future__ import annotations
 
 import base64
+import html
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import Any
 
 import jinja2
 
+from contracts.errors import InputError
 from contracts.records import Check, Timing
 from workbench.comparison import Comparison, overall_status
 from workbench.figures_plotly import ancf_figure, fe_figure, models_figure, plotly_script, stress_figure
@@ -56,24 +58,38 @@ def render(content: PageContent) -> str:
     environment.filters["number"] = displayed
     environment.filters["reference"] = displayed_reference
     found, study = content.found, content.study
-    return environment.get_template("report.html.j2").render(
-        sections=_sections(study),
-        study=study,
-        found=found,
-        verdict=verdict(found.checks),
-        status=overall_status(found.checks),
-        counts=_counts(found.checks),
-        plotly=plotly_script(),
-        figures=_figures(content),
-        wheel=_data_uri(content.pictures / "wheel.png"),
-        deformed=[(p.stem.removeprefix("deformed_"), _data_uri(p)) for p in _deformed(content.pictures)],
-        solver=[_solver_row(found, o) for o in found.fe.by_orientation],
-        timings=content.timings,
-        provenance=content.provenance,
-        metrics=_metric_rows(found),
-        agreements=found.agreements,
-        colours=PART_COLOURS,
-    )
+    values: dict[str, Any] = {
+        "sections": _sections(study),
+        "study": study,
+        "found": found,
+        "verdict": verdict(found.checks),
+        "status": overall_status(found.checks),
+        "counts": _counts(found.checks),
+        "plotly": plotly_script(),
+        "figures": _figures(content),
+        "wheel": _data_uri(content.pictures / "wheel.png"),
+        "deformed": [(p.stem.removeprefix("deformed_"), _data_uri(p)) for p in _deformed(content.pictures)],
+        "solver": [_solver_row(found, o) for o in found.fe.by_orientation],
+        "timings": content.timings,
+        "provenance": content.provenance,
+        "metrics": _metric_rows(found),
+        "agreements": found.agreements,
+        "colours": PART_COLOURS,
+    }
+    texts = {section.name: _section_text(environment, section, values) for section in values["sections"]}
+    return environment.get_template("report.html.j2").render(values, texts=texts)
+
+
+def _section_text(environment: jinja2.Environment, section: _Section, values: Mapping[str, Any]) -> str:
+    """One section; where a partial curve leaves it without a number, its title and what is missing."""
+    topic = values["found"].topics.get(section.name)
+    try:
+        return environment.get_template(f"section_{section.name}.html.j2").render(values, topic=topic)
+    except (InputError, jinja2.UndefinedError) as error:
+        if not values["provenance"]["partial"]:
+            raise
+        why = f"Not evaluated, because a curve is partial: {error}"
+        return f'<section id="{section.name}"><h2>{section.title}</h2><p>{html.escape(why)}</p></section>'
 
 
 def verdict(checks: Sequence[Check]) -> str:
@@ -126,7 +142,11 @@ def _figures(content: PageContent) -> dict[str, str]:
         "stress": stress_figure(first, strengths),
     }
     for topic in topics_of(study):
-        figures |= topic.figures(study, found.topics[topic.name])
+        try:
+            figures |= topic.figures(study, found.topics[topic.name])
+        except InputError:
+            if not content.provenance["partial"]:
+                raise  # else `_section_text` says what is missing
     return figures
 
 
