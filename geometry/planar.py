@@ -66,8 +66,11 @@ def build_planar_mesh(
     Raises
     ------
     InputError
-        For sizes out of range or unknown part names.
+        For sizes out of range, unknown part names, and a wheel with sidewall springs, which bend out of the plane.
     """
+    if design.sidewall_springs is not None:
+        rule = "bend out of the plane: the wheel has no planar model"
+        raise InputError("sidewall springs", design.sidewall_springs.name, rule, "use the solid model")
     if not (math.isfinite(factor) and factor >= 1.0):
         raise InputError("refinement factor", factor, "must be at least 1", "choose a larger element size instead")
     size = replace(mesh_size(design, element_size, None, thickness_elements, refinement), factor=factor)

@@ -20,6 +20,7 @@ from workbench.calibration import Calibration, Trial, calibrate, scaled_study, s
 from workbench.errors import RunError
 from workbench.graph import stiffness_tasks
 from workbench.graph_fe import degrees
+from workbench.graph_section import without_planar_model
 from workbench.outputs import check_folder, check_targets, publish, to_json
 from workbench.progress import RunDisplay
 from workbench.quantities import to_si
@@ -42,9 +43,8 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     """Find the strip thickness for a target tangent; 0 if the solid model confirms it within the study's tolerance."""
     path = study_path or built_in_study()
     study = read_study(path)
-    if study.fe.material_law != "st_venant_kirchhoff":
-        rule = "has no section model to calibrate with"
-        raise InputError("fe.material_law", study.fe.material_law, rule, "use st_venant_kirchhoff")
+    if (reason := without_planar_model(study)) is not None:
+        raise reason
     wanted = study.reference.initial_tangent if target is None else _target(target)
     check_folder(out)
     name = f"{path.stem}_calibrated.toml"

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from contracts.errors import InputError
 from workbench.graph_fe import FE, MESH, Origin, curve_deflections, degrees, fe_inputs, orientation_name
 from workbench.study import Study
 from workbench.task import Task
 
-__all__ = ["section_task", "section_tasks"]
+__all__ = ["section_task", "section_tasks", "without_planar_model"]
 
 _SECTION = Origin(
     sources=tuple(dict.fromkeys((*MESH["sources"], *FE["sources"], "workbench.tasks_fe", "workbench.tasks_mesh"))),
@@ -17,8 +18,26 @@ _SECTION = Origin(
 )
 
 
+def without_planar_model(study: Study) -> InputError | None:
+    """Why a study's wheel has no planar model here; None if it has one."""
+    if study.fe.material_law != "st_venant_kirchhoff":
+        return InputError("fe.material_law", study.fe.material_law, "has no planar form", "use st_venant_kirchhoff")
+    if study.wheel.sidewall_springs is not None:
+        rule = "bend out of the plane of a section model"
+        return InputError("wheel.sidewall_springs", "given", rule, "use the solid model (--model fe)")
+    return None
+
+
 def section_tasks(study: Study, orientations_deg: Sequence[float] = ()) -> list[Task]:
-    """One task an orientation, ``section_phi015``; no orientation means those of the study's FE runs."""
+    """One task an orientation, ``section_phi015``; no orientation means those of the study's FE runs.
+
+    Raises
+    ------
+    InputError
+        If the wheel has no planar model.
+    """
+    if (reason := without_planar_model(study)) is not None:
+        raise reason
     wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
     points = curve_deflections(study)
     return [section_task(study, orientation_name("section", o), o, points) for o in wanted]

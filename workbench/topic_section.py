@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.checks_section import largest_difference, section_checks
-from workbench.graph_section import section_tasks
+from workbench.graph_section import section_tasks, without_planar_model
 from workbench.results import ModelCurves, model_curves
 from workbench.study import Study
 from workbench.topic import Topic
@@ -80,8 +80,7 @@ def _curves(study: Study, runs: SectionRuns) -> Sequence[StiffnessCurve]:
 
 
 def _planar(study: Study) -> bool:
-    """Only St. Venant-Kirchhoff material has a planar form here."""
-    return study.fe.material_law == "st_venant_kirchhoff"
+    return without_planar_model(study) is None
 
 
 SECTION = Topic(

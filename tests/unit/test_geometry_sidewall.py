@@ -13,6 +13,7 @@ from contracts.errors import InputError
 from geometry.build import build_mesh
 from geometry.checks import check_matches_design, check_mesh
 from geometry.parts import Grousers, HubRing, SpringSet, Tire
+from geometry.planar import build_planar_mesh
 from geometry.sidewall import SidewallSprings, sidewall_profile
 from geometry.wheel import WheelDesign
 
@@ -43,6 +44,11 @@ def wheel(springs: SidewallSprings = SPRINGS, **parts: Any) -> WheelDesign:
         "inner_hub": None,
     }
     return WheelDesign(name="sidewall", **(values | parts))
+
+
+def test_there_is_no_planar_model() -> None:
+    with pytest.raises(InputError, match="out of the plane"):
+        build_planar_mesh(wheel(), element_size=8e-3)
 
 
 def test_centreline_has_its_length_radii_and_tangents() -> None:

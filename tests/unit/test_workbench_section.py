@@ -74,3 +74,13 @@ def test_a_law_without_planar_form_leaves_the_topic_out(study: Study) -> None:
     assert "section" in {t.name for t in topics_of(study)}
     assert "section" not in {t.name for t in topics_of(neo)}
     assert not any(t.name.startswith("section_") for t in report_tasks(neo, built_in_study().parent))
+    with pytest.raises(InputError, match="no planar form"):
+        stiffness_tasks(neo, "section", [])
+
+
+def test_springs_that_bend_out_of_the_plane_leave_it_out_too(study: Study) -> None:
+    springs = object()
+    closed = study.model_copy(update={"wheel": study.wheel.model_copy(update={"sidewall_springs": springs})})
+    assert "section" not in {t.name for t in topics_of(closed)}
+    with pytest.raises(InputError, match="out of the plane"):
+        stiffness_tasks(closed, "section", [])
