@@ -40,10 +40,13 @@ lint: $(READY) ## ruff (rules and format) and mypy --strict
 unit: $(READY) ## the fast tests
 	$(PYTHON) -m pytest -q tests/unit
 
-bench: $(READY) ## run one benchmark: make bench NAME=fe_wheel
+bench: $(READY) ## run one benchmark: make bench NAME=fe_wheel [ARGS="--only wheel-60k"]
 	@test -n "$(NAME)" || { echo "make bench: NAME is not given; one of:" $(basename $(notdir $(wildcard benchmarks/*.py))) >&2; exit 2; }
 	@test -f "benchmarks/$(NAME).py" || { echo "make bench: benchmarks/$(NAME).py is not there; one of:" $(basename $(notdir $(wildcard benchmarks/*.py))) >&2; exit 2; }
-	$(PYTHON) "benchmarks/$(NAME).py"
+	@uv="$$(command -v uv || echo $(TOOLS)/bin/uv)"; \
+	"$$uv" pip install --quiet --python $(PYTHON) --constraints constraints.txt --group bench \
+	  || echo "make bench: the codes to compare with could not be installed; their columns stay empty" >&2
+	$(PYTHON) "benchmarks/$(NAME).py" $(ARGS)
 
 test-debian: $(READY) ## FE tests and a wheel curve on Debian's DOLFINx, 13 and unstable (needs root and debootstrap)
 	mkdir -p build/debian

@@ -3,6 +3,7 @@
 from geometry.build import build_mesh
 from geometry.checks import check_matches_design, check_mesh
 from geometry.closed_form import closed_form_joint_areas, closed_form_volume, part_masses
+from geometry.inp import write_inp
 from geometry.measures import MeshQuality, joint_areas, mesh_quality, mesh_volume
 from geometry.msh import write_msh
 from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
@@ -34,6 +35,7 @@ __all__ = [
     "mesh_volume",
     "part_masses",
     "summarize_mesh",
+    "write_inp",
     "write_msh",
     "write_step",
     "write_vtu",

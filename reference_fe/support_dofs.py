@@ -51,7 +51,9 @@ def build_supports(
                 continue
             subspace, _ = V.sub(component).collapse()
             value = fem.Function(subspace)
-            expansion = (support.stretch - 1.0) * subspace.tabulate_dof_coordinates()[:, component]
+            expansion = np.zeros_like(value.x.array)
+            if support.stretch != 1.0:  # elements without nodal values, such as 20-node hexahedra, have no coordinates
+                expansion += (support.stretch - 1.0) * subspace.tabulate_dof_coordinates()[:, component]
             at_load_factor_1 = support.value[position] if support.value else 0.0
             prescribed.append(Prescribed(function=value, at_load_factor_1=at_load_factor_1, expansion=expansion))
             spaces = (V.sub(component), subspace)

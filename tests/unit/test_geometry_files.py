@@ -8,11 +8,13 @@ import subprocess
 import sys
 import threading
 from collections import Counter
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry import (
     build_mesh,
@@ -20,6 +22,7 @@ from geometry import (
     exomars,
     mesh_volume,
     summarize_mesh,
+    write_inp,
     write_msh,
     write_step,
     write_vtu,
@@ -38,6 +41,48 @@ def test_importing_geometry_imports_neither_gmsh_nor_meshio() -> None:
     code = "import sys, geometry; sys.exit(any(m in sys.modules for m in ('gmsh', 'meshio', 'vtkmodules')))"
     root = Path(__file__).parents[2]
     assert subprocess.run([sys.executable, "-c", code], cwd=root, check=False).returncode == 0
+
+
+def test_inp_has_twenty_nodes_in_the_order_of_its_elements(mesh: TaggedMesh, tmp_path: Path) -> None:
+    """Every edge node stands between its edge's ends: vertices, then bottom, top and upright edges."""
+    path = tmp_path / "new" / "wheel.inp"
+    write_inp(mesh, path, node_sets={"chosen": np.array([0, 1])})
+    blocks = _inp_blocks(path)
+    points = {int(row[0]): np.array(row[1:]) for row in blocks["*NODE, NSET=ALL_NODES"]}
+    tire = np.array(blocks["*ELEMENT, TYPE=C3D20R, ELSET=TIRE"]).reshape(-1, 21)
+    assert len(tire) == np.sum(mesh.cell_tags == mesh.parts["tire"])
+    ends = [*((k, (k + 1) % 4) for k in range(4)), *((4 + k, 4 + (k + 1) % 4) for k in range(4))]
+    ends += [(k, k + 4) for k in range(4)]
+    for cell in tire[::7, 1:].astype(int):
+        for k, (a, b) in enumerate(ends):
+            start, end, middle = (points[cell[n]] for n in (a, b, 8 + k))
+            off = np.linalg.norm(middle - 0.5 * (start + end)) / np.linalg.norm(end - start)
+            assert off < 0.05, (
+                k,
+                off,
+            )  # an arc's sagitta; a wrong node is off by 0.5 or more
+    assert blocks["*NSET, NSET=CHOSEN"] == [[1.0, 2.0]]
+    assert len(blocks["*NSET, NSET=TIRE_OUTER"]) > 1
+
+
+def _inp_blocks(path: Path) -> dict[str, list[list[float]]]:
+    """Numbers of each line, by keyword line; an element's three lines are joined."""
+    blocks: dict[str, list[list[float]]] = {}
+    for line in path.read_text().splitlines():
+        if line.startswith("*"):
+            current = blocks.setdefault(line, [])
+        else:
+            current.append([float(number) for number in line.strip(",").split(",")])
+    return {
+        name: [[*chain(*rows[k : k + 3])] for k in range(0, len(rows), 3)] if name.startswith("*ELEMENT") else rows
+        for name, rows in blocks.items()
+    }
+
+
+def test_inp_refuses_eight_node_hexahedra(tmp_path: Path) -> None:
+    linear = build_mesh(WHEEL, element_size=30e-3, parts="flexible", order=1)
+    with pytest.raises(InputError, match="20-node"):
+        write_inp(linear, tmp_path / "linear.inp")
 
 
 def test_msh_has_named_groups_and_the_same_cells(mesh: TaggedMesh, tmp_path: Path) -> None:

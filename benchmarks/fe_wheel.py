@@ -1,0 +1,194 @@
+"""Speed and accuracy of the static solver beside CalculiX and FElupe: same mesh, material, steps and tolerance.
+
+Run by `make bench NAME=fe_wheel`; `make bench NAME=fe_wheel ARGS="--only half-cylinder-40"` runs chosen cases. Prints a
+table and writes build/bench/fe_wheel.json. Cases: a clamped half cylinder whose digits all codes agree on, and half the
+ExoMars wheel pressed on the edge of a grouser by 20 mm. That edge stands in for the ground because CalculiX and FElupe
+then need no contact, and mesh and load stay the same for all. README.md here has the last measured table.
+
+Times are processor seconds of one thread, which another load on the machine changes little; set-up is included.
+Memory is the largest resident set of the solver's process.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT)]
+
+from benchmarks.peer_codes import calculix  # noqa: E402
+from benchmarks.peer_codes.case import Description, from_description  # noqa: E402
+from benchmarks.peer_codes.outcome import Outcome, python_run  # noqa: E402
+
+WARM_UP: Description = ("half_cylinder", 8, 2)
+LIMIT_S = 3600.0
+"""Processor time after which a run is given up [s]."""
+METRICS = {
+    "time per Newton iteration": ("s", lambda o: o.cpu_s / o.iterations),
+    "time per converged increment": ("s", lambda o: o.cpu_s / o.increments),
+    "time to 20 mm": ("s", lambda o: o.cpu_s),
+    "Newton iterations to 20 mm": ("-", lambda o: float(o.iterations)),
+    "peak memory": ("MB", lambda o: o.memory_MB),
+    "unknowns": ("-", lambda o: float(o.unknowns)),
+    "force at 20 mm": ("N", lambda o: o.force_N),
+}
+NO_RATIO = ("unknowns", "force at 20 mm")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Comparison:
+    """One row group of the table.
+
+    Attributes
+    ----------
+    ours : our mesh, and the element on it
+    peer : the peers' mesh; another one than ours where codes are compared at equal accuracy
+    calculix_element : reduced (C3D20R) or full (C3D20) integration; reduced hourglasses on the wheel's single layer
+    steps : increments of equal length, all codes; None: one for us, four for the peers
+    """
+
+    ours: Description
+    element: str
+    peer: Description
+    calculix_element: str
+    steps: int | None = 4
+
+
+CASES = {
+    "half-cylinder-40": Comparison(
+        ours=("half_cylinder", 40, 8), element="20 nodes", peer=("half_cylinder", 40, 8), calculix_element="C3D20R"
+    ),
+    "half-cylinder-120": Comparison(
+        ours=("half_cylinder", 120, 24), element="20 nodes", peer=("half_cylinder", 120, 24), calculix_element="C3D20R"
+    ),
+    "half-cylinder-220": Comparison(
+        ours=("half_cylinder", 220, 44), element="20 nodes", peer=("half_cylinder", 220, 44), calculix_element="C3D20R"
+    ),
+    "half-cylinder-equal-accuracy": Comparison(
+        ours=("half_cylinder", 40, 8), element="27 nodes", peer=("half_cylinder", 120, 24), calculix_element="C3D20R"
+    ),
+    "wheel-60k": Comparison(
+        ours=("wheel", 0.0055, 0.015), element="27 nodes", peer=("wheel", 0.0055, 0.015), calculix_element="C3D20"
+    ),
+    "wheel-200k": Comparison(
+        ours=("wheel", 0.003, 0.0085), element="27 nodes", peer=("wheel", 0.003, 0.0085), calculix_element="C3D20"
+    ),
+    "wheel-one-increment": Comparison(
+        ours=("wheel", 0.008, 0.020),
+        element="27 nodes",
+        peer=("wheel", 0.008, 0.020),
+        calculix_element="C3D20",
+        steps=None,
+    ),
+}
+
+
+def compare(name: str, wanted: Comparison, threads: int) -> list[dict[str, object]]:
+    """Rows of one case: ours against each peer, measured in turn."""
+    with tempfile.TemporaryDirectory() as folder:
+        ours = _ours(wanted, Path(folder), threads)
+        _show(name, f"ours, {wanted.element}", ours)
+        rows = []
+        for peer, run in _peers().items():
+            theirs = _attempt(peer, run, wanted, Path(folder), threads)
+            _show(name, peer, theirs)
+            rows += _rows(f"{name} against {peer}", ours, theirs)
+    return rows
+
+
+def _rows(case: str, ours: Outcome, theirs: Outcome | None) -> list[dict[str, object]]:
+    rows: list[dict[str, object]] = []
+    for metric, (unit, value) in METRICS.items():
+        mine, other = value(ours), None if theirs is None else value(theirs)
+        ratio = None if other is None or metric in NO_RATIO else other / mine
+        rows.append({"case": case, "metric": metric, "unit": unit, "ours": mine, "peer": other, "ratio": ratio})
+    return rows
+
+
+def _ours(wanted: Comparison, folder: Path, threads: int) -> Outcome:
+    arguments = {"case": wanted.ours, "warm_up": WARM_UP, "element": wanted.element, "steps": wanted.steps or 1}
+    return python_run("ours", arguments, folder, threads, LIMIT_S)
+
+
+def _calculix(wanted: Comparison, folder: Path, threads: int) -> Outcome:
+    return calculix.solve(from_description(wanted.peer), folder, threads, LIMIT_S, wanted.calculix_element)
+
+
+def _felupe(wanted: Comparison, folder: Path, threads: int) -> Outcome:
+    full = wanted.calculix_element == "C3D20"
+    arguments = {"case": wanted.peer, "steps": wanted.steps or 4, "points": 3 if full else 2}
+    return python_run("felupe_run", arguments, folder, threads, LIMIT_S)
+
+
+def _peers() -> dict[str, Callable[[Comparison, Path, int], Outcome] | None]:
+    """Peer -> how it is run, or None where it is not installed."""
+    felupe = all(importlib.util.find_spec(module) for module in ("felupe", "pypardiso", "tensortrax"))
+    return {
+        "CalculiX": _calculix if shutil.which(calculix.PROGRAM) else None,
+        "FElupe": _felupe if felupe else None,
+    }
+
+
+def _attempt(
+    peer: str,
+    run: Callable[[Comparison, Path, int], Outcome] | None,
+    wanted: Comparison,
+    folder: Path,
+    threads: int,
+) -> Outcome | None:
+    if run is None:
+        return None
+    try:
+        return run(wanted, folder, threads)
+    except (RuntimeError, subprocess.SubprocessError) as error:
+        print(f"{peer} did not reach 20 mm: {error}", file=sys.stderr)
+        return None
+
+
+def _show(case: str, code: str, outcome: Outcome | None) -> None:
+    head = f"{case:30s} {code:16s}"
+    if outcome is None:
+        print(f"{head} no result", flush=True)
+        return
+    o = outcome
+    print(
+        f"{head} {o.unknowns:8d} unknowns {o.increments:4d} increments {o.iterations:4d} iterations "
+        f"{o.cpu_s / o.iterations:8.3f} s/iteration {o.cpu_s / o.increments:8.2f} s/increment {o.cpu_s:8.1f} s "
+        f"{o.memory_MB:6.0f} MB {o.force_N:11.4f} N",
+        flush=True,
+    )
+
+
+def main() -> None:
+    """Run the chosen cases and write the JSON."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", nargs="+", choices=list(CASES), default=list(CASES), help="cases to run")
+    parser.add_argument("--threads", type=int, default=1, help="threads of every code (wall time is then what counts)")
+    chosen = parser.parse_args()
+    for peer, hint in (
+        ("CalculiX", "install the package calculix-ccx (Debian, Ubuntu) so that ccx is on PATH"),
+        ("FElupe", "`make bench` installs it; by hand: uv pip install --constraints constraints.txt --group bench"),
+    ):
+        if _peers()[peer] is None:
+            print(f"{peer} is not installed, its columns stay empty: {hint}", file=sys.stderr)
+    rows = [row for name in chosen.only for row in compare(name, CASES[name], chosen.threads)]
+    for row in rows:
+        peer, ratio = (f"{row[key]:12.4g}" if row[key] is not None else f"{'-':>12s}" for key in ("peer", "ratio"))
+        print(f"{row['case']:48s} {row['metric']:30s} {row['unit']:3s} {row['ours']:12.4g} {peer} {ratio}")
+    target = ROOT / "build" / "bench" / "fe_wheel.json"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(json.dumps({"schema": 1, "name": "fe_wheel", "rows": rows}, indent=1) + "\n")
+    print(f"written: {target.relative_to(ROOT)}")
+
+
+if __name__ == "__main__":
+    main()

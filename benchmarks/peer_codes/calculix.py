@@ -1,0 +1,60 @@
+"""A case by CalculiX with 20-node hexahedra of reduced integration; the deck is written by `geometry.inp`."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.peer_codes.case import TOLERANCE, LoadCase
+from benchmarks.peer_codes.outcome import Outcome, measured
+from geometry.inp import TWENTY_NODES, write_inp
+
+__all__ = ["PROGRAM", "solve"]
+
+PROGRAM = "ccx"
+
+
+def solve(case: LoadCase, folder: Path, threads: int, limit_s: float, element: str = "C3D20R") -> Outcome:
+    """Drive the line to its full travel; CalculiX may cut its increments as it needs, the wanted step is its largest.
+
+    The iteration counts are those of the .sta file: every attempt is there. Solver: SPOOLES, the only direct solver of
+    the Debian package.
+    """
+    used = np.unique(case.mesh.cells[:, TWENTY_NODES])
+    held, driven = np.intersect1d(case.held(), used), np.intersect1d(case.driven(), used)
+    sets = {"held": held, "driven": np.setdiff1d(driven, held)}
+    write_inp(case.mesh, folder / "mesh.inp", element=element, node_sets=sets)
+    (folder / "case.inp").write_text(_deck(case))
+    run = measured([PROGRAM, "-i", "case"], folder, threads, limit_s)
+    rows = [line.split() for line in (folder / "case.sta").read_text().splitlines()[2:]]
+    attempts = [(row[2], int(row[3])) for row in rows]
+    if float(rows[-1][5]) < 1.0 - 1e-9:
+        raise RuntimeError(f"CalculiX ended at {rows[-1][5]} of the travel")
+    totals = re.findall(r"total force .*\n\n\s*(\S+)\s+(\S+)\s+(\S+)", (folder / "case.dat").read_text())
+    return Outcome(
+        unknowns=3 * len(used),
+        increments=sum(not mark.endswith("U") for mark, _ in attempts),
+        iterations=sum(count for _, count in attempts),
+        cpu_s=run.cpu_s,
+        wall_s=run.wall_s,
+        memory_MB=run.memory_MB,
+        force_N=case.force_factor * float(totals[-1][case.component]),
+    )
+
+
+def _deck(case: LoadCase) -> str:
+    step, axis = 1.0 / case.steps, case.component + 1
+    symmetry = f"{case.symmetry.upper()}, 2, 2\n" if case.symmetry else ""
+    sections = "".join(f"*SOLID SECTION, ELSET={part.upper()}, MATERIAL=M\n" for part in case.mesh.parts)
+    return (
+        "*INCLUDE, INPUT=mesh.inp\n"
+        f"*MATERIAL, NAME=M\n*ELASTIC\n{case.material.young_modulus!r}, {case.material.poisson_ratio!r}\n{sections}"
+        f"*BOUNDARY\nHELD, 1, 3\n{symmetry}"
+        "*STEP, NLGEOM, INC=2000\n*STATIC, SOLVER=SPOOLES\n"
+        f"{step!r}, 1., 1e-6, {step!r}\n"
+        f"*CONTROLS, PARAMETERS=FIELD\n{TOLERANCE!r}, 1., , , {TOLERANCE!r}\n"
+        f"*BOUNDARY\nDRIVEN, {axis}, {axis}, {case.travel!r}\n"
+        "*NODE PRINT, NSET=DRIVEN, TOTALS=ONLY, FREQUENCY=1\nRF\n*END STEP\n"
+    )
