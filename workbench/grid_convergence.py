@@ -40,7 +40,9 @@ class GridConvergence:
     extrapolated_error : |extrapolated - fine| / |extrapolated| [-]; None likewise
     index_fine, index_medium : grid convergence index of the fine and of the medium mesh [-]: 1.25 times the estimated
         relative error; without an order 3 times the range of the three values
-    index_coarse : the same for the coarse mesh, 1.25 times its distance from ``extrapolated`` [-]
+    index_coarse : the same for the coarse mesh, 1.25 times its distance from ``extrapolated`` [-]; where the number
+        oscillates, both of medium and coarse are at least half the range of the three values, because the formulas take
+        the error to have one sign
     """
 
     values: tuple[float, float, float]
@@ -93,6 +95,9 @@ def grid_convergence(
         limit = fine - e21 / (r21**order - 1.0)
         errors = e21 / (r21**order - 1.0), e32 / (r32**order - 1.0), coarse - limit
         indices = [_SAFETY_THREE_MESHES * abs(e / v) for e, v in zip(errors, (fine, medium, coarse), strict=True)]
+        if behaviour == "oscillatory":
+            half_range = 0.5 * (max(values) - min(values))
+            indices[1:] = [max(i, half_range / abs(v)) for i, v in zip(indices[1:], (medium, coarse), strict=True)]
     return GridConvergence(
         values=(fine, medium, coarse),
         ratios=(r21, r32),

@@ -60,6 +60,13 @@ def test_a_series_that_does_not_settle_has_no_order_and_a_large_index(values: tu
     assert found.index_fine == pytest.approx(3.0 * (max(values) - min(values)) / 10.0)
 
 
+def test_an_oscillating_series_leaves_no_coarser_mesh_with_less_than_half_its_range() -> None:
+    found = grid_convergence((54.100, 54.075, 54.209), (1.0, 1.12, 1.87), 4.0)
+    assert found.behaviour == "oscillatory"
+    assert found.index_medium == pytest.approx(0.067 / 54.075)
+    assert found.index_coarse >= 0.067 / 54.209
+
+
 def test_unequal_ratios_decide_what_converges() -> None:
     """Differences of one ratio's logarithm are those of order 0, whatever their size."""
     assert apparent_order(1.0, 1.2, 2.0, 1.3)[0] == "monotonic"

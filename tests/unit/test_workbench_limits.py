@@ -44,6 +44,14 @@ def test_uneven_orientations_are_weighted_by_their_arc() -> None:
     assert check.status == "fail"
 
 
+def test_orientations_that_cover_a_period_weigh_alike() -> None:
+    around = model({0.0: 9000.0, 40.0: 7000.0, 80.0: 5000.0})
+    assert circumferential_tangent_check(around, BAND, TOLERANCES, 120.0).value == pytest.approx(7000.0)
+    uneven = model({0.0: 9000.0, 10.0: 7000.0, 80.0: 5000.0})
+    part = circumferential_tangent_check(uneven, BAND, TOLERANCES, 120.0)
+    assert part.value == pytest.approx((10 * 8000 + 70 * 6000) / 80)
+
+
 def test_one_orientation_has_no_mean_around_the_wheel() -> None:
     assert circumferential_tangent_check(model({0.0: 8000.0}), BAND, TOLERANCES).status == "error"
 
@@ -59,4 +67,5 @@ def test_overlap_counts_up_to_the_load() -> None:
 
 
 def test_overlap_is_not_evaluated_beyond_the_curves() -> None:
-    assert [c.status for c in overlap_checks(model({0.0: 5000.0}), inner_contact=True)] == ["fail", "error"]
+    found = overlap_checks(model({0.0: 5000.0}), inner_contact=True)
+    assert [(c.status, c.role) for c in found] == [("fail", "gate"), ("error", "finding")]
