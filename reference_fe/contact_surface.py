@@ -47,9 +47,15 @@ class ContactSurface:
     weights: NDArray[np.float64]
     widths: NDArray[np.float64]
 
-    def frames(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Positions (f, q, 3) [m], outward unit normals (f, q, 3) and area ratios (f, q) [m^2] at the Gauss points."""
-        return surface_frames(x, self.facets, self.sides, self.lattice, self.at)
+    def frames(
+        self, x: NDArray[np.float64], rows: NDArray[np.int64] | slice = slice(None)
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Positions (f, q, 3) [m], outward unit normals (f, q, 3), area ratios (f, q) [m^2] at the Gauss points."""
+        return surface_frames(x, self.facets[rows], self.sides[rows], self.lattice, self.at)
+
+    def middle_normals(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Outward unit normal in the middle of each facet, (f, 3)."""
+        return surface_frames(x, self.facets, self.sides, self.lattice, np.zeros((1, 2)))[1][:, 0]
 
 
 def node_positions(domain: Domain, V: api.Expr) -> NDArray[np.float64]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,7 +77,7 @@ class InnerContact:
 
 
 class InnerContactTerm:
-    """Inner contact while it is being solved; it has no history.
+    """Inner contact while it is being solved; its only history is which facets have room in the matrix.
 
     Attributes
     ----------
@@ -139,14 +138,18 @@ class InnerContactTerm:
         return False
 
     def accept(self) -> None:
-        """No history."""
+        """Nothing to commit: a pair once in the pattern stays there."""
 
     def state(self) -> TermState:
-        """No history."""
-        return {}
+        """Pairs of facets in the pattern, so that a resumed run eliminates and adds up in the same order."""
+        return {f"pairs_{k}": side.pairs().astype(np.float64) for k, side in enumerate(self._sides)}
 
     def restore(self, state: TermState) -> None:
-        """No history."""
+        """Go back to a pattern."""
+        for k, side in enumerate(self._sides):
+            known = _as_set(state[f"pairs_{k}"].astype(np.int64))
+            if known != side.known:
+                side.known, self.pattern_version = known, self.pattern_version + 1
 
 
 class _TwoSides:
@@ -159,23 +162,26 @@ class _TwoSides:
         self.shape = shape_values(slave.lattice, slave.at)
         self.known, self.touching = set[tuple[int, int]](), np.zeros((0, 2), dtype=np.int64)
         self.largest_penetration = 0.0
-        self.shared = _share_nodes(slave, master) if slave is master else None
+        self.shared = _share_nodes(slave) if slave is master else None
         gap = self._nearest(X, law.least_gap, 0.0)[2]
         self.excluded = gap < law.least_gap
 
+    def pairs(self) -> Index:
+        """Pairs of facets in the pattern, (n, 2), ascending."""
+        return np.array(sorted(self.known), dtype=np.int64).reshape(-1, 2)
+
     def couplings(self) -> Index:
-        pairs = np.array(sorted(self.known), dtype=np.int64).reshape(-1, 2)
+        pairs = self.pairs()
         return np.hstack([self.slave.facets[pairs[:, 0]], self.master.facets[pairs[:, 1]]])
 
     def has_new_pairs(self) -> bool:
-        return not {(int(f), int(m)) for f, m in self.touching} <= self.known
+        return not _as_set(self.touching) <= self.known
 
     def note_near(self, x: Array) -> None:
         """Take the pairs that touch or nearly do into the pattern."""
         facet, _, _ = self._nearest(x, self.law.reach, 0.2)
         rows, points = np.nonzero(facet >= 0)
-        self.known |= {(int(f), int(m)) for f, m in zip(rows, facet[rows, points], strict=True)}
-        self.known |= {(int(f), int(m)) for f, m in self.touching}
+        self.known |= _as_set(np.column_stack([rows, facet[rows, points]])) | _as_set(self.touching)
 
     def blocks(self, x: Array, dim: int) -> SurfaceForces:
         law = self.law
@@ -185,9 +191,6 @@ class _TwoSides:
         m, g = facet[f, q], gap[f, q]
         self.touching = np.unique(np.column_stack([f, m]), axis=0)
         self.largest_penetration = float(np.max(-g, initial=0.0))
-        depth = np.where(g < -law.ramp, -g, (law.ramp - g) ** 2 / (4.0 * law.ramp))
-        slope = np.where(g < -law.ramp, 1.0, (law.ramp - g) / (2.0 * law.ramp))
-        scale = law.stiffness * self.areas[f, q]
         nodes = np.hstack([self.slave.facets[f], self.master.facets[m]])
         k = nodes.shape[1]
         force, stiffness = np.empty((len(f), k, dim)), np.empty((len(f), k, dim, k, dim))
@@ -196,7 +199,8 @@ class _TwoSides:
             (self.slave.facets[f], self.shape[q]),
             (self.master.facets[m], self.master.sides[m], self.master.lattice),
             np.ascontiguousarray(xi[f, q]),
-            np.column_stack([g, scale * depth, scale * slope]),
+            np.column_stack([g, self.areas[f, q]]),
+            (law.stiffness, law.ramp),
             (force, stiffness),
         )
         return SurfaceForces(nodes=nodes, force=force, stiffness=stiffness)
@@ -204,26 +208,35 @@ class _TwoSides:
     def _nearest(self, x: Array, above: float, margin: float) -> tuple[Index, Array, Array]:
         """Contacts of every slave point; the search looks anew each time, around each slave facet's middle."""
         slave, master = self.slave, self.master
-        positions, normals, _ = slave.frames(x)
+        facet, xi, gap = _no_contacts(self.areas.shape)
         mid_s, radius_s = _balls(x, slave.facets)
         mid_m, radius_m = _balls(x, master.facets)
-        far = self.law.depth + above
-        found = cKDTree(mid_m).query_ball_point(mid_s, radius_s + radius_m.max(initial=0.0) + far)
-        kept = [self._kept(f, candidates) for f, candidates in enumerate(found)]
-        starts = np.concatenate([[0], np.cumsum([len(c) for c in kept])]).astype(np.int64)
-        wanted = np.fromiter(chain.from_iterable(kept), dtype=np.int64)
-        return nearest_contacts(
-            x,
-            positions,
-            normals,
-            (starts, wanted),
-            (master.facets, master.sides, master.lattice),
-            (above, self.law.depth, margin),
-        )
+        far = max(self.law.depth, above) + radius_m.max(initial=0.0)
+        found = cKDTree(mid_m).query_ball_point(mid_s, radius_s + far, return_sorted=True)
+        kept = [c if self.shared is None else [m for m in c if m not in self.shared[f]] for f, c in enumerate(found)]
+        rows = np.array([f for f, c in enumerate(kept) if c], dtype=np.int64)
+        candidates = [kept[f] for f in rows]
+        if len(rows):
+            positions, normals, _ = slave.frames(x, rows)
+            facet[rows], xi[rows], gap[rows] = nearest_contacts(
+                x,
+                positions,
+                normals,
+                (np.cumsum([0, *map(len, candidates)]), np.array([m for c in candidates for m in c], dtype=np.int64)),
+                (master.facets, master.sides, master.lattice),
+                (mid_m, radius_m, master.middle_normals(x)),
+                (above, self.law.depth, margin),
+            )
+        return facet, xi, gap
 
-    def _kept(self, f: int, candidates: list[int]) -> list[int]:
-        """Candidates in a fixed order, without neighbours of the slave facet."""
-        return sorted(candidates if self.shared is None else set(candidates) - self.shared[f])
+
+def _no_contacts(shape: tuple[int, ...]) -> tuple[Index, Array, Array]:
+    """What the search finds where there is nothing near."""
+    return np.full(shape, -1, dtype=np.int64), np.zeros((*shape, 2)), np.full(shape, np.inf)
+
+
+def _as_set(pairs: Index) -> set[tuple[int, int]]:
+    return {(int(f), int(m)) for f, m in pairs}
 
 
 def _balls(x: Array, facets: Index) -> tuple[Array, Array]:
@@ -233,13 +246,13 @@ def _balls(x: Array, facets: Index) -> tuple[Array, Array]:
     return middle, np.linalg.norm(nodes - middle[:, None], axis=-1).max(axis=1)
 
 
-def _share_nodes(slave: ContactSurface, master: ContactSurface) -> list[set[int]]:
-    """Master facets that share a node with each slave facet."""
-    holders: dict[int, list[int]] = {}
-    for m, nodes in enumerate(master.facets.tolist()):
+def _share_nodes(surface: ContactSurface) -> list[set[int]]:
+    """Facets that share a node with each facet of one surface."""
+    holders: dict[int, set[int]] = {}
+    for m, nodes in enumerate(surface.facets.tolist()):
         for node in nodes:
-            holders.setdefault(node, []).append(m)
-    return [set(chain.from_iterable(holders.get(n, []) for n in nodes)) for nodes in slave.facets.tolist()]
+            holders.setdefault(node, set()).add(m)
+    return [set().union(*(holders[node] for node in nodes)) for nodes in surface.facets.tolist()]
 
 
 def _joined(batches: Sequence[SurfaceForces], dim: int) -> SurfaceForces:

@@ -18,6 +18,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from reference_fe.contact_law import ramped_pressure
+
 __all__ = ["contact_blocks", "nearest_contacts", "shape_values", "surface_frames"]
 
 Array = NDArray[np.float64]
@@ -25,6 +27,8 @@ Index = NDArray[np.int64]
 
 _STEPS = 12
 _MOVED = 1e-12
+_BEND = 0.5
+"""Curvature that is allowed for within a facet: cosine of its normals, and height over radius."""
 
 
 @numba.njit(cache=True)
@@ -144,12 +148,29 @@ def _closest(
 
 
 @numba.njit(cache=True)
+def _may_touch(
+    point: Array, normal: Array, middle: Array, radius: float, outward: Array, above: float, below: float
+) -> bool:
+    """Quick refusal of a master facet: it looks away, or the point is too far above, behind or beside it."""
+    height, squared, facing = 0.0, 0.0, 0.0
+    for i in range(3):
+        offset = point[i] - middle[i]
+        height += offset * outward[i]
+        squared += offset * offset
+        facing += normal[i] * outward[i]
+    room = _BEND * radius
+    near = squared <= (radius + max(above, below)) ** 2
+    return near and facing <= _BEND and -below - room <= height <= above + room
+
+
+@numba.njit(cache=True)
 def nearest_contacts(
     x: Array,
     points: Array,
     normals: Array,
     candidates: tuple[Index, Index],
     master: tuple[Index, Array, tuple[int, int]],
+    balls: tuple[Array, Array, Array],
     limits: tuple[float, float, float],
 ) -> tuple[Index, Array, Array]:
     """For each slave point the master facet straight below it.
@@ -163,6 +184,7 @@ def nearest_contacts(
     points, normals : (f, q, 3) slave points [m] and outward normals [-]
     candidates : row starts (f + 1,) and master facets of each slave facet
     master : facets (m, k), sides (m,), lattice
+    balls : middle (m, 3), radius (m,) [m] and outward normal in the middle (m, 3) of each master facet
     limits : reach above (gap) and below (depth) the master's surface [m], and how far |xi| may pass 1 [-]
 
     Returns
@@ -173,6 +195,7 @@ def nearest_contacts(
     """
     starts, wanted = candidates
     facets, sides, lattice = master
+    middles, radii, outward = balls
     above, below, margin = limits
     n_f, n_q = points.shape[0], points.shape[1]
     facet, gap = np.full((n_f, n_q), -1, dtype=np.int64), np.full((n_f, n_q), np.inf)
@@ -182,6 +205,8 @@ def nearest_contacts(
     for f in range(n_f):
         for q in range(n_q):
             for c in wanted[starts[f] : starts[f + 1]]:
+                if not _may_touch(points[f, q], normals[f, q], middles[c], radii[c], outward[c], above, below):
+                    continue
                 _closest(x, points[f, q], facets[c], lattice, xi, shapes, place)
                 if abs(xi[0]) > 1.0 + margin or abs(xi[1]) > 1.0 + margin:
                     continue
@@ -199,7 +224,8 @@ def contact_blocks(
     slave: tuple[Index, Array],
     master: tuple[Index, Array, tuple[int, int]],
     xi: Array,
-    law: Array,
+    touch: Array,
+    law: tuple[float, float],
     blocks: tuple[Array, Array],
 ) -> None:
     """Force and stiffness of each touching point on the nodes of its slave facet, then of its master facet.
@@ -210,7 +236,8 @@ def contact_blocks(
     slave : nodes (c, k) and shape functions (c, k) of each contact's slave point
     master : facets (c, l) and sides (c,) of each contact, lattice
     xi : (c, 2) closest points
-    law : (c, 3) gap [m], force [N] that the pressure exerts and its stiffness -d force / d gap [N/m] of each contact
+    touch : (c, 2) gap [m] and undeformed area [m^2] of each contact
+    law : penalty stiffness [N/m^3] and ramp [m]
     blocks : force (c, k + l, dim) and stiffness (c, k + l, dim, k + l, dim) that are filled
     """
     nodes_s, N = slave
@@ -224,6 +251,8 @@ def contact_blocks(
         _shapes(lattice, xi[c, 0], xi[c, 1], shapes)
         _place(x, facets[c], lattice, shapes, place)
         _normal(place, sides[c], n)
+        gap, area = touch[c, 0], touch[c, 1]
+        pressure, slope = ramped_pressure(gap, law[0], law[1])
         for a in range(n_s + n_m):
             N_a = N[c, a] if a < n_s else -shapes[0, a - n_s]
             for i in range(dim):
@@ -232,12 +261,12 @@ def contact_blocks(
                 for d in range(2):
                     tau[d, k] = N_a * place[1 + d, i]
                     nu[d, k] = 0.0 if a < n_s else shapes[1 + d, a - n_s] * n[i]
-                force[c, a, i] = law[c, 1] * dg[k]
+                force[c, a, i] = area * pressure * dg[k]
         K = stiffness[c].reshape(size, size)
-        _turning(place, n, law[c, 0], -law[c, 1], (tau, nu), K)
+        _turning(place, n, gap, -area * pressure, (tau, nu), K)
         for k in range(size):
             for m in range(size):
-                K[k, m] += law[c, 2] * dg[k] * dg[m]
+                K[k, m] += area * slope * dg[k] * dg[m]
 
 
 @numba.njit(cache=True)

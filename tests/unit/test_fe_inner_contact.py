@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry import WheelDesign, build_mesh
+from geometry.planar import build_planar_mesh
 from reference_fe.dolfinx_api import fem
 from reference_fe.domain import Domain
 from reference_fe.inner_contact import ContactPair, InnerContact, InnerContactTerm
@@ -139,22 +140,23 @@ def test_a_face_does_not_touch_itself_across_its_own_edges() -> None:
 
 @pytest.mark.parametrize("bulge", [0.0, 0.3])
 def test_planar_edges_have_the_same_law(bulge: float) -> None:
-    """An edge is a facet extruded along the third axis: force by finite differences of the potential, k (g^2)/2."""
-    x = np.array([[0.0, 0, 0], [0.5, bulge, 0], [1.0, 0.1, 0], [0.3, 0.25 + bulge, 0]])
+    """An edge is a facet extruded along the third axis: its potential is k A g^2/2, k A = 2 here."""
+    x = np.array([[0.0, 0, 0], [0.5, bulge, 0], [1.0, 0.1, 0], [0.3, 0.8 * bulge - 0.1, 0]])
     master = (np.array([[0, 1, 2]]), np.array([-1.0]), (3, 1))
     touch = np.array([[[0.0, -1.0, 0.0]]])
 
     def contact(x: Array) -> tuple[Array, float]:
         candidates = (np.array([0, 1]), np.array([0]))
-        facet, xi, gap = nearest_contacts(x, x[None, 3:], touch, candidates, master, (1.0, 1.0, 1e-3))
+        balls = (np.array([[0.5, 0.0, 0.0]]), np.ones(1), np.array([[0.0, 1.0, 0.0]]))
+        facet, xi, gap = nearest_contacts(x, x[None, 3:], touch, candidates, master, balls, (1.0, 1.0, 1e-3))
         assert facet[0, 0] == 0
         return xi[0], float(gap[0, 0])
 
     def blocks(x: Array) -> tuple[Array, Array]:
         xi, gap = contact(x)
         force, stiffness = np.empty((1, 4, 2)), np.empty((1, 4, 2, 4, 2))
-        law = np.array([[gap, -2.0 * gap, 2.0]])
-        contact_blocks(x, (np.array([[3]]), np.ones((1, 1))), master, xi, law, (force, stiffness))
+        touch, law = np.array([[gap, 2.0]]), (1.0, 1e-6)
+        contact_blocks(x, (np.array([[3]]), np.ones((1, 1))), master, xi, touch, law, (force, stiffness))
         return force[0], stiffness[0]
 
     force, stiffness = blocks(x)
@@ -169,6 +171,50 @@ def test_planar_edges_have_the_same_law(bulge: float) -> None:
             np.testing.assert_allclose(-stiffness[:, :, a, i], slope, atol=1e-7)
 
 
+def test_a_planar_body_presses_with_its_width() -> None:
+    """Two bars in the plane, the upper one 0.3 m wide and 0.6 m long: force k times depth times 0.18 m^2."""
+    low, high = planar_bar(1.0, 0.0), planar_bar(0.6, 0.1 + GAP)
+    mesh = TaggedMesh(
+        points=np.vstack([low[0], high[0] + [0.2, 0.0]]),
+        cells=np.vstack([low[1], high[1] + len(low[0])]),
+        cell_tags=np.array([1, 2], dtype=np.int32),
+        facets=np.vstack([low[2], high[2] + len(low[0])]),
+        facet_tags=np.array([1, 2, 3, 4], dtype=np.int32),
+        parts={"body": 1, "lid": 2},
+        faces={"z0": 1, "z1": 2, "lid_z0": 3, "lid_z1": 4},
+        widths={"body": 1.0, "lid": 0.3},
+    )
+    domain = Domain.from_tagged(mesh)
+    term = LAW.build(domain, fem.functionspace(domain.mesh, ("Lagrange", 2, (2,))))
+    above = term.reference_positions[:, 1] > 0.1 + 0.5 * GAP
+    u = np.zeros((len(above), 2))
+    u[above, 1] = -GAP - 5e-3
+    forces, total = term.evaluate(u.ravel(), 0.0), np.zeros((len(above), 2))
+    np.add.at(total, forces.nodes, forces.force)
+    np.testing.assert_allclose(total[above].sum(axis=0), [0.0, 0.5 * 0.18], atol=1e-12)
+    np.testing.assert_allclose(total.sum(axis=0), 0.0, atol=1e-12)
+
+
+def planar_bar(length: float, base: float) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
+    """One 9-node cell, 0.1 m high: points, cell, and its lower and upper edge."""
+    places = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
+    points = np.array(places) * [0.5 * length, 0.05] + [0.0, base]
+    return points, np.arange(9)[None], np.array([[0, 1, 4], [2, 3, 6]])
+
+
+def test_restored_history_gives_the_pattern_back() -> None:
+    """A cut-back, or a run that is taken up again, has the couplings of the committed state."""
+    term = term_on(plates(), replace(LAW, reach=0.01))
+    before = term.state()
+    term.evaluate(sunk(term, GAP + 2e-3), 0.0)
+    after, version = term.state(), term.pattern_version
+    term.restore(before)
+    assert len(term.couplings()) == 0
+    assert term.pattern_version > version
+    term.restore(after)
+    assert len(term.couplings()) > 0
+
+
 def broken(change: Callable[[], InnerContact]) -> None:
     with pytest.raises(InputError, match=r"inner contact|ramp"):
         change()
@@ -180,6 +226,13 @@ def test_bad_settings_are_refused() -> None:
     domain = Domain.from_tagged(plates())
     with pytest.raises(InputError, match="Lagrange of the mesh's order"):
         LAW.build(domain, fem.functionspace(domain.mesh, ("Lagrange", 1, (3,))))
+
+
+def test_spring_sets_of_a_planar_wheel_pass_each_other() -> None:
+    pairs = wheel_contact_pairs(build_planar_mesh(WheelDesign(), element_size=14e-3))
+    names = {(pair.slave, pair.master) for pair in pairs}
+    assert {("springs_outer_front", "tire_inner"), ("springs_outer_front", "springs_outer_front")} <= names
+    assert ("springs_outer_front", "springs_inner_front") not in names
 
 
 def test_pairs_of_a_wheel() -> None:

@@ -33,3 +33,22 @@ def test_gap_closes_and_turns_negative(sink: float) -> None:
     displacement = np.zeros_like(mesh.points)
     displacement[len(mesh.points) // 2 :, 2] = -sink
     assert FaceOverlap(mesh, ("lid",), "z1").smallest_gap(displacement) == pytest.approx(GAP - sink, abs=1e-12)
+
+
+@pytest.mark.parametrize("sink", [0.0, 0.015, 0.05])
+def test_edges_of_a_planar_mesh_have_the_same_gap(sink: float) -> None:
+    square = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
+    low = np.array(square) * [0.5, 0.05]
+    mesh = TaggedMesh(
+        points=np.vstack([low, low + [0.0, 0.1 + GAP]]),
+        cells=np.arange(18).reshape(2, 9),
+        cell_tags=np.array([1, 2], dtype=np.int32),
+        facets=np.array([[2, 3, 6]]),
+        facet_tags=np.array([1], dtype=np.int32),
+        parts={"body": 1, "lid": 2},
+        faces={"top": 1},
+        widths={"body": 1.0, "lid": 0.5},
+    )
+    displacement = np.zeros_like(mesh.points)
+    displacement[9:, 1] = -sink
+    assert FaceOverlap(mesh, ("lid",), "top").smallest_gap(displacement) == pytest.approx(GAP - sink, abs=1e-12)
