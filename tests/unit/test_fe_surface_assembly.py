@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -117,6 +118,21 @@ def test_newton_solves_with_a_pattern_that_changes(compiled: bool) -> None:
         ends.append(made.u.x.array.copy())
     assert np.linalg.norm(ends[0] - ends[1]) > 1e-3 * np.linalg.norm(ends[0])
     np.testing.assert_allclose(ends[2], ends[0], atol=1e-9)
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+def test_room_in_the_pattern_is_kept_until_it_is_used(compiled: bool) -> None:
+    """A contact that opens only after the first matrix was assembled: same pattern, new entries."""
+    made, term = sprung_block(compiled=compiled)
+    spring = term.evaluate
+    term.evaluate = lambda u, lag: replace(spring(u, lag), nodes=np.full((1, 3), -1))  # type: ignore[method-assign]
+    made.residual()
+    matrix = made.tangent(None)
+    row, column = (3 * node for node in term.nodes)
+    assert matrix.getValue(row, column) == pytest.approx(0.0, abs=1e-12)
+    term.evaluate = spring  # type: ignore[method-assign]
+    made.residual()
+    assert made.tangent(matrix).getValue(row, column) == pytest.approx(-term.k, rel=1e-9)
 
 
 def test_augmentation_asks_for_more_solves() -> None:
