@@ -40,7 +40,7 @@ def test_edges_of_a_planar_mesh_have_the_same_gap(sink: float) -> None:
     square = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
     low = np.array(square) * [0.5, 0.05]
     mesh = TaggedMesh(
-        points=np.vstack([low, low + [0.0, 0.1 + GAP]]),
+        points=np.vstack([low, low + np.array([0.0, 0.1 + GAP])]),
         cells=np.arange(18).reshape(2, 9),
         cell_tags=np.array([1, 2], dtype=np.int32),
         facets=np.array([[2, 3, 6]]),
