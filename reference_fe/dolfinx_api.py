@@ -340,7 +340,11 @@ def distributed_matrix(
     if further is not None:
         rows, columns = np.concatenate([rows, further[0]]), np.concatenate([columns, further[1]])
     coordinates: Any = (rows.astype(PETSc.IntType), columns.astype(PETSc.IntType))
-    matrix.setPreallocationCOO(*coordinates)
+    if hasattr(matrix, "setPreallocationCOO"):
+        matrix.setPreallocationCOO(*coordinates)
+    else:  # petsc4py of PETSc 3.22 (Debian 13)
+        matrix.setUp()
+        matrix.setAttr("coordinates", coordinates)
     symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
     matrix.setOption(symmetric, True)
     return matrix
@@ -350,7 +354,19 @@ def distributed_values(matrix: PETSc.Mat, values: NDArray[np.float64]) -> None:
     """Set a matrix from `distributed_matrix` to the sum of all processes' values: CSR data, then further entries."""
     entries: Any = values  # the stubs know lists only
     replace: Any = PETSc.InsertMode.INSERT_VALUES
-    matrix.setValuesCOO(entries, replace)
+    if hasattr(matrix, "setValuesCOO"):
+        matrix.setValuesCOO(entries, replace)
+    else:
+        _add_triples(matrix, entries)
+
+
+def _add_triples(matrix: Any, values: NDArray[np.float64]) -> None:
+    """`distributed_values` entry by entry, for a petsc4py without COO assembly."""
+    rows, columns = matrix.getAttr("coordinates")
+    if matrix.assembled:
+        matrix.zeroEntries()
+    matrix.setValuesRCV(rows[:, None], columns[:, None], values[:, None, None], addv=PETSc.InsertMode.ADD_VALUES)
+    matrix.assemble()
 
 
 class PointEvaluation:
