@@ -24,6 +24,10 @@ from reference_fe.surface_term import SurfaceForces, TermState
 __all__ = ["ContactMethod", "ObstacleContact", "ObstacleTerm"]
 
 
+STIFFENING = 10.0
+"""Growth of the penalty stiffness with each of Uzawa's updates in an increment: a settled contact set bears it."""
+
+
 class ContactMethod(StrEnum):
     """How points are kept out of the obstacle."""
 
@@ -49,7 +53,7 @@ class ObstacleContact:
     obstacle : its shape
     along : unit vector of the profile's s axis in the ground [-]; None where it does not matter (plane)
     rise : unit direction of the obstacle's motion r [-]; None is n
-    stiffness : penalty stiffness [N/m^3]; None is the smallest `contact_facets.local_stiffness` of the faces
+    stiffness : penalty stiffness [N/m^3]; None takes `contact_facets.local_stiffness` on each facet
     ramp : gap below which the pressure begins, and above which (negative) it is linear [m]
     quadrature_degree : degree of the facet quadrature [-]
     method : penalty or augmented Lagrangian
@@ -118,7 +122,7 @@ class ObstacleTerm:
     Attributes
     ----------
     description : the contact as data
-    stiffness : penalty stiffness [N/m^3]
+    stiffness : (m,) penalty stiffness of each facet [N/m^3]; the augmented Lagrangian raises it within an increment
     symmetric : whether the tangent is symmetric: without friction
 
     Verified by tests/unit/test_fe_contact_obstacle.py and tests/verification/test_fe_ring.py.
@@ -131,7 +135,8 @@ class ObstacleTerm:
     ) -> None:
         self.description, self._comm = contact, domain.mesh.comm
         self._facets = ContactFacets.of(domain, V, contact.faces, contact.quadrature_degree)
-        self.stiffness = self._penalty(young_modulus) if contact.stiffness is None else contact.stiffness
+        self._base_stiffness = self._penalty(young_modulus)
+        self.stiffness = self._base_stiffness.copy()
         self.symmetric = contact.friction == 0.0
         self._normal, self._along, self._rise = contact.axes()
         self._control, self._pieces = 0.0, contact.obstacle.pieces()
@@ -191,17 +196,24 @@ class ObstacleTerm:
         local = float(max(0.0, -self._out.gap.min(initial=0.0)))
         return float(self._comm.allreduce(local, op=api.MPI.MAX))
 
+    def points_and_pressure(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """This process' deformed quadrature points (n, dim) [m] and the pressure there (n,) [Pa], pieces summed."""
+        dim = self._last_x.shape[2]
+        return self._last_x.reshape(-1, dim), self._out.pressure.sum(axis=-1).ravel()
+
     def augment(self) -> bool:
-        """Uzawa's update, if the penetration is too large."""
+        """Uzawa's update with a growing penalty stiffness, if the penetration is too large."""
         contact = self.description
         if contact.method is ContactMethod.PENALTY or self.penetration() <= contact.penetration_tolerance:
             return False
         self._multiplier[...] = self._out.pressure
+        self.stiffness *= STIFFENING
         return True
 
     def accept(self) -> None:
         """Commit multipliers, and traction and place for friction."""
         self._accepted_multiplier[...] = self._multiplier
+        self._soften()
         self._traction[...] = self._out.traction
         self._place[...] = self._last_x - self._control * self._rise
 
@@ -219,15 +231,24 @@ class ObstacleTerm:
         if "multiplier" in state:
             self._accepted_multiplier[...] = state["multiplier"]
             self._multiplier[...] = state["multiplier"]
+            self._soften()
         if "traction" in state:
             self._traction[...], self._place[...] = state["traction"], state["place"]
 
-    def _penalty(self, young_modulus: NDArray[np.float64] | None) -> float:
+    def _soften(self) -> None:
+        """Begin the next increment with the penalty stiffness as given: a soft contact finds its set sooner."""
+        self.stiffness = self._base_stiffness.copy()
+
+    def _penalty(self, young_modulus: NDArray[np.float64] | None) -> NDArray[np.float64]:
+        """Penalty stiffness of each facet; facets of rigid cells take the largest of the others."""
+        given, facets = self.description.stiffness, self._facets
+        if given is not None:
+            return np.full(len(facets.nodes), given)
         if young_modulus is None:
             raise InputError("contact stiffness", "None", "needs the cells' Young moduli", "give a stiffness")
-        local = local_stiffness(self._facets, young_modulus[self._facets.cells])
-        smallest = float(np.min(local[local > 0.0], initial=np.inf))
-        return float(self._comm.allreduce(smallest, op=api.MPI.MIN))
+        local = local_stiffness(facets, young_modulus[facets.cells])
+        largest = float(self._comm.allreduce(float(local.max(initial=0.0)), op=api.MPI.MAX))
+        return np.where(local > 0.0, local, largest)
 
     def _history(self) -> kernels.ContactHistory:
         return kernels.ContactHistory(multiplier=self._multiplier, traction=self._traction, place=self._place)
@@ -240,7 +261,7 @@ class ObstacleTerm:
             level=control * float(self._rise @ self._normal) - contact.distance_at_touch,
             start=control * float(self._rise @ self._along),
             pieces=self._pieces,
-            stiffness=np.full(len(self._facets.nodes), self.stiffness),
+            stiffness=self.stiffness,
             ramp=contact.ramp,
             friction=contact.friction,
             stick=contact.stick_ratio,

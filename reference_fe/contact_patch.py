@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,13 +18,13 @@ _GAUSS_POINTS = 9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactPatch:
-    """Where the body touches the plane.
+    """Where the body touches the obstacle.
 
     Attributes
     ----------
     area : undeformed area of the touching faces [m^2]
     length : extent of the touching faces along ``tangent`` [m]; 0 without contact
-    penetration : largest depth below the plane [m], >= 0
+    penetration : largest depth in the obstacle [m], >= 0
     """
 
     area: float
@@ -68,27 +68,26 @@ def measure_patch(
     mesh: TaggedMesh,
     facets: NDArray[np.int64],
     displacement: NDArray[np.float64],
-    plane: tuple[NDArray[np.float64], float],
+    gap_of: Callable[[NDArray[np.float64]], NDArray[np.float64]],
     tangent: NDArray[np.float64],
     touch_gap: float = 0.0,
 ) -> ContactPatch:
     """Contact patch of the deformed faces, from 9 x 9 Gauss points on each facet.
 
-    Inner points only: a face that meets the plane at its edge, such as a grouser's flank, adds no area.
+    Inner points only: a face that meets the ground at its edge, such as a grouser's flank, adds no area.
 
     Parameters
     ----------
     displacement : (n_points, dim) [m] at the mesh's nodes
-    plane : unit normal (plane to body) [-] and distance of the plane from the origin along -normal [m]
-    tangent : (dim,) unit vector in the plane along which the length is measured [-]
+    gap_of : normal gap (n,) [m] of points (n, dim) [m] from the obstacle
+    tangent : (dim,) unit vector in the ground along which the length is measured [-]
     touch_gap : normal gap below which a point counts as touching [m], e.g. the ramp of the contact law
     """
-    normal, distance = plane
     shape, derivatives, weights = _gauss(facets.shape[1])
     reference = mesh.points[facets]
     current = np.einsum("sn,fnk->fsk", shape, reference + displacement[facets])
     jacobian = np.linalg.norm(_area_vectors(derivatives, reference), axis=-1) * facet_widths(mesh, facets)[:, None]
-    gap = current @ normal + distance
+    gap = gap_of(current.reshape(-1, current.shape[-1])).reshape(current.shape[:-1])
     closed = gap < touch_gap
     if not closed.any():
         return ContactPatch(area=0.0, length=0.0, penetration=0.0)

@@ -18,6 +18,9 @@ ORDERING, PORD = 7, 4
 SCALING, NO_SCALING = 8, 0
 """Entries of MUMPS' control array ICNTL, and what they are set to."""
 
+AUGMENTATION_TOLERANCE = 1e-2
+"""Relative residual below which contact multipliers are improved; waiting for the goal costs more solves."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewtonSettings:
@@ -50,8 +53,9 @@ class NewtonOutcome:
     spurious : whether the tolerance was met by a state beyond the law's limit of compression, see
         `hyperelastic.SMALLEST_STRETCH`; a large first increment can find one
     stalled : whether the residual stopped falling near the tolerance: round-off, which no smaller increment cures
-    residuals : relative residual at each evaluation [-], one more than the number of linear solves; 1 stands for the
-        start of an increment, where nothing balances yet
+    residuals : relative residual at each evaluation [-]: at the start, where 1 means that nothing balances yet, after
+        each linear solve, and after each change of multipliers
+    augmentations : changes of the contact multipliers
     residual : (n_own_dofs,) residual at the last state, supported unknowns included [N]
     """
 
@@ -60,11 +64,12 @@ class NewtonOutcome:
     residual: NDArray[np.float64]
     spurious: bool = False
     stalled: bool = False
+    augmentations: int = 0
 
     @property
     def iterations(self) -> int:
         """Number of linear solves."""
-        return len(self.residuals) - 1
+        return len(self.residuals) - 1 - self.augmentations
 
 
 class NewtonSolver:
@@ -95,22 +100,28 @@ class NewtonSolver:
             self._step(problem.residual(), offset)
             problem.contact_lag, offset = 0.0, np.zeros(0)
             history.append(1.0)
-        residual = problem.residual()
+        residual, augmentations, goal = problem.residual(), 0, self.settings.relative_tolerance
         while True:
             history.append(self._relative(residual, moved=not history and offset.size > 0))
-            if history[-1] <= self.settings.relative_tolerance:
-                if problem.surfaces.augment() and len(history) <= self.settings.maximum_iterations:
-                    residual = problem.residual()
-                    continue
-                spurious = self._is_spurious()
+            augmented = history[-1] <= max(AUGMENTATION_TOLERANCE, goal) and problem.surfaces.augment()
+            reached = history[-1] <= goal and not augmented
+            stalled = not reached and self._is_stalled(history)
+            tired = len(history) - augmentations > self.settings.maximum_iterations
+            if reached or stalled or tired or not np.isfinite(history[-1]):
+                spurious = reached and self._is_spurious()
                 return NewtonOutcome(
-                    converged=not spurious, residuals=tuple(history), residual=residual, spurious=spurious
+                    converged=reached and not spurious,
+                    residuals=tuple(history),
+                    residual=residual,
+                    spurious=spurious,
+                    stalled=stalled,
+                    augmentations=augmentations,
                 )
-            stalled = self._is_stalled(history)
-            if stalled or not np.isfinite(history[-1]) or len(history) > self.settings.maximum_iterations:
-                return NewtonOutcome(converged=False, residuals=tuple(history), residual=residual, stalled=stalled)
-            self._step(residual, offset)
-            offset = np.zeros(0)
+            if augmented:
+                augmentations += 1
+            else:
+                self._step(residual, offset)
+                offset = np.zeros(0)
             residual = problem.residual()
 
     def _is_stalled(self, history: list[float]) -> bool:

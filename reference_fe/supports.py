@@ -1,4 +1,4 @@
-"""Boundary conditions of a static problem as data: supports and loads; a plane in contact."""
+"""Boundary conditions of a static problem as data: supports and loads."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from contracts.errors import InputError
-from reference_fe.contact_obstacle import ObstacleContact
 from reference_fe.dolfinx_api import Expr
 
-__all__ = ["BodyForce", "EdgeLoad", "EndMoment", "PlaneContact", "Support", "Traction"]
+__all__ = ["BodyForce", "EdgeLoad", "EndMoment", "Support", "Traction"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,7 +126,3 @@ class EndMoment:
                 raise InputError(f"end moment {what}", vector, "must have length 1", "normalise it")
         if abs(sum(a * d for a, d in zip(self.axis, self.director, strict=True))) > 1e-9:
             raise InputError("end moment director", self.director, "must be at right angles to the axis", "turn it")
-
-
-PlaneContact = ObstacleContact
-"""Contact with a rigid plane: the obstacle that an `ObstacleContact` has by default."""

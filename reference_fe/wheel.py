@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,19 +20,21 @@ from contracts.frames import ground_direction_h
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from reference_fe.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
-from reference_fe.contact_patch import ContactPatch, contact_faces, distance_at_touch, measure_patch
+from reference_fe.contact_obstacle import ContactMethod, ObstacleContact, ObstacleTerm
+from reference_fe.contact_patch import ContactPatch, contact_faces, facet_samples, measure_patch
 from reference_fe.domain import Domain
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.increments import ConvergedState, solve_increments
 from reference_fe.inner_contact import InnerContact, InnerContactTerm
 from reference_fe.inner_contact_pairs import wheel_contact_pairs
 from reference_fe.newton import NewtonSettings, NewtonSolver
+from reference_fe.obstacles import Obstacle, Plane, touch_level
 from reference_fe.orientation import curved_axis_first
 from reference_fe.overlap import FaceOverlap
 from reference_fe.static_problem import Discretisation, StaticProblem
 from reference_fe.stored_energy import StoredEnergy
 from reference_fe.stress import StressRecovery
-from reference_fe.supports import PlaneContact, Support
+from reference_fe.supports import Support
 from reference_fe.thermal_state import solve_thermal_state
 
 __all__ = ["FieldSnapshot", "WheelLoadCase", "WheelResult", "solve_wheel"]
@@ -42,18 +45,22 @@ HUB_PARTS = ("outer_hub", "cone", "impact_springs", "inner_hub")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WheelLoadCase:
-    """One orientation of the wheel pressed on a plane.
+    """One orientation of the wheel pressed on a plane or another rigid obstacle.
 
     Attributes
     ----------
-    orientation_deg : circumferential position that faces the plane [deg]
-    deflections : wanted points of the curve, rise of the plane from first touch [m]
+    orientation_deg : circumferential position that faces the ground [deg]
+    deflections : wanted points of the curve, rise of the obstacle along its ground's normal from first touch [m]
     maximum_load : the run ends at the first point with at least this load [N]
     snapshot_loads : loads of the full wheel at which fields are kept [N]
     rigid_parts : parts held rigid, of those the mesh has; if the inner hub is not among them, its bore is held instead
     inner_contact : whether springs, rim and hubs hold each other off; else they pass through each other
     law : stored energy
-    contact_stiffness : penalty stiffness per undeformed area [N/m^3]
+    obstacle : what the wheel is pressed on; its s axis points forward, turned by its yaw about the ground's normal
+    camber_deg : angle by which the obstacle is turned about the forward direction [deg]; positive lifts its left side
+    contact_method : penalty or augmented Lagrangian, see `contact_obstacle.ContactMethod`
+    contact_stiffness : penalty stiffness per undeformed area [N/m^3]; None is `contact_facets.local_stiffness`
+    friction : Coulomb coefficient on the obstacle [-]
     inner_contact_stiffness : the same between the wheel's own parts [N/m^3]
     contact_ramp : gap at which the contact pressure begins [m], see `contact_law.ramped_pressure`
     gauss_points : Gauss points along the curved axis and the others of a cell, see `Discretisation`; a planar mesh
@@ -69,7 +76,11 @@ class WheelLoadCase:
     rigid_parts: tuple[str, ...] = HUB_PARTS
     inner_contact: bool = True
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
-    contact_stiffness: float = 1e11
+    obstacle: Obstacle = field(default_factory=Plane)
+    camber_deg: float = 0.0
+    contact_method: ContactMethod = ContactMethod.PENALTY
+    contact_stiffness: float | None = 1e11
+    friction: float = 0.0
     inner_contact_stiffness: float = 1e11
     contact_ramp: float = 5e-6
     gauss_points: tuple[int, ...] = (2, 3, 3)
@@ -79,6 +90,8 @@ class WheelLoadCase:
     def __post_init__(self) -> None:
         if not np.isfinite(self.orientation_deg):
             raise InputError("orientation", f"{self.orientation_deg} deg", "must be finite", "give degrees, e.g. 15")
+        if not abs(self.camber_deg) < 90.0:
+            raise InputError("camber", f"{self.camber_deg} deg", "must lie between -90 and 90 deg", "e.g. 10")
         if not self.maximum_load > 0.0:
             raise InputError("maximum load", f"{self.maximum_load:g} N", "must be > 0", "300 N covers the reference")
 
@@ -145,7 +158,8 @@ def solve_wheel(
     Returns
     -------
     result : the curve's columns are ``contact_length_m`` (extent along the ground), ``contact_area_m2``,
-        ``penetration_m``, ``force_imbalance`` (support plus contact force over contact force),
+        ``penetration_m`` (also between the points of contact), ``contact_point_penetration_m``,
+        ``force_imbalance`` (support plus contact force over contact force),
         ``relative_residual``, ``newton_iterations``, ``spring_rim_gap_m`` (smallest distance of the springs from the
         rim's inside; negative is overlap: the contact's penetration, or more without inner contact),
         ``stored_energy_J`` (elastic energy), ``inner_penetration_m`` (largest at any point of inner contact) and
@@ -194,6 +208,9 @@ class _WheelRun:
         self.direction = direction[axes]
         self.tangent = np.array([-direction[2], 0.0, direction[0]])[axes]
         self.half_width = "symmetry" in mesh.faces
+        _check_symmetry(load_case, prismatic=self.half_width or mesh.dim == 2)
+        normal, along = ground_axes(direction, load_case)
+        self.normal = normal[axes]
         supports = _hub_supports(mesh, rigid, materials)
         if self.half_width:
             supports.append(Support(faces=("symmetry",), components=(1,)))
@@ -204,25 +221,32 @@ class _WheelRun:
             held = load_case.transverse_constraint
             expanded = solve_thermal_state(domain, flexible, supports, discretisation, load_case.newton, held)
             shape = replace(mesh, points=mesh.points + expanded.nodal_displacement())
-        self.touch = distance_at_touch(shape, self.facets, self.direction)
-        n = -self.direction
+        points, _ = facet_samples(shape.points, self.facets)
+        self.touch = -touch_level(load_case.obstacle, points @ along[axes], points @ self.normal)
+        self.contact = ObstacleContact(
+            faces=faces,
+            normal=tuple(self.normal.tolist()),
+            along=tuple(along[axes].tolist()),
+            obstacle=load_case.obstacle,
+            distance_at_touch=self.touch,
+            stiffness=load_case.contact_stiffness,
+            ramp=load_case.contact_ramp,
+            method=load_case.contact_method,
+            friction=load_case.friction,
+        )
         self.problem = StaticProblem(
             domain,
             flexible,
             supports,
-            contact=PlaneContact(
-                faces=faces,
-                normal=tuple(n.tolist()),
-                distance_at_touch=self.touch,
-                stiffness=load_case.contact_stiffness,
-                ramp=load_case.contact_ramp,
-            ),
+            contact=self.contact,
             surfaces=[inner] if (inner := _inner_contact(mesh, load_case)) else [],
             discretisation=discretisation,
             transverse_constraint=load_case.transverse_constraint,
         )
         if expanded is not None:
             self.problem.u.x.array[:] = expanded.u.x.array
+            self.problem.residual()
+            self.problem.surfaces.accept()  # friction counts slip from here
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress = StressRecovery(self.problem)
         self.energy = StoredEnergy(self.problem)
@@ -238,23 +262,28 @@ class _WheelRun:
         return [term for term in self.problem.surfaces.terms if isinstance(term, InnerContactTerm)]
 
     @property
+    def _obstacle_term(self) -> ObstacleTerm:
+        return next(term for term in self.problem.surfaces.terms if isinstance(term, ObstacleTerm))
+
+    @property
     def _sides(self) -> float:
         return 2.0 if self.half_width else 1.0
 
     def record(self, state: ConvergedState) -> float:
         """Add one converged state to the curve, with the snapshots passed on the way; returns its load [N]."""
-        load = self._load(state.contact_force)
+        load, depth = self._load(state.contact_force), self._obstacle_term.penetration()
         for wanted in self.load_case.snapshot_loads:
             if self.rows[-1]["load_N"] < wanted <= load:
                 self._keep_snapshot(wanted, state.control, load)
-        normal, distance = -self.direction, self.touch - state.control
         displacement = self.problem.nodal_displacement()
         ramp = self.load_case.contact_ramp
-        patch = measure_patch(self.mesh, self.facets, displacement, (normal, distance), self.tangent, ramp)
+        gap = partial(self.contact.gap, control=state.control)
+        patch = measure_patch(self.mesh, self.facets, displacement, gap, self.tangent, ramp)
         force = float(np.linalg.norm(state.contact_force))
         imbalance = float(np.linalg.norm(state.reaction + state.contact_force)) / force if force else 0.0
         row = self._row(state.control, load, patch)
         row["force_imbalance"], row["relative_residual"] = imbalance, state.outcome.residuals[-1]
+        row["contact_point_penetration_m"] = depth
         row["newton_iterations"] = float(state.outcome.iterations)
         if self.overlap is not None:
             row["spring_rim_gap_m"] = self.overlap.smallest_gap(displacement)
@@ -309,7 +338,7 @@ class _WheelRun:
             self.snapshots.append(FieldSnapshot(load=load, deflection=deflection, **fields))
 
     def _load(self, contact_force: NDArray[np.float64]) -> float:
-        return float(-self._sides * contact_force @ self.direction)
+        return float(self._sides * contact_force @ self.normal)
 
     def _row(self, deflection: float, load: float, patch: ContactPatch) -> dict[str, float]:
         return {
@@ -318,6 +347,7 @@ class _WheelRun:
             "contact_length_m": patch.length,
             "contact_area_m2": self._sides * patch.area,
             "penetration_m": patch.penetration,
+            "contact_point_penetration_m": 0.0,
             "force_imbalance": 0.0,
             "relative_residual": 0.0,
             "newton_iterations": 0.0,
@@ -341,6 +371,22 @@ class _WheelRun:
             )
         problem.restore(here)
         problem.set_control(control)
+
+
+def ground_axes(down: NDArray[np.float64], load_case: WheelLoadCase) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Unit normal of the ground, to the wheel, and the obstacle's s axis, (3,) each; the wheel stands on ``down``."""
+    up, forward, left = -down, np.array([-down[2], 0.0, down[0]]), np.array([0.0, 1.0, 0.0])
+    camber, yaw = np.deg2rad(load_case.camber_deg), np.deg2rad(load_case.obstacle.yaw_deg)
+    normal, across = np.cos(camber) * up - np.sin(camber) * left, np.cos(camber) * left + np.sin(camber) * up
+    return normal, np.cos(yaw) * forward + np.sin(yaw) * across
+
+
+def _check_symmetry(load_case: WheelLoadCase, *, prismatic: bool) -> None:
+    """Refuse a half-width or planar wheel on an obstacle that is not symmetric about its mid-plane."""
+    turned = load_case.camber_deg or load_case.obstacle.yaw_deg
+    if prismatic and turned:
+        rule = "breaks the symmetry of a half-width or planar mesh"
+        raise InputError("camber or yaw", f"{turned:g} deg", rule, "mesh the full width")
 
 
 def _inner_contact(mesh: TaggedMesh, load_case: WheelLoadCase) -> InnerContact | None:

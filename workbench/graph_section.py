@@ -20,6 +20,8 @@ _SECTION = Origin(
 
 def without_planar_model(study: Study) -> InputError | None:
     """Why a study's wheel has no planar model here; None if it has one."""
+    if study.fe.turned:
+        return InputError("fe.camber or yaw", "not 0", "turns the ground out of the section plane", "use --model fe")
     if study.fe.material_law != "st_venant_kirchhoff":
         return InputError("fe.material_law", study.fe.material_law, "has no planar form", "use st_venant_kirchhoff")
     if study.wheel.sidewall_springs is not None:

@@ -13,6 +13,7 @@ from typing import Annotated
 from pydantic import Field
 
 from workbench.quantities import Force, Length, Stiffness
+from workbench.study_contact import PenaltyStudySection
 from workbench.study_environment import EnvironmentSection
 from workbench.study_sections import (
     AncfSection,
@@ -83,6 +84,7 @@ class Study(WheelStudy):
     mesh_study : the meshes that give the numerical uncertainty of the FE curves
     full : what `workbench report --full` takes instead of the study's orientations and mesh
     hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
+    penalty_study : where the load is held against other contact penalties; None to leave it out
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
     """
@@ -92,6 +94,7 @@ class Study(WheelStudy):
     fe: FeSection
     mesh_study: MeshStudySection
     hub_study: HubStudySection | None = None
+    penalty_study: PenaltyStudySection | None = None
     full: FullSection = FullSection()
     ancf: AncfSection
     brush: BrushSection

@@ -95,6 +95,13 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
             rule="must be one of fe.orientations",
             hint="add it there or choose one of them",
         )
+    penalty = study.penalty_study
+    if penalty is not None and penalty.deflection > fe.max_deflection:
+        value, rule = f"{1e3 * penalty.deflection:g} mm", "must not exceed fe.max_deflection"
+        yield BrokenRule(key="penalty_study.deflection", value=value, rule=rule, hint="choose a smaller one")
+    if fe.turned and study.mesh.half_width:
+        rule = "turns the ground out of the plane of symmetry that mesh.half_width relies on"
+        yield BrokenRule(key="fe.camber", value="not 0", rule=rule, hint="set mesh.half_width = false")
     if study.mesh.factor not in mesh_study.factors:
         yield BrokenRule(
             key="mesh_study.factors",

@@ -10,10 +10,21 @@ import math
 from itertools import pairwise
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictBool, StrictInt, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    StrictBool,
+    StrictInt,
+    ValidatorFunctionWrapHandler,
+    field_validator,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
 from workbench.quantities import Angle, Bedding, Density, Force, Length, Number, Pressure, Stiffness, Viscosity
+from workbench.study_contact import ObstacleSection, PlaneSection
 
 __all__ = [
     "AncfSection",
@@ -119,14 +130,29 @@ class FeSection(Section):
     max_load: Annotated[Force, Positive]
     snapshot_loads: tuple[Annotated[Force, Positive], ...] = ()
     material_law: Literal["st_venant_kirchhoff", "neo_hookean"] = "st_venant_kirchhoff"
-    contact_stiffness: Annotated[
-        Bedding, Positive, _between(1e6, 1e15, "1e6 N/m^3 and 1e15 N/m^3", "1e11 N/m^3 is usual")
-    ] = 1e11
+    contact_stiffness: (
+        Annotated[Bedding, Positive, _between(1e6, 1e15, "1e6 N/m^3 and 1e15 N/m^3", "1e11 N/m^3 is usual")] | None
+    ) = 1e11
+    """None, written "auto", takes it from the local stiffness of the mesh."""
+    contact_method: Literal["penalty", "augmented_lagrangian"] = "penalty"
+    friction: Annotated[Number, NotNegative] = 0.0
+    obstacle: ObstacleSection = PlaneSection()
+    camber: Annotated[Angle, _between(-1.0, 1.0, "-57 deg and 57 deg", "10 deg is much")] = 0.0
     inner_contact: StrictBool = True
     """Whether springs, rim and hubs hold each other off; else they pass through each other."""
     relative_tolerance: Annotated[Number, _between(1e-12, 1e-4, "1e-12 and 1e-4", "1e-8 is usual")] = 1e-8
     hub: Literal["rigid", "elastic"] = "rigid"
     """Rigid: the outer hub is held. Elastic: hubs, cone and impact springs deform; the inner hub's bore is held."""
+
+    @field_validator("contact_stiffness", mode="wrap")
+    @classmethod
+    def _automatic(cls, value: object, check: ValidatorFunctionWrapHandler) -> object:
+        return None if value == "auto" else check(value)
+
+    @property
+    def turned(self) -> bool:
+        """Whether the ground is turned out of the wheel's plane of symmetry."""
+        return bool(self.camber or getattr(self.obstacle, "yaw", 0.0))
 
 
 class MeshStudySection(Section):

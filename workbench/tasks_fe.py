@@ -16,6 +16,7 @@ from contracts.curves import write_curve
 from contracts.errors import ConvergenceError
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
+from reference_fe.contact_obstacle import ContactMethod
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.newton import NewtonSettings
 from reference_fe.wheel import FieldSnapshot, WheelLoadCase, WheelResult, solve_wheel
@@ -23,6 +24,7 @@ from workbench.field_file import write_fields
 from workbench.mesh_file import MESH, read_mesh
 from workbench.result_files import FAILURE, write_result
 from workbench.task import Progress
+from workbench.tasks_contact import obstacle_of
 
 __all__ = ["converged_part", "load_case", "solve_orientation"]
 
@@ -80,6 +82,10 @@ def load_case(inputs: Mapping[str, Any]) -> WheelLoadCase:
         rigid_parts=tuple(inputs["rigid_parts"]),
         law=MaterialLaw(inputs["material_law"]),
         contact_stiffness=inputs["contact_stiffness"],
+        obstacle=obstacle_of(inputs["obstacle"]),
+        camber_deg=inputs["camber_deg"],
+        contact_method=ContactMethod(inputs["contact_method"]),
+        friction=inputs["friction"],
         inner_contact=inputs["inner_contact"],
         newton=NewtonSettings(relative_tolerance=inputs["relative_tolerance"]),
     )

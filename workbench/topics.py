@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from workbench.study import Study
 from workbench.topic import Topic
+from workbench.topic_contact import CONTACT
 from workbench.topic_environment import ENVIRONMENT
 from workbench.topic_hub import HUB
 from workbench.topic_mesh_study import MESH_STUDY
@@ -13,7 +14,7 @@ from workbench.topic_strength import STRENGTH
 
 __all__ = ["TOPICS", "topics_of"]
 
-TOPICS: tuple[Topic, ...] = (ORIENTATIONS, MESH_STUDY, SECTION, HUB, STRENGTH, ENVIRONMENT)
+TOPICS: tuple[Topic, ...] = (ORIENTATIONS, MESH_STUDY, CONTACT, SECTION, HUB, STRENGTH, ENVIRONMENT)
 
 
 def topics_of(study: Study) -> tuple[Topic, ...]:

@@ -114,6 +114,31 @@ def test_history_changes_on_accept_only() -> None:
     np.testing.assert_array_equal(term.state()["traction"], 0.0)
 
 
+def test_force_of_a_step_on_a_flat_block_has_a_closed_form() -> None:
+    """Undeformed block of 1 m over a step's edge of radius r, sunk by d: k per area times the integrals of the depth.
+
+    On the flat k d (1/2 - r); on the edge k (r - d) (r asinh(x / (r - d)) - x) up, x^2 = r^2 - (r - d)^2, and k d^2 / 2
+    back. The moment about y turns the block off the step: force on the flat times its arm, plus the edge's small share.
+    """
+    k, r, d, n = 1e4, 0.1, 0.04, 120
+    domain = Domain.from_tagged(block_mesh((n, 1, 1), lambda X: X - [0.5, 0.5, 0.0]))
+    V = api.fem.functionspace(domain.mesh, ("Lagrange", 2, (3,)))
+    step = StepEdge(height=0.3, edge_radius=r)
+    vectors = {"normal": (0.0, 0.0, 1.0), "along": (1.0, 0.0, 0.0)}
+    term = ObstacleContact(
+        faces=("z0",), distance_at_touch=0.0, obstacle=step, stiffness=k, ramp=1e-9, **vectors
+    ).build(domain, V)
+    term.set_control(d)
+    term.evaluate(np.zeros(V.dofmap.index_map.size_global * 3), 0.0)
+    x = np.sqrt(r**2 - (r - d) ** 2)
+    flat, edge = d * (0.5 - r), (r - d) * (r * np.arcsinh(x / (r - d)) - x)
+    np.testing.assert_allclose(term.resultant(), [-k * d**2 / 2, 0.0, k * (flat + edge)], rtol=2e-4, atol=1e-9)
+    moment = term.moment()
+    np.testing.assert_allclose(moment[[0, 2]], 0.0, atol=1e-9)
+    assert -moment[1] == pytest.approx(k * (flat * 0.5 * (0.5 + r) + edge * (r - x / 3.0)), rel=0.01)
+    assert term.penetration() == pytest.approx(d)
+
+
 def test_impossible_contacts_are_refused() -> None:
     plane = {"faces": ("z0",), "distance_at_touch": 0.0}
     with pytest.raises(InputError, match="normal"):

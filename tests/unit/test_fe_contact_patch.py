@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -15,6 +17,10 @@ RADIUS = 0.1425
 def arc(X: NDArray[np.float64]) -> NDArray[np.float64]:
     angle, r = 0.4 * (X[:, 0] - 0.5), RADIUS * (1.0 + 0.01 * (X[:, 2] - 1.0))
     return np.column_stack([r * np.sin(angle), 0.06 * X[:, 1], -r * np.cos(angle)])
+
+
+def height_over(depth: float, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    return points[:, 2] + depth
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -34,7 +40,7 @@ def test_touch_of_an_arc_is_its_radius_at_any_orientation(angle: float) -> None:
 def test_patch_of_an_undeformed_arc_is_the_chord_below_the_plane() -> None:
     mesh, depth = block_mesh((60, 1, 1), arc), 1e-3
     half = np.sqrt(2 * RADIUS * depth - depth**2)
-    plane = (np.array([0.0, 0.0, 1.0]), RADIUS - depth)
+    plane = partial(height_over, RADIUS - depth)
     zero = np.zeros_like(mesh.points)
     patch = measure_patch(mesh, contact_faces(mesh, ["z1"]), zero, plane, np.array([1.0, 0.0, 0.0]))
     assert patch.length == pytest.approx(2 * half, rel=0.01)
@@ -44,7 +50,7 @@ def test_patch_of_an_undeformed_arc_is_the_chord_below_the_plane() -> None:
 
 def test_no_contact_gives_an_empty_patch() -> None:
     mesh = block_mesh((4, 1, 1), arc)
-    plane = (np.array([0.0, 0.0, 1.0]), RADIUS + 1e-3)
+    plane = partial(height_over, RADIUS + 1e-3)
     patch = measure_patch(
         mesh, contact_faces(mesh, ["z1"]), np.zeros_like(mesh.points), plane, np.array([1.0, 0.0, 0.0])
     )

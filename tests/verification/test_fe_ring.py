@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from contracts.materials import Material
+from reference_fe.contact_obstacle import ContactMethod, ObstacleContact
 from reference_fe.domain import Domain
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.increments import ConvergedState, solve_increments
@@ -24,7 +25,7 @@ from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.orientation import curved_axis_first
 from reference_fe.static_problem import Discretisation, StaticProblem
 from reference_fe.stress import StressRecovery
-from reference_fe.supports import PlaneContact, Support
+from reference_fe.supports import Support
 from tests.structured_hexahedra import block_mesh
 
 RADIUS, THICKNESS, WIDTH = 0.1425, 0.6e-3, 0.02
@@ -41,6 +42,8 @@ def quarter_ring(
     *,
     normal: tuple[float, float, float] = (0.0, 0.0, 1.0),
     thickness: float = THICKNESS,
+    stiffness: float = 1e9,
+    method: ContactMethod = ContactMethod.PENALTY,
 ) -> StaticProblem:
     """Quarter of the ring, symmetric at its lowest and foremost points, on a plane below it."""
 
@@ -50,8 +53,8 @@ def quarter_ring(
 
     mesh = curved_axis_first(block_mesh((elements, 1, 1), mapping))
     supports = [Support(faces=(face,), components=(axis,)) for face, axis in (("x0", 0), ("x1", 2), ("y0", 1))]
-    plane = PlaneContact(
-        faces=("z1",), normal=normal, distance_at_touch=RADIUS + thickness / 2, stiffness=1e9, quadrature_degree=8
+    plane = ObstacleContact(
+        faces=("z1",), normal=normal, distance_at_touch=RADIUS + thickness / 2, stiffness=stiffness, method=method
     )
     return StaticProblem(
         Domain.from_tagged(mesh), {"body": STRIP}, supports, contact=plane, discretisation=discretisation
