@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks_section import largest_difference, section_checks
 from workbench.graph_section import section_tasks, without_planar_model
@@ -23,7 +24,10 @@ __all__ = ["SECTION", "SectionRow", "SectionRuns"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SectionRow:
-    """One orientation in the table: unknowns, wall time [s], Newton iterations of both models, largest difference."""
+    """One orientation in the table: unknowns and wall time [s] of both models, iterations, largest difference [-].
+
+    The difference is None where a partial curve leaves no common point.
+    """
 
     orientation: float
     dofs: int
@@ -31,7 +35,7 @@ class SectionRow:
     iterations: int
     solid_dofs: int
     solid_s: float
-    difference: float
+    difference: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,8 +61,15 @@ class SectionRuns:
             iterations=sum(len(record["residuals"]) - 1 for record in ours["increments"]),
             solid_dofs=solid["dofs"],
             solid_s=solid["solve_s"],
-            difference=largest_difference(*curves),
+            difference=_difference(*curves),
         )
+
+
+def _difference(curve: StiffnessCurve, solid: StiffnessCurve) -> float | None:
+    try:
+        return largest_difference(curve, solid)
+    except InputError:
+        return None
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> SectionRuns:

@@ -16,6 +16,7 @@ from workbench.study import Study
 from workbench.study_file import built_in_study, read_study
 from workbench.study_sections import ToleranceSection
 from workbench.task import task_keys
+from workbench.topic_section import SectionRuns
 from workbench.topics import topics_of
 
 D = np.linspace(0.0, 0.03, 16)
@@ -56,6 +57,15 @@ def test_an_orientation_the_solid_model_lacks_is_not_evaluated() -> None:
     lone = replace(fe, by_orientation={0.0: fe.by_orientation[0.0]})
     by_id = {c.id: c for c in section_checks(curves("section", 1.0), lone, ToleranceSection())}
     assert by_id["section.vs_solid_phi022.5"].status == "error"
+
+
+def test_a_row_without_common_points_has_no_difference() -> None:
+    records = {"dofs": 10, "solve_s": 1.0, "increments": [{"residuals": [1.0, 0.1, 0.01]}]}
+    section, fe = (replace(curves(m, 1.02), numbers=dict.fromkeys((0.0, 22.5), records)) for m in ("section", "fe"))
+    assert [row.iterations for row in SectionRuns(section=section, fe=fe).rows] == [2, 2]
+    solid = fe.by_orientation[0.0]
+    short = replace(section, by_orientation={0.0: replace(solid, deflection=D[:2] * 1e-3, load=solid.load[:2])})
+    assert [row.difference for row in SectionRuns(section=short, fe=fe).rows] == [None]
 
 
 def test_section_tasks_need_no_mesh_and_see_every_size(study: Study) -> None:
