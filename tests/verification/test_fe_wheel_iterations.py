@@ -15,7 +15,7 @@ import pytest
 
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
-from reference_fe import wheel
+from reference_fe import wheel, wheel_problem
 from reference_fe.increments import ConvergedState
 from reference_fe.newton import NewtonSolver
 from reference_fe.static_problem import Discretisation
@@ -50,7 +50,7 @@ def test_plain_newton_does_not_make_it_in_one_increment(monkeypatch: pytest.Monk
     def plain(**choices: Any) -> Discretisation:
         return Discretisation(**choices, mixed_integration_points=False)
 
-    monkeypatch.setattr(wheel, "Discretisation", plain)
+    monkeypatch.setattr(wheel_problem, "Discretisation", plain)
     monkeypatch.setattr(wheel, "solve_increments", one_attempt)
     with pytest.raises(RuntimeError, match="cut back"):
         to_30_mm(1)
