@@ -8,7 +8,7 @@ the master, so that the contact has a potential and a symmetric stiffness. docs/
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,19 +84,21 @@ class InnerContactTerm:
     reference_positions : (n_nodes, 3) of the displacement space's nodes [m]
     pattern_version : changes when facets meet that had no room in the matrix
     largest_penetration : at the last evaluation [m]
-    whole_body : its nodes have the numbers over all processes, and every process evaluates all of it
+    whole_body : its nodes have the numbers over all processes; each process searches for its share of the slave facets,
+        and all hear of what was found
 
     Verified by tests/unit/test_fe_inner_contact.py and tests/verification/test_fe_touching_parts.py.
     """
 
     def __init__(self, description: InnerContact, domain: Domain, V: api.Expr) -> None:
         self._law, self._dim = description, int(V.dofmap.index_map_bs)
-        self.whole_body = domain.mesh.comm.size > 1
+        self._comm = domain.mesh.comm
+        self.whole_body = self._comm.size > 1
         self.reference_positions = node_positions(domain, V)
         names = {name for pair in description.pairs for name in (pair.slave, pair.master)}
         made = {name: contact_surface(domain, V, name, description.gauss_points) for name in sorted(names)}
         self._sides = [
-            _TwoSides(made[pair.slave], made[pair.master], self.reference_positions, description)
+            _TwoSides(made[pair.slave], made[pair.master], self.reference_positions, description, self._share())
             for pair in description.pairs
         ]
         self.pattern_version, self.largest_penetration = 0, 0.0
@@ -105,7 +107,8 @@ class InnerContactTerm:
 
     def couplings(self) -> Index:
         """Nodes of every pair of facets that touches, or nearly did when the pattern was last laid out, (m, k)."""
-        groups = [side.couplings() for side in self._sides]
+        own = [side.couplings() for side in self._sides]
+        groups = [group for share in self._of_all(own) for group in share]
         width = max((g.shape[1] for g in groups), default=0)
         out = np.full((sum(map(len, groups)), width), -1, dtype=np.int64)
         row = 0
@@ -122,12 +125,21 @@ class InnerContactTerm:
         x = self.reference_positions.copy()
         x[:, : self._dim] += u.reshape(-1, self._dim)
         batches = [side.blocks(x, self._dim) for side in self._sides]
-        if any(side.has_new_pairs() for side in self._sides):
+        if any(self._of_all(any(side.has_new_pairs() for side in self._sides))):
             for side in self._sides:
                 side.note_near(x)
             self.pattern_version += 1
-        self.largest_penetration = max((side.largest_penetration for side in self._sides), default=0.0)
-        return _joined(batches, self._dim)
+        deepest = max((side.largest_penetration for side in self._sides), default=0.0)
+        self.largest_penetration = float(max(self._of_all(deepest)))
+        return _joined([batch for share in self._of_all(batches) for batch in share], self._dim)
+
+    def _share(self) -> slice:
+        """This process' slave facets."""
+        return slice(self._comm.rank, None, self._comm.size)
+
+    def _of_all[T](self, mine: T) -> list[T]:
+        """The value of every process."""
+        return [mine] if self._comm.size == 1 else self._comm.allgather(mine)
 
     def resultant(self) -> Array:
         """Zero: action is reaction."""
@@ -153,16 +165,19 @@ class InnerContactTerm:
 
 
 class _TwoSides:
-    """One pair of surfaces: search, law, blocks."""
+    """One pair of surfaces: search, law, blocks, for a share of the slave's facets."""
 
-    def __init__(self, slave: ContactSurface, master: ContactSurface, X: Array, law: InnerContact) -> None:
+    def __init__(
+        self, slave: ContactSurface, master: ContactSurface, X: Array, law: InnerContact, share: slice
+    ) -> None:
+        self.shared = _share_nodes(master)[share] if slave is master else None
+        slave = replace(slave, facets=slave.facets[share], sides=slave.sides[share], widths=slave.widths[share])
         self.slave, self.master, self.law = slave, master, law
         _, _, areas = slave.frames(X)
         self.areas = areas * slave.weights * slave.widths[:, None]
         self.shape = shape_values(slave.lattice, slave.at)
         self.known, self.touching = set[tuple[int, int]](), np.zeros((0, 2), dtype=np.int64)
         self.largest_penetration = 0.0
-        self.shared = _share_nodes(slave) if slave is master else None
         gap = self._nearest(X, law.least_gap, 0.0)[2]
         self.excluded = gap < law.least_gap
 

@@ -1,8 +1,8 @@
-"""Surface terms that may join any two nodes of the body, on several processes: every process evaluates them whole.
+"""Surface terms that may join any two nodes of the body, on several processes, in the numbers of the whole.
 
-Contact between parts finds its partners wherever they are. So each process gathers the whole displacement, evaluates
-the term in the global numbers of the nodes, and keeps the rows of force and stiffness that belong to it. Verified by
-tests/verification/test_fe_ranks.py.
+Contact between parts finds its partners wherever they are. So each process gathers the whole displacement, the term is
+evaluated in the global numbers of the nodes (it may share that work itself), and each keeps the rows of force and
+stiffness that belong to it. Verified by tests/verification/test_fe_ranks.py.
 """
 
 from __future__ import annotations
