@@ -25,7 +25,7 @@ def test_the_full_report_covers_a_period_and_shows_it(
     summary = json.loads((workspace / "full" / "summary.json").read_text(encoding="utf-8"))
     mirror = next(check for check in summary["checks"] if check["id"] == "fe.mirror_symmetry")
     assert mirror["status"] == "pass"
-    assert 0.0 < mirror["value"] < 1e-4
+    assert mirror["value"] < 1e-4  # of two runs; the CSV files' twelve digits may be the same
     page = (workspace / "full" / "report.html").read_text(encoding="utf-8")
     for words in ("full study", "cover one period in equal steps", "40° and 80°", "orientation-map"):
         assert words in page, words
