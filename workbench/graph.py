@@ -124,16 +124,9 @@ def _plate_task() -> Task:
     return Task(
         name="ancf_plate",
         function="workbench.tasks_ancf:verify_plate",
-        inputs={"reference_sha256": _plate_reference_hash()},
+        inputs={},
         **_ANCF,
     )
-
-
-def _plate_reference_hash() -> dict[str, str]:
-    from workbench.fingerprint import file_sha256
-
-    folder = Path(__file__).parent / "data" / "ancf_plate"
-    return {path.name: file_sha256(path) for path in sorted(folder.glob("*.csv"))}
 
 
 def _metrics_task(study: Study, curves: Sequence[str], curve_folder: Path) -> Task:

@@ -21,12 +21,11 @@ from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import TirePreset
 from ancf_reduced.tire_surfaces import outer_face_error
 from contracts.curves import write_curve
+from contracts.published import published_matrix
 from workbench.result_files import write_result
 from workbench.task import Progress
 
 __all__ = ["plate_element_errors", "solve_orientation", "verify_plate"]
-
-DATA = Path(__file__).parent / "data" / "ancf_plate"
 
 
 def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
@@ -68,5 +67,5 @@ def plate_element_errors() -> dict[str, float]:
 
 
 def _relative_error(values: NDArray[np.float64], name: str) -> float:
-    reference = np.loadtxt(DATA / f"{name}.csv", delimiter=",", comments="#")
+    reference = published_matrix(f"ancf_plate_{name}")
     return float(np.abs(values - reference).max() / np.abs(reference).max())

@@ -13,7 +13,7 @@ from contracts.mesh import TaggedMesh
 from geometry import build_mesh, exomars
 from geometry.inp import TWENTY_NODES
 from reference_fe.orientation import curved_axis_first
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 __all__ = ["FRONT", "REAR", "TOLERANCE", "Description", "LoadCase", "from_description", "half_cylinder", "wheel"]
 
@@ -71,7 +71,7 @@ class LoadCase:
 def half_cylinder(around: int, across: int) -> LoadCase:
     """Clamped half cylinder, R 140 mm, t 2 mm, W 100 mm, its outer crown line pressed down by 20 mm.
 
-    Source: tests/data/fe_code_to_code.
+    Source: contracts/published/halfcyl_crown_reaction.csv.
     """
 
     def mapping(X: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -21,8 +21,8 @@ import pytest
 from contracts.curves import read_curve
 from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 from tests.end_to_end.small_study import run
-from tests.structured_hexahedra import block_mesh
 from tests.unit.test_workbench_runner import Recorder
 from workbench.fingerprint import file_sha256
 from workbench.mesh_file import MESH, write_mesh

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from reference_fe.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 
 class Notes:

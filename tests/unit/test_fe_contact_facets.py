@@ -9,7 +9,7 @@ from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
 from reference_fe.contact_facets import ContactFacets, local_stiffness
 from reference_fe.domain import Domain
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 FACES = ("x0", "x1", "y0", "y1", "z0", "z1")
 

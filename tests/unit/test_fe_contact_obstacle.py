@@ -11,7 +11,7 @@ from reference_fe import dolfinx_api as api
 from reference_fe.contact_obstacle import ContactMethod, ObstacleContact, ObstacleTerm
 from reference_fe.domain import Domain
 from reference_fe.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 OBSTACLES = [Plane(), StepEdge(height=0.5, edge_radius=0.2), HalfRoundRock(radius=0.7, position=0.1)]
 TILT = (np.sin(0.2), 0.0, np.cos(0.2))

@@ -8,7 +8,7 @@ import pytest
 from contracts.errors import InputError
 from reference_fe.dolfinx_api import facet_midpoints
 from reference_fe.domain import Domain
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 
 @pytest.mark.parametrize("order", [1, 2])

@@ -18,7 +18,7 @@ from reference_fe.domain import Domain
 from reference_fe.inner_contact import ContactPair, InnerContact, InnerContactTerm
 from reference_fe.inner_contact_kernels import contact_blocks, nearest_contacts
 from reference_fe.inner_contact_pairs import wheel_contact_pairs
-from tests.structured_hexahedra import block_mesh, stacked
+from reference_fe.verification.structured_hexahedra import block_mesh, stacked
 
 Array = NDArray[np.float64]
 GAP = 0.02

@@ -12,7 +12,7 @@ from reference_fe.dolfinx_api import ufl
 from reference_fe.domain import Domain
 from reference_fe.static_problem import Discretisation, ElementFamily, StaticProblem
 from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Support, Traction
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 SOFT = Material(name="soft", young_modulus=1e6, poisson_ratio=0.3, density=1.0, yield_strength=1e9, source="none")
 RADIUS, WIDTH, THICKNESS = 2.0, 0.5, 0.1

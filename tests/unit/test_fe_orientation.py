@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from reference_fe.orientation import curved_axis_first
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 from tests.structured_quadrilaterals import planar_block
 
 

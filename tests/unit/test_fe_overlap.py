@@ -9,7 +9,7 @@ import pytest
 
 from contracts.mesh import TaggedMesh
 from reference_fe.overlap import FaceOverlap
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 GAP = 0.02
 

@@ -15,7 +15,7 @@ from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.static_problem import Discretisation, StaticProblem
 from reference_fe.supports import Support
 from reference_fe.surface_term import SurfaceForces
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 SOFT = Material(name="a", young_modulus=3.0, poisson_ratio=0.3, density=1.0, yield_strength=1.0, source="test")
 

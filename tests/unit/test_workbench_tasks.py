@@ -14,6 +14,7 @@ from ancf_reduced.tire_preset import thesis_preset
 from contracts.curves import StiffnessCurve, read_curve, write_curve
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
+from contracts.published import published_matrix
 from rover_dynamics.brush_tire import THESIS_BRUSH
 from workbench import tasks_ancf, tasks_brush, tasks_metrics
 from workbench.field_file import write_fields
@@ -26,7 +27,7 @@ def _ignore(fraction: float) -> None:
 
 
 def test_plate_element_agrees_with_the_exact_matrices() -> None:
-    """Claim: mass, gravity and elastic force agree with exact quadrature to 1e-10 (source: workbench/data/ancf_plate).
+    """Claim: mass, gravity and elastic force agree with exact quadrature to 1e-10 (source: contracts/published).
 
     Negative control below: the same measure on a plate with 1 % less stiffness is far outside.
     """
@@ -36,7 +37,7 @@ def test_plate_element_agrees_with_the_exact_matrices() -> None:
 
 
 def test_negative_control_the_plate_measure_sees_one_percent() -> None:
-    damaged = 1.01 * np.loadtxt(tasks_ancf.DATA / "elastic_force.csv", delimiter=",", comments="#")
+    damaged = 1.01 * published_matrix("ancf_plate_elastic_force")
     assert tasks_ancf._relative_error(damaged, "elastic_force") == pytest.approx(0.01)
 
 

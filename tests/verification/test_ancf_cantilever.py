@@ -1,7 +1,7 @@
 """Self-weight cantilever plate: flat plates, gravity and large rotation, away from the tire.
 
 Claim: 500 x 500 x 1 mm, E = 177 GPa, nu = 0, density 7800 kg/m^3, g = 9.81 m/s^2, clamped along one edge: the tip
-drops 40.3175 mm and moves to x = 498.138 mm. Source: elastica, in tests/data/ancf_plate/README.md (Liu, Tian, Hu 2011
+drops 40.3175 mm and moves to x = 498.138 mm. Source: elastica, in contracts/published/README.md (Liu, Tian, Hu 2011
 give 40.3 mm from a commercial code). Tolerance: 0.15 % with 32 plates, and convergence at order 2 or more on 8, 16, 32
 plates (cubic position, linear director). Negative control: E 1 % low.
 """

@@ -1,15 +1,14 @@
 """One ANCF plate against exact reference matrices.
 
 Claim: mass, gravity and elastic force of thesis eq. 2.13 equal the reference within 1e-10 relative to the largest
-entry. Source: tests/data/ancf_plate (exact quadrature; agrees with Project Chrono's published 3443 element to 1e-11).
-Tolerance: the references carry 12 or more digits, and 8 x 8 x 4 Gauss points are exact for this polynomial; 1e-10 is
-the room left for round-off. Negative control: one flipped sign in one shape function of eq. 2.13.
+entry. Source: contracts/published/ancf_plate_*.csv (exact quadrature; agrees with Project Chrono's published 3443
+element to 1e-11). Tolerance: the references carry 12 or more digits, and 8 x 8 x 4 Gauss points are exact for this
+polynomial; 1e-10 is the room left for round-off. Negative control: one flipped sign in one shape function of eq. 2.13.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,8 +18,8 @@ from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
 from ancf_reduced.plate_model import PlateModel, build_plate_model
 from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape, plate_shape, plate_shape_gradient
 from contracts.errors import MeshError
+from contracts.published import published_matrix
 
-DATA = Path(__file__).parents[1] / "data" / "ancf_plate"
 TOLERANCE = 1e-10
 X, Y, Z = np.eye(3)
 
@@ -50,7 +49,7 @@ CASES = [("mass", _mass), ("gravity", _gravity), ("elastic_force", _elastic)]
 
 
 def _error(name: str, value: np.ndarray) -> float:
-    reference = np.loadtxt(DATA / f"{name}.csv", delimiter=",")
+    reference = published_matrix(f"ancf_plate_{name}")
     return float(np.abs(value - reference).max() / np.abs(reference).max())
 
 
@@ -97,5 +96,5 @@ def test_function_of_wrong_sign_cannot_even_build(index: int) -> None:
     ("quadrature", "published"), [((2, 2, 2), 0.14), ((3, 3, 2), 3.3e-3), ((4, 4, 2), 5e-7), ((5, 5, 2), 3e-10)]
 )
 def test_gauss_orders_have_their_published_errors(quadrature: tuple[int, int, int], published: float) -> None:
-    """Source: tests/data/ancf_plate/README.md; one digit is printed, so within a factor of two."""
+    """Source: contracts/published/README.md; one digit is printed, so within a factor of two."""
     assert published / 2 < _error("elastic_force", _elastic(_model(quadrature=quadrature))) < 2 * published

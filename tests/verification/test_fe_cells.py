@@ -13,7 +13,7 @@ from reference_fe import cell_kernels
 from reference_fe.domain import Domain
 from reference_fe.static_problem import Discretisation, StaticProblem
 from reference_fe.supports import Support
-from tests.structured_hexahedra import block_mesh
+from reference_fe.verification.structured_hexahedra import block_mesh
 
 SOFT = Material(name="a", young_modulus=3.0, poisson_ratio=0.3, density=1.0, yield_strength=1.0, source="test")
 

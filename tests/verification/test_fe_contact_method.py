@@ -21,8 +21,8 @@ from reference_fe.contact_obstacle import ContactMethod, ObstacleTerm
 from reference_fe.increments import ConvergedState, solve_increments
 from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.obstacles import HalfRoundRock
+from reference_fe.verification.ring_between_plates import RADIUS, quarter_ring
 from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
-from tests.verification.test_fe_ring import RADIUS, quarter_ring
 
 CASE = WheelLoadCase(orientation_deg=15.0, deflections=(0.002, 0.004), inner_contact=False)
 

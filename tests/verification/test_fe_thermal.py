@@ -26,8 +26,8 @@ from reference_fe.static_problem import Discretisation, StaticProblem
 from reference_fe.stress import StressRecovery
 from reference_fe.supports import Support
 from reference_fe.thermal_state import dilate, solve_thermal_state
+from reference_fe.verification.structured_hexahedra import block_mesh
 from reference_fe.wheel import WheelLoadCase, solve_wheel
-from tests.structured_hexahedra import block_mesh
 
 SOFT = Material(
     name="soft",

@@ -29,8 +29,8 @@ from reference_fe.inner_contact import ContactPair, InnerContact
 from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.static_problem import StaticProblem
 from reference_fe.supports import Support, Traction
+from reference_fe.verification.structured_hexahedra import block_mesh, stacked
 from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
-from tests.structured_hexahedra import block_mesh, stacked
 
 Array = NDArray[np.float64]
 SOFT = Material(name="a", young_modulus=1e7, poisson_ratio=0.0, density=1.0, yield_strength=1.0, source="round numbers")

@@ -1,4 +1,7 @@
-"""Structured hexahedral meshes for the tests: a block of cells mapped to any shape, in gmsh's node order."""
+"""Structured hexahedral meshes: a block of cells mapped to any shape, in gmsh's node order.
+
+Verified by tests/verification/test_fe_patch.py.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.mesh import TaggedMesh
+
+__all__ = ["block_mesh", "stacked"]
 
 # Positions of gmsh's 27 nodes (MElement numbering: vertices, edges, faces, centre) on the 3 x 3 x 3 lattice.
 _VERTICES = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
@@ -35,7 +40,7 @@ def block_mesh(
     points = mapping(lattice / (n - 1.0))
 
     def number(position: NDArray[np.int64]) -> NDArray[np.int64]:
-        return (position[..., 0] * n[1] + position[..., 1]) * n[2] + position[..., 2]
+        return np.asarray((position[..., 0] * n[1] + position[..., 1]) * n[2] + position[..., 2])
 
     local = _LATTICE if order == 2 else _LATTICE[:8] // 2
     corner = np.stack(np.meshgrid(*[np.arange(k) for k in counts], indexing="ij"), axis=-1).reshape(-1, 1, 3) * step

@@ -1,21 +1,27 @@
-"""What the shell benchmarks share: the published table, the path of chosen nodes, and the error along it."""
+"""Load paths of shell benchmarks: watched displacements at wanted load factors, and their error against a table.
+
+Verified by tests/verification/test_fe_shell_cantilever.py and tests/verification/test_fe_shell_hemisphere.py.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.errors import IncrementRecord
+from contracts.errors import IncrementRecord, InputError
 from reference_fe.increments import solve_increments
 from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.static_problem import StaticProblem
 
-DATA = Path(__file__).parent / "data"
+__all__ = ["LoadPath", "load_path", "relative_error"]
+
 SETTINGS = NewtonSettings(relative_tolerance=1e-8, maximum_iterations=30)
+
+type Watched = tuple[Sequence[float], Sequence[float]]
+"""A point, of which the nearest node is watched, and the direction counted positive."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,8 +30,8 @@ class LoadPath:
 
     Attributes
     ----------
-    load : (n,) load factor [-]
-    deflection : (n, m) watched displacements, in the benchmark's unit
+    load : (n,) float, load factor [-]
+    deflection : (n, m) float, watched displacements, in the benchmark's unit
     increments, iterations : attempted increments and linear solves of the whole run
     """
 
@@ -35,15 +41,8 @@ class LoadPath:
     iterations: int
 
 
-def published(name: str) -> NDArray[np.float64]:
-    """Rows of a table of Sze, Liu & Lo (2004)."""
-    return np.loadtxt(DATA / "sze2004" / f"{name}.csv", delimiter=",", skiprows=3, comments="#")
-
-
-def load_path(
-    problem: StaticProblem, targets: Sequence[float], watched: Sequence[tuple[Sequence[float], Sequence[float]]]
-) -> LoadPath:
-    """Solve through the targets; ``watched`` are pairs of a point (nearest node) and the direction counted positive."""
+def load_path(problem: StaticProblem, targets: Sequence[float], watched: Sequence[Watched]) -> LoadPath:
+    """Solve through the targets and watch some points."""
     points, history = problem.domain.tagged.points, list[IncrementRecord]()
     nodes = [int(np.argmin(np.linalg.norm(points - np.asarray(point), axis=1))) for point, _ in watched]
     load, rows = [], []
@@ -63,10 +62,20 @@ def load_path(
 def relative_error(path: LoadPath, reference: NDArray[np.float64]) -> NDArray[np.float64]:
     """Error of each deflection, (n, m); below a twentieth of the column's largest value, relative to that twentieth.
 
-    ``reference`` has the load factor in its first column; the load factors of the path must be among them.
+    Parameters
+    ----------
+    path : its load factors must be among the reference's
+    reference : (k, 1 + m) float: load factor, then the watched displacements
+
+    Raises
+    ------
+    InputError
+        If a load factor of the path is not in the reference.
     """
     rows = [int(np.argmin(np.abs(reference[:, 0] - load))) for load in path.load]
-    np.testing.assert_allclose(reference[rows, 0], path.load, atol=1e-12)
+    if not np.allclose(reference[rows, 0], path.load, rtol=0.0, atol=1e-12):
+        known = ", ".join(f"{load:g}" for load in reference[:, 0])
+        raise InputError("load factors", path.load, "must be those of the published table", f"choose from {known}")
     expected = reference[rows, 1:]
     floor = 0.05 * np.abs(reference[:, 1:]).max(axis=0)
     return np.asarray((path.deflection - expected) / np.maximum(np.abs(expected), floor))
