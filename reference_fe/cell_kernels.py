@@ -1,4 +1,4 @@
-"""Compiled loops over 27-node hexahedra of St. Venant-Kirchhoff material: residual, tangent, stored stress.
+"""Compiled loops over hexahedra of St. Venant-Kirchhoff material: residual, tangent, stored stress.
 
 Letters as in docs/theory.md 2: G reference gradients of the shape functions, H = grad u, F = I + H, S second
 Piola-Kirchhoff stress, w weight times Jacobian; lam, mu Lame parameters, s the stress offset of free thermal expansion

@@ -23,7 +23,7 @@ class CompiledCells:
     Parameters
     ----------
     domain : mesh with tags
-    V : displacement space, Lagrange
+    V : displacement space of scalar functions times three, Lagrange or serendipity
     cells : (n_cells,) local numbers of the deformable cells
     moduli : (n_cells, 3) lambda, mu and thermal stress offset of each, see `hyperelastic.thermal_moduli` [Pa]
     gauss_points : Gauss points along the cell's local axes

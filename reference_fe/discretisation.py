@@ -31,8 +31,8 @@ class Discretisation:
         full rank as long as all but one have 3 points. 2 along the curved axis (see `orientation.curved_axis_first`)
         cures membrane locking
     mixed_integration_points : store the stress at the points for the geometric stiffness; False is plain Newton
-    compiled : assemble St. Venant-Kirchhoff cells by our own compiled loops where they can (Lagrange, mixed integration
-        points, one process, a solid mesh); False, and everywhere else, by UFL forms: same numbers, five times slower
+    compiled : assemble St. Venant-Kirchhoff cells by our own compiled loops where they can (mixed integration points, a
+        solid mesh); False, and everywhere else, by UFL forms: same numbers, five times slower
     """
 
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF

@@ -9,14 +9,11 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe.direct_solver import direct_solver
 from reference_fe.hyperelastic import SMALLEST_STRETCH, MaterialLaw
 from reference_fe.static_problem import StaticProblem
 
 __all__ = ["NewtonOutcome", "NewtonSettings", "NewtonSolver"]
-
-ORDERING, PORD = 7, 4
-SCALING, NO_SCALING = 8, 0
-"""Entries of MUMPS' control array ICNTL, and what they are set to."""
 
 AUGMENTATION_TOLERANCE = 1e-2
 """Relative residual below which contact multipliers are improved; waiting for the goal costs more solves."""
@@ -144,7 +141,7 @@ class NewtonSolver:
             right_hand_side[problem.own_supported] = offset[problem.own_supported]
         last, self._matrix = self._matrix, problem.tangent(self._matrix)
         if self._ksp is None or self._matrix is not last:
-            self._ksp = _mumps(self._matrix, symmetric=problem.surfaces.symmetric)
+            self._ksp = direct_solver(self._matrix, symmetric=problem.surfaces.symmetric)
         x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
         b.array[:] = right_hand_side
         self._ksp.setOperators(self._matrix)
@@ -189,23 +186,3 @@ class NewtonSolver:
         if applied == 0.0:
             return 0.0 if out_of_balance == 0.0 else 1.0
         return out_of_balance / applied
-
-
-def _mumps(matrix: api.PETSc.Mat, *, symmetric: bool) -> api.PETSc.KSP:
-    """Direct solver: MUMPS, on a symmetric matrix (indefinite allowed) with half the work.
-
-    For symmetric matrices the order of elimination is PORD's, which suits thin strips and plates best of those MUMPS
-    has, and the matrix is not scaled: its unknowns are all displacements. benchmarks/README.md has what both spare.
-    """
-    ksp = api.PETSc.KSP().create(matrix.comm)
-    ksp.setType("preonly")
-    pc = ksp.getPC()
-    pc.setType("cholesky" if symmetric else "lu")
-    pc.setFactorSolverType("mumps")
-    if symmetric:
-        ksp.setOperators(matrix)
-        pc.setFactorSetUpSolverType()
-        factors = pc.getFactorMatrix()
-        factors.setMumpsIcntl(ORDERING, PORD)
-        factors.setMumpsIcntl(SCALING, NO_SCALING)
-    return ksp

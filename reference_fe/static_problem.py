@@ -249,11 +249,10 @@ class StaticProblem:
     def _build_forms(self, loads: Sequence[BodyForce | EndMoment | Traction]) -> None:
         domain, choice, u = self.domain, self.discretisation, self.u
         v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
-        suits = (choice.law, choice.family) == (MaterialLaw.ST_VENANT_KIRCHHOFF, ElementFamily.LAGRANGE)
         residual, tangent = None, None
         self._compiled, self._forms = None, None
-        loops = choice.compiled and suits and choice.mixed_integration_points
-        if loops and domain.dim == 3:
+        suits = choice.law is MaterialLaw.ST_VENANT_KIRCHHOFF and choice.mixed_integration_points
+        if choice.compiled and suits and domain.dim == 3:
             cells = self._flexible_cells
             moduli = cell_moduli(domain, self.materials, cells)
             self._compiled = CompiledCells(domain, self.V, cells, moduli, choice.gauss_points)

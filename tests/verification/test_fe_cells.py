@@ -10,21 +10,22 @@ import pytest
 
 from contracts.materials import Material
 from reference_fe import cell_kernels
+from reference_fe.discretisation import Discretisation, ElementFamily
 from reference_fe.domain import Domain
-from reference_fe.static_problem import Discretisation, StaticProblem
+from reference_fe.static_problem import StaticProblem
 from reference_fe.supports import Support
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 SOFT = Material(name="a", young_modulus=3.0, poisson_ratio=0.3, density=1.0, yield_strength=1.0, source="test")
 
 
-def problem(order: int, *, compiled: bool) -> StaticProblem:
+def problem(order: int, family: ElementFamily, *, compiled: bool) -> StaticProblem:
     """A distorted 2 x 2 x 1 block with a random displacement and a random last step."""
 
     def mapping(X: np.ndarray) -> np.ndarray:
         return X + 0.05 * np.sin(3.0 * X[:, [1, 2, 0]])
 
-    choice = Discretisation(degree=order, compiled=compiled)
+    choice = Discretisation(family=family, degree=order, compiled=compiled)
     made = StaticProblem(
         Domain.from_tagged(block_mesh((2, 2, 1), mapping, order)),
         {"body": SOFT},
@@ -44,9 +45,9 @@ def tangent(made: StaticProblem) -> np.ndarray:
     return dense
 
 
-def differences(order: int) -> tuple[float, float]:
+def differences(order: int, family: ElementFamily = ElementFamily.LAGRANGE) -> tuple[float, float]:
     """Largest relative difference of residual and tangent between the two ways."""
-    ours, reference = problem(order, compiled=True), problem(order, compiled=False)
+    ours, reference = problem(order, family, compiled=True), problem(order, family, compiled=False)
     residuals = ours.residual(), reference.residual()
     for made in (ours, reference):
         made.store_stress(extrapolate=True)
@@ -54,9 +55,11 @@ def differences(order: int) -> tuple[float, float]:
     return tuple(float(np.abs(a - b).max() / np.abs(b).max()) for a, b in (residuals, tangents))  # type: ignore[return-value]
 
 
-@pytest.mark.parametrize("order", [1, 2])
-def test_compiled_loops_equal_the_forms(order: int) -> None:
-    residual, matrix = differences(order)
+@pytest.mark.parametrize(
+    ("order", "family"), [(1, ElementFamily.LAGRANGE), (2, ElementFamily.LAGRANGE), (2, ElementFamily.SERENDIPITY)]
+)
+def test_compiled_loops_equal_the_forms(order: int, family: ElementFamily) -> None:
+    residual, matrix = differences(order, family)
     assert residual < 1e-12
     assert matrix < 1e-12
 
