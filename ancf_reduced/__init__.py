@@ -1,6 +1,7 @@
 """ANCF plates, slope discontinuities, reference node, contact and tire statics; import from the modules.
 
-shape_functions, plate_kernels (numba), plate_mesh, plate_model, plate_mass: any network of plates.
+shape_functions, plate_tables, plate_mesh, plate_model, plate_mass, plate_assembly: any network of plates.
+elastic_kernels, tangent_kernels, damping_kernels, thickness_kernels: their compiled loops (compiled: numba).
 reference_node, contact_grid, equilibrium: what ties, touches and balances it.
 tire_preset, tire_mesh, plane_problem, static_tire, tire_surfaces: the airless tire, a client of the above.
 """

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ancf_reduced.plate_assembly import dense_matrix, plate_rows
 from ancf_reduced.plate_model import PlateModel
 
-__all__ = ["flexible_mass", "gravity_force", "mass_matrix"]
+__all__ = ["flexible_mass", "gravity_force", "mass_blocks", "mass_matrix"]
 
 FloatArray = NDArray[np.float64]
 
@@ -32,11 +33,13 @@ def mass_matrix(model: PlateModel) -> FloatArray:
 
     Verified by tests/verification/test_ancf_plate_reference.py.
     """
-    rows = (4 * model.mesh.elements[:, :, None] + np.arange(4)).reshape(-1, 16)
-    blocks = np.einsum("jg,jga,jgb->jab", model.density * model.volume, model.shape, model.shape)
-    mass = np.zeros((4 * len(model.mesh.points),) * 2)
-    np.add.at(mass, (rows[:, :, None], rows[:, None, :]), blocks)
-    return mass
+    return dense_matrix(model.mesh, mass_blocks(model))
+
+
+def mass_blocks(model: PlateModel) -> FloatArray:
+    """The plates' parts of `mass_matrix`, (n_plates, 16, 16) float, for `plate_assembly`."""
+    shape = model.shape
+    return np.asarray(np.swapaxes(shape * (model.density * model.volume)[..., None], 1, 2) @ shape)
 
 
 def gravity_force(model: PlateModel, acceleration: FloatArray) -> FloatArray:
@@ -53,7 +56,7 @@ def gravity_force(model: PlateModel, acceleration: FloatArray) -> FloatArray:
 
     Verified by tests/verification/test_ancf_plate_reference.py.
     """
-    rows = (4 * model.mesh.elements[:, :, None] + np.arange(4)).reshape(-1, 16)
+    rows = plate_rows(model.mesh, components=1)
     moments = np.einsum("jg,jga->ja", model.density * model.volume, model.shape)
     total = np.bincount(rows.ravel(), weights=moments.ravel(), minlength=4 * len(model.mesh.points))
     return np.multiply.outer(total.reshape(-1, 4), acceleration)

@@ -120,6 +120,31 @@ class PlateMesh:
         """
         return self.transform @ coordinates[self.elements].reshape(len(self.elements), 16, 3)
 
+    def normalised(self, coordinates: FloatArray, frame: FloatArray) -> FloatArray:
+        """Plate coordinates with the lengths a, b, t in the gradients: per node r, r_xi1, r_xi2, r_xi3.
+
+        Parameters
+        ----------
+        coordinates : (n_nodes, 4, 3) float [m, -], structure coordinates p
+        frame : (n_plates, 4, 3, 3) float [m], J0 diag(a, b, t) at the nodes
+
+        Returns
+        -------
+        e : (n_plates, 16, 3) float [m]
+        """
+        p = coordinates[self.elements]
+        e = np.concatenate([p[:, :, :1], np.swapaxes(frame, 2, 3) @ p[:, :, 1:]], axis=2)
+        return e.reshape(len(self.elements), 16, 3)
+
+    def in_structure_coordinates(self, shape: FloatArray, frame: FloatArray) -> FloatArray:
+        """Normalised shape functions (n_plates, n_points, 16) as functions of structure coordinates, T folded in.
+
+        ``shape`` may be the same for all plates, (1, n_points, 16).
+        """
+        s = np.broadcast_to(shape, (len(self.elements), *shape.shape[1:])).reshape(len(self.elements), -1, 4, 4)
+        gradients = np.einsum("jnkm,jqnm->jqnk", frame, s[..., 1:], optimize=True)
+        return np.concatenate([s[..., :1], gradients], axis=-1).reshape(len(self.elements), -1, 16)
+
     def plates_of(self, part: str) -> NDArray[np.int64]:
         """Numbers of the plates of one part; raises InputError if there is none."""
         found = np.array([j for j, name in enumerate(self.parts) if name == part], dtype=np.int64)

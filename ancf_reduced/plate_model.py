@@ -1,21 +1,40 @@
-"""A mesh of plates with material and integration points: strain energy, elastic force, exact tangent."""
+"""A mesh of plates with material and integration points: energy, forces and exact tangents.
+
+Forces oppose an external generalised force of the same sign; tangents are their derivatives. Matrices come plate by
+plate, (n_plates, 48, 48); `plate_assembly` puts them together.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.plate_kernels import elastic_energy_kernel, elastic_force_kernel, elastic_tangent_kernel
+from ancf_reduced import damping_kernels as damping
+from ancf_reduced import thickness_kernels as thickness
+from ancf_reduced.elastic_kernels import energy_kernel, force_kernel
+from ancf_reduced.plate_assembly import dense_matrix
 from ancf_reduced.plate_mesh import PlateMesh
-from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape, gauss_points
+from ancf_reduced.plate_tables import PlateTables, plate_tables
+from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape
+from ancf_reduced.tangent_kernels import tangent_kernel
 from contracts.errors import InputError, MeshError
 
-__all__ = ["PlateModel", "build_plate_model"]
+__all__ = ["PlateModel", "PoissonLocking", "build_plate_model"]
 
 FloatArray = NDArray[np.float64]
+
+
+class PoissonLocking(StrEnum):
+    """What is done about the thickness strain that cannot follow bending; nothing need be for nu = 0."""
+
+    AS_IS = "as_is"
+    """The thesis' element: about 12 % too stiff in bending at nu = 0.3."""
+    RELIEVED = "relieved"
+    """No normal stress through the thickness from the part of the strain that varies across it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,52 +45,117 @@ class PlateModel:
     ----------
     mesh : nodes, plates, reference configuration
     lame : lambda, mu [Pa]
+    viscosity : lambda_v, mu_v of the Navier-Stokes damping [Pa s]
     density : rho [kg/m^3]
-    shape : (n_plates, n_points, 16) float, shape functions at the integration points, T folded in: r = shape . p
-    gradient : (n_plates, n_points, 3, 16) float, d shape / d X, J0^-1 and T folded in:
-        F[i, k] = sum_a p[a, i] gradient[k, a]
-    volume : (n_plates, n_points) float [m^3], dV0 = det(J0) dV times the Gauss weight
+    tables : shape functions at the integration points
+    frame : (n_plates, 4, 3, 3) float [m], J0 diag(a, b, t) at the nodes
+    metric : (n_plates, n_blocks, 2, 6, LANES) float [m^2, 1/m^2], G_kl and G^kl of the stress-free plates
+    weight : (n_plates, n_blocks, LANES) float [m^3], dV0 times the Gauss weight
+    carry : (n_plates, n_blocks, 3, 3, LANES) float [-], see `thickness_kernels`; None leaves Poisson locking as it is
 
     Verified by tests/unit/test_ancf_plate_model.py and tests/verification/test_ancf_plate_reference.py.
     """
 
     mesh: PlateMesh
     lame: tuple[float, float]
+    viscosity: tuple[float, float]
     density: float
-    shape: FloatArray
-    gradient: FloatArray
-    volume: FloatArray
+    tables: PlateTables
+    frame: FloatArray
+    metric: FloatArray
+    weight: FloatArray
+    carry: FloatArray | None
+
+    @property
+    def volume(self) -> FloatArray:
+        """dV0 = det(J0) dV times the Gauss weight at every point, (n_plates, n_points) float [m^3]."""
+        return self.tables.at_points(self.weight)
+
+    @property
+    def shape(self) -> FloatArray:
+        """Shape functions at the points in structure coordinates, r = shape . p, (n_plates, n_points, 16) float."""
+        return self.mesh.in_structure_coordinates(self.tables.shape[None], self.frame)
 
     def elastic_energy(self, coordinates: FloatArray) -> float:
         """Strain energy [J] at the structure coordinates (n_nodes, 4, 3)."""
-        return elastic_energy_kernel(coordinates, self.mesh.elements, self.gradient, self.volume, self.lame)
+        elements, D = self.mesh.elements, self.tables.gradient
+        energy = energy_kernel(coordinates, elements, self.frame, D, self.metric, self.weight, self.lame)
+        if self.carry is not None:
+            both = D, self.tables.middle_gradient
+            energy += thickness.relief_energy_kernel(
+                coordinates, elements, self.frame, both, self.carry, self.metric, self.weight, self.lame
+            )
+        return energy
 
-    def elastic_force(self, coordinates: FloatArray) -> FloatArray:
+    def elastic_force(self, coordinates: FloatArray, out: FloatArray | None = None) -> FloatArray:
         """Generalised elastic force Q_s = dU/dp (thesis eq. 2.23).
 
         Parameters
         ----------
         coordinates : (n_nodes, 4, 3) float [m, -]
+        out : array to write to, so that nothing is allocated
 
         Returns
         -------
-        force : (n_nodes, 4, 3) float [N, N m]; it opposes an external generalised force of the same sign
+        force : (n_nodes, 4, 3) float [N, N m]
         """
-        force = np.empty_like(coordinates)
-        elastic_force_kernel(coordinates, self.mesh.elements, self.gradient, self.volume, self.lame, force)
+        force = np.empty_like(coordinates) if out is None else out
+        elements, D = self.mesh.elements, self.tables.gradient
+        force_kernel(coordinates, elements, self.frame, D, self.metric, self.weight, self.lame, force)
+        if self.carry is not None:
+            both = D, self.tables.middle_gradient
+            thickness.relief_force_kernel(
+                coordinates, elements, self.frame, both, self.carry, self.metric, self.weight, self.lame, force
+            )
         return force
 
+    def elastic_tangents(self, coordinates: FloatArray, out: FloatArray | None = None) -> FloatArray:
+        """Exact tangent dQ_s/dp of each plate, (n_plates, 48, 48) float [N/m, N, N m], symmetric."""
+        elements, D = self.mesh.elements, self.tables.gradient
+        tangents = np.empty((len(elements), 48, 48)) if out is None else out
+        tangent_kernel(coordinates, elements, self.frame, D, self.metric, self.weight, self.lame, tangents)
+        if self.carry is not None:
+            both = D, self.tables.middle_gradient
+            thickness.relief_tangent_kernel(
+                coordinates, elements, self.frame, both, self.carry, self.metric, self.weight, self.lame, tangents
+            )
+        return tangents
+
     def elastic_tangent(self, coordinates: FloatArray) -> FloatArray:
-        """Exact tangent dQ_s/dp, (12 n_nodes, 12 n_nodes) float [N/m, N, N m], symmetric."""
-        tangent = np.empty((coordinates.size, coordinates.size))
-        elastic_tangent_kernel(coordinates, self.mesh.elements, self.gradient, self.volume, self.lame, tangent)
-        return tangent
+        """Exact tangent of the mesh, (12 n_nodes, 12 n_nodes) float; for small meshes, as it is not sparse."""
+        return dense_matrix(self.mesh, self.elastic_tangents(coordinates))
+
+    def damping_force(self, coordinates: FloatArray, rates: FloatArray, out: FloatArray | None = None) -> FloatArray:
+        """Generalised force of the Navier-Stokes damping, zero in rigid motion.
+
+        Parameters
+        ----------
+        coordinates, rates : (n_nodes, 4, 3) float [m, -] and [m/s, 1/s]
+        out : array to write to
+
+        Returns
+        -------
+        force : (n_nodes, 4, 3) float [N, N m]; its product with ``rates`` is the dissipated power, >= 0
+
+        Verified by tests/unit/test_ancf_damping.py.
+        """
+        force, D, c = np.empty_like(coordinates) if out is None else out, self.tables.gradient, self.tables.gauss_weight
+        elements = self.mesh.elements
+        damping.damping_force_kernel(coordinates, rates, elements, self.frame, D, c, self.viscosity, force)
+        return force
+
+    def damping_tangents(self, coordinates: FloatArray, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Derivatives of the damping force by the coordinates and by the rates, (n_plates, 48, 48) float each."""
+        elements, D, c = self.mesh.elements, self.tables.gradient, self.tables.gauss_weight
+        by_position, by_rate = np.empty((2, len(elements), 48, 48))
+        damping.damping_position_kernel(coordinates, rates, elements, self.frame, D, c, self.viscosity, by_position)
+        damping.damping_velocity_kernel(coordinates, elements, self.frame, D, c, self.viscosity, by_rate)
+        return by_position, by_rate
 
     def volume_ratio(self, coordinates: FloatArray) -> FloatArray:
         """det F at the integration points, (n_plates, n_points) float [-]; <= 0 where a plate is inverted."""
-        e = coordinates[self.mesh.elements].reshape(len(self.volume), 1, 16, 3)
-        determinant: FloatArray = np.linalg.det(self.gradient @ e)
-        return determinant
+        present = np.linalg.det(_base_vectors(self.tables, self.mesh.normalised(coordinates, self.frame)))
+        return np.asarray(present * self.tables.weights / self.volume)
 
 
 def build_plate_model(
@@ -81,16 +165,20 @@ def build_plate_model(
     poisson_ratio: float,
     density: float,
     quadrature: tuple[int, int, int] = (5, 5, 3),
+    viscosity: tuple[float, float] = (0.0, 0.0),
+    poisson_locking: PoissonLocking = PoissonLocking.AS_IS,
     shape: PlateShape = THESIS_SHAPE,
 ) -> PlateModel:
-    """Evaluate shape functions, J0 and volumes at the Gauss points of every plate.
+    """Evaluate shape functions, metric and volumes at the Gauss points of every plate.
 
     Parameters
     ----------
-    mesh : plates in their reference configuration
+    mesh : plates in their stress-free configuration, which may be curved
     young_modulus, density : E > 0 [Pa], rho > 0 [kg/m^3]
-    poisson_ratio : nu, -1 < nu < 0.5 [-]; nu > 0 locks in thickness, about 12 % in bending
+    poisson_ratio : nu, -1 < nu < 0.5 [-]
     quadrature : Gauss points along x1, x2, x3
+    viscosity : lambda_v, mu_v >= 0 of the Navier-Stokes damping [Pa s]
+    poisson_locking : whether the element's locking for nu > 0 is relieved
     shape : interpolation, thesis eq. 2.13 by default
 
     Raises
@@ -98,35 +186,55 @@ def build_plate_model(
     InputError, MeshError
         For a material or a quadrature out of range; if det J0 <= 0 at a Gauss point.
     """
-    _check(young_modulus, poisson_ratio, density, quadrature)
-    xi, weights = gauss_points(quadrature)
-    T, X = mesh.transform, mesh.element_coordinates(mesh.reference_coordinates())
-    value = np.array([shape.value(xi, d) for d in mesh.dimensions])
-    local = np.array([shape.gradient(xi, d) for d in mesh.dimensions])
-    J0 = np.einsum("jgka,jai->jgik", local, X)  # J0[i, k] = dX_i/dx_k, thesis eq. 2.9
-    determinant = np.linalg.det(J0)
+    _check(young_modulus, poisson_ratio, density, viscosity)
+    tables = plate_tables(quadrature, shape)
+    frame = mesh.gradients * mesh.dimensions[:, None, None, :]
+    e = mesh.normalised(mesh.reference_coordinates(), frame)
+    base = _base_vectors(tables, e)
+    determinant = np.linalg.det(base)
     if np.any(determinant <= 0.0):
         j = int(np.argwhere(determinant <= 0.0)[0, 0])
         raise MeshError(f"plate {j} ({mesh.parts[j]}) has det J0 <= 0 inside: too curved for its thickness")
-    by_X = np.einsum("jgik,jgka->jgia", np.swapaxes(np.linalg.inv(J0), 2, 3), local)
-    volume = determinant * weights * mesh.dimensions.prod(axis=1)[:, None]
+    covariant = base @ np.swapaxes(base, -1, -2)
+    metric = np.stack([_components(covariant), _components(np.linalg.inv(covariant))], axis=1)
+    carry = None
+    if poisson_locking is PoissonLocking.RELIEVED:
+        middle = _base_vectors(tables, e, on_middle=True)
+        H = np.swapaxes(base @ np.linalg.inv(middle), -1, -2)
+        carry = np.ascontiguousarray(np.moveaxis(tables.in_blocks(np.moveaxis(H, 1, -1)), -2, 1))
     lam = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio))
     return PlateModel(
         mesh=mesh,
         lame=(lam, young_modulus / (2.0 * (1.0 + poisson_ratio))),
+        viscosity=viscosity,
         density=density,
-        shape=np.ascontiguousarray(value @ T),
-        gradient=np.ascontiguousarray(by_X @ T[:, None]),
-        volume=volume,
+        tables=tables,
+        frame=np.ascontiguousarray(frame),
+        metric=np.ascontiguousarray(np.moveaxis(tables.in_blocks(metric), -2, 1)),
+        weight=tables.in_blocks(determinant * tables.weights),
+        carry=carry,
     )
 
 
-def _check(young_modulus: float, poisson_ratio: float, density: float, quadrature: tuple[int, int, int]) -> None:
-    """Raise InputError for a material or a Gauss rule out of range."""
+def _base_vectors(tables: PlateTables, e: FloatArray, *, on_middle: bool = False) -> FloatArray:
+    """Rows dr/dxi^k, (n_plates, n_points, 3, 3), of plates with the normalised coordinates e (n_plates, 16, 3)."""
+    blocks = tables.middle_gradient if on_middle else tables.gradient
+    D = tables.at_points(np.moveaxis(blocks, 0, -2))  # (3, 16, n_points)
+    return np.asarray(np.einsum("ksq,jsi->jqki", D, e, optimize=True))
+
+
+def _components(tensor: FloatArray) -> FloatArray:
+    """Components 11, 22, 33, 23, 13, 12 of symmetric tensors (n_plates, n_points, 3, 3), (n_plates, 6, n_points)."""
+    return np.moveaxis(tensor[..., [0, 1, 2, 1, 0, 0], [0, 1, 2, 2, 2, 1]], -1, -2)
+
+
+def _check(young_modulus: float, poisson_ratio: float, density: float, viscosity: tuple[float, float]) -> None:
+    """Raise InputError for a material out of range."""
     for what, value, unit in (("young modulus", young_modulus, "Pa"), ("density", density, "kg/m^3")):
         if not (math.isfinite(value) and value > 0.0):
             raise InputError(what, f"{value:g} {unit}", "must be finite and > 0", "check the unit")
     if not -1.0 < poisson_ratio < 0.5:
         raise InputError("poisson ratio", f"{poisson_ratio:g}", "must lie in (-1, 0.5)", "the thesis has 0")
-    if len(quadrature) != 3 or min(quadrature) < 1:
-        raise InputError("quadrature", quadrature, "needs three counts of 1 or more", "give e.g. (5, 5, 3)")
+    for what, value in zip(("lambda_v", "mu_v"), viscosity, strict=True):
+        if not (math.isfinite(value) and value >= 0.0):
+            raise InputError(f"viscosity {what}", f"{value:g} Pa s", "must be finite and >= 0", "0 is no damping")
