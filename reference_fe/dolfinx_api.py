@@ -11,7 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from reference_fe import triangular_product
+
 with contextlib.suppress(ModuleNotFoundError):
+    triangular_product.provide()  # before PETSc is loaded
     import dolfinx_solver  # noqa: F401  (sets up the libraries of the PyPI wheel)
 
 import basix
@@ -69,6 +72,7 @@ __all__ = [
     "versions",
 ]
 
+triangular_product.connect()
 COMM = MPI.COMM_WORLD
 if TYPE_CHECKING:
     Mesh = dolfinx_mesh.Mesh[np.float64]
