@@ -12,7 +12,10 @@ from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
 from reference_fe.domain import Domain
 
-__all__ = ["ContactFacets", "local_stiffness"]
+__all__ = ["ContactFacets", "LineRule", "gauss_line", "local_stiffness", "simpson_line"]
+
+type LineRule = tuple[NDArray[np.float64], NDArray[np.float64]]
+"""Points and weights on [0, 1]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -43,9 +46,9 @@ class ContactFacets:
     cells: NDArray[np.int32]
 
     @classmethod
-    def of(cls, domain: Domain, V: api.Expr, faces: Iterable[str], quadrature_degree: int) -> ContactFacets:
-        """Lay out the quadrature of the named faces, exact for polynomials of a degree along each axis."""
-        rule = api.facet_rule(V, quadrature_degree // 2 + 1)
+    def of(cls, domain: Domain, V: api.Expr, faces: Iterable[str], line: LineRule) -> ContactFacets:
+        """Lay out the quadrature of the named faces, the same rule along each axis of a facet."""
+        rule = api.facet_rule(V, line)
         cells, kind = _cells_of_facets(domain, domain.facets_of(tuple(faces)))
         order, dim = domain.tagged.order, domain.mesh.geometry.dim
         x = domain.mesh.geometry.x[api.cell_nodes(domain.mesh)[cells]][:, :, :dim]
@@ -63,6 +66,21 @@ class ContactFacets:
             depth=_volumes(order, x) / (area @ rule.weights),
             cells=cells,
         )
+
+
+def gauss_line(points: int) -> LineRule:
+    """Gauss points: the most accurate integral."""
+    at, weights = api.gauss_rule((points,))
+    return at[:, 0], weights
+
+
+def simpson_line(points: int) -> LineRule:
+    """An odd number of evenly spaced points, both ends included, with Simpson's weights: nothing slips between them."""
+    if points < 3 or points % 2 == 0:
+        raise InputError("points of Simpson's rule", points, "must be odd and at least 3", "17 is usual")
+    weights = np.full(points, 2.0)
+    weights[1::2], weights[[0, -1]] = 4.0, 1.0
+    return np.linspace(0.0, 1.0, points), weights / (3.0 * (points - 1))
 
 
 def local_stiffness(facets: ContactFacets, young_modulus: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -26,7 +26,7 @@ class Surface(NamedTuple):
     stiffness : (m,) penalty stiffness of each facet [N/m^3]
     ramp : see `contact_law.ramped_pressure` [m]
     friction : mu [-]
-    stick : stiffness of sticking over penalty stiffness [-]
+    stick : (m,) stiffness of sticking [N/m^3]
     """
 
     normal: NDArray[np.float64]
@@ -37,7 +37,7 @@ class Surface(NamedTuple):
     stiffness: NDArray[np.float64]
     ramp: float
     friction: float
-    stick: float
+    stick: NDArray[np.float64]
 
 
 class ContactHistory(NamedTuple):
@@ -97,7 +97,7 @@ def point_forces(
     n, t, trial, d = np.zeros(dim), np.zeros(dim), np.zeros(dim), np.zeros(dim)
     force, stiffness = np.zeros(dim), np.zeros((dim, dim))
     for m in range(x.shape[0]):
-        penalty = surface.stiffness[m]
+        penalty, k_t = surface.stiffness[m], surface.stick[m]
         for q in range(x.shape[1]):
             s, z = -surface.start, -surface.level
             for i in range(dim):
@@ -121,7 +121,7 @@ def point_forces(
                         stiffness[i, j] += slope * n[i] * n[j] - pressure * curvature * t[i] * t[j]
                 if surface.friction == 0.0:
                     continue
-                k_t, limit = surface.stick * penalty, surface.friction * pressure
+                limit = surface.friction * pressure
                 along_normal = 0.0
                 for i in range(dim):
                     along_normal += n[i] * (history.traction[m, q, c, i] - k_t * slip[m, q, i])

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from reference_fe import contact_kernels as kernels
 from reference_fe import dolfinx_api as api
-from reference_fe.contact_facets import ContactFacets, local_stiffness
+from reference_fe.contact_facets import ContactFacets, gauss_line, local_stiffness, simpson_line
 from reference_fe.domain import Domain
 from reference_fe.obstacles import Obstacle, Plane, smallest_gap
 from reference_fe.surface_term import SurfaceForces, TermState
@@ -25,7 +25,7 @@ __all__ = ["ContactMethod", "ObstacleContact", "ObstacleTerm"]
 
 
 STIFFENING = 10.0
-"""Growth of the penalty stiffness with each of Uzawa's updates in an increment: a settled contact set bears it."""
+"""Ratio of the augmented Lagrangian's penalty stiffness to the given one, and its growth with each update."""
 
 
 class ContactMethod(StrEnum):
@@ -34,7 +34,7 @@ class ContactMethod(StrEnum):
     PENALTY = "penalty"
     """Pressure in proportion to the penetration."""
     AUGMENTED_LAGRANGIAN = "augmented_lagrangian"
-    """Multipliers at the quadrature points, improved by Uzawa's update until the penetration is small."""
+    """Multipliers at the points of contact, improved by Uzawa's update until the gap closes where there is pressure."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,9 +55,12 @@ class ObstacleContact:
     rise : unit direction of the obstacle's motion r [-]; None is n
     stiffness : penalty stiffness [N/m^3]; None takes `contact_facets.local_stiffness` on each facet
     ramp : gap below which the pressure begins, and above which (negative) it is linear [m]
-    quadrature_degree : degree of the facet quadrature [-]
+    gauss_points : n Gauss points along each axis of a facet; the augmented Lagrangian takes 4 n - 3 evenly spaced
+        points, edges included, as a facet is kept out only where there are points: where it bends by kappa relative to
+        the obstacle, it dips in by up to kappa s^2 / 8 between points s apart
     method : penalty or augmented Lagrangian
-    penetration_tolerance : largest depth at a quadrature point that the augmented Lagrangian leaves [m]
+    penetration_tolerance : largest depth, or gap under pressure, that the augmented Lagrangian leaves at a point [m];
+        its ramp is at most twice that
     friction : Coulomb coefficient mu [-]
     stick_ratio : stiffness of sticking over penalty stiffness [-]: elastic slip before sliding is mu p / (ratio k)
     """
@@ -70,7 +73,7 @@ class ObstacleContact:
     rise: tuple[float, ...] | None = None
     stiffness: float | None = None
     ramp: float = 5e-6
-    quadrature_degree: int = 8
+    gauss_points: int = 5
     method: ContactMethod = ContactMethod.PENALTY
     penetration_tolerance: float = 5e-7
     friction: float = 0.0
@@ -95,6 +98,11 @@ class ObstacleContact:
                 raise InputError(what, f"{value:g} {unit}", "must be > 0", hint)
         if not (math.isfinite(self.friction) and self.friction >= 0.0):
             raise InputError("friction coefficient", f"{self.friction:g}", "must be >= 0", "0 is without friction")
+
+    @property
+    def closes_gaps(self) -> bool:
+        """Whether multipliers close the gaps that the penalty leaves."""
+        return self.method is ContactMethod.AUGMENTED_LAGRANGIAN
 
     def axes(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Unit vectors n, s and r."""
@@ -134,8 +142,12 @@ class ObstacleTerm:
         self, contact: ObstacleContact, domain: Domain, V: api.Expr, young_modulus: NDArray[np.float64] | None
     ) -> None:
         self.description, self._comm = contact, domain.mesh.comm
-        self._facets = ContactFacets.of(domain, V, contact.faces, contact.quadrature_degree)
-        self._base_stiffness = self._penalty(young_modulus)
+        n, closed = contact.gauss_points, contact.closes_gaps
+        self._facets = ContactFacets.of(domain, V, contact.faces, simpson_line(4 * n - 3) if closed else gauss_line(n))
+        self._ramp = min(contact.ramp, 2.0 * contact.penetration_tolerance) if closed else contact.ramp
+        given = self._penalty(young_modulus)
+        self._stick = contact.stick_ratio * given
+        self._base_stiffness = STIFFENING * given if closed else given
         self.stiffness = self._base_stiffness.copy()
         self.symmetric = contact.friction == 0.0
         self._normal, self._along, self._rise = contact.axes()
@@ -202,11 +214,18 @@ class ObstacleTerm:
         return self._last_x.reshape(-1, dim), self._out.pressure.sum(axis=-1).ravel()
 
     def augment(self) -> bool:
-        """Uzawa's update with a growing penalty stiffness, if the penetration is too large."""
-        contact = self.description
-        if contact.method is ContactMethod.PENALTY or self.penetration() <= contact.penetration_tolerance:
+        """Uzawa's update with a growing penalty stiffness, if a gap under pressure is too large or too small.
+
+        |p - l| / k is the gap where p = l - k g, and stays large where a point has left the ground with a multiplier.
+        """
+        contact, pressure = self.description, self._out.pressure
+        if not contact.closes_gaps:
             return False
-        self._multiplier[...] = self._out.pressure
+        missing = np.abs(pressure - self._multiplier) / self.stiffness[:, None, None]
+        largest = self._comm.allreduce(float(missing.max(initial=0.0)), op=api.MPI.MAX)
+        if largest <= contact.penetration_tolerance:
+            return False
+        self._multiplier[...] = pressure
         self.stiffness *= STIFFENING
         return True
 
@@ -220,7 +239,7 @@ class ObstacleTerm:
     def state(self) -> TermState:
         """Committed multipliers [Pa], traction [Pa] and places [m], as far as the method needs them."""
         kept = {}
-        if self.description.method is ContactMethod.AUGMENTED_LAGRANGIAN:
+        if self.description.closes_gaps:
             kept["multiplier"] = self._accepted_multiplier.copy()
         if self.description.friction > 0.0:
             kept |= {"traction": self._traction.copy(), "place": self._place.copy()}
@@ -262,9 +281,9 @@ class ObstacleTerm:
             start=control * float(self._rise @ self._along),
             pieces=self._pieces,
             stiffness=self.stiffness,
-            ramp=contact.ramp,
+            ramp=self._ramp,
             friction=contact.friction,
-            stick=contact.stick_ratio,
+            stick=self._stick,
         )
 
 

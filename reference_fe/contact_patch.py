@@ -13,6 +13,7 @@ from contracts.mesh import TaggedMesh
 __all__ = ["ContactPatch", "contact_faces", "distance_at_touch", "facet_samples", "facet_widths", "measure_patch"]
 
 _SAMPLES = 13
+_DENSE_SAMPLES = 25
 _GAUSS_POINTS = 9
 
 
@@ -24,7 +25,7 @@ class ContactPatch:
     ----------
     area : undeformed area of the touching faces [m^2]
     length : extent of the touching faces along ``tangent`` [m]; 0 without contact
-    penetration : largest depth in the obstacle [m], >= 0
+    penetration : largest depth in the obstacle anywhere on the faces, edges included [m], >= 0
     """
 
     area: float
@@ -72,9 +73,10 @@ def measure_patch(
     tangent: NDArray[np.float64],
     touch_gap: float = 0.0,
 ) -> ContactPatch:
-    """Contact patch of the deformed faces, from 9 x 9 Gauss points on each facet.
+    """Contact patch of the deformed faces, from 9 x 9 Gauss points on each facet; its depth from a 25 x 25 lattice.
 
-    Inner points only: a face that meets the ground at its edge, such as a grouser's flank, adds no area.
+    Inner points only for the area: a face that meets the ground at its edge, such as a grouser's flank, adds none. The
+    depth is looked for up to the edges, where the Gauss points of the contact itself do not reach.
 
     Parameters
     ----------
@@ -93,7 +95,11 @@ def measure_patch(
         return ContactPatch(area=0.0, length=0.0, penetration=0.0)
     along = (current @ tangent)[closed]
     area = float(np.sum(np.where(closed, jacobian * weights, 0.0)))
-    return ContactPatch(area=area, length=float(np.ptp(along)), penetration=max(0.0, float(-gap.min())))
+    near = gap.min(axis=1) < touch_gap + np.ptp(gap, axis=1)
+    dense, _ = _lattice(facets.shape[1], _DENSE_SAMPLES)
+    points = np.einsum("sn,fnk->fsk", dense, (mesh.points + displacement)[facets[near]])
+    lowest = float(gap_of(points.reshape(-1, points.shape[-1])).min())
+    return ContactPatch(area=area, length=float(np.ptp(along)), penetration=max(0.0, -lowest))
 
 
 def facet_widths(mesh: TaggedMesh, facets: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -113,9 +119,9 @@ def _area_vectors(derivatives: NDArray[np.float64], nodes: NDArray[np.float64]) 
     return np.asarray(np.cross(tangents[0], tangents[1]))
 
 
-def _lattice(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _lattice(nodes: int, samples: int = _SAMPLES) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Facet sampled up to its edges: shape functions (s, n) and derivatives (dim - 1, s, n)."""
-    return _shapes(np.linspace(-1.0, 1.0, _SAMPLES), nodes)
+    return _shapes(np.linspace(-1.0, 1.0, samples), nodes)
 
 
 def _gauss(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

@@ -219,12 +219,14 @@ class FacetRule:
     shapes: NDArray[np.float64]
 
 
-def facet_rule(V: Any, points_per_axis: int) -> FacetRule:
-    """Tensor Gauss rule on each facet of the reference cell, with the shape functions of the space V."""
+def facet_rule(V: Any, line: tuple[NDArray[np.float64], NDArray[np.float64]]) -> FacetRule:
+    """Tensor product of a rule on [0, 1], points and weights, on each facet, with the shape functions of V."""
     element = V.element.basix_element
     vertices, corners = basix.geometry(element.cell_type), basix.topology(element.cell_type)
     dim = vertices.shape[1]
-    flat, weights = gauss_rule((points_per_axis,) * (dim - 1))
+    axes = dim - 1
+    flat = np.stack(np.meshgrid(*[line[0]] * axes, indexing="ij"), axis=-1).reshape(-1, axes)
+    weights = functools.reduce(np.multiply.outer, [line[1]] * axes).ravel()
     first = np.array([[vertices[k] for k in facet] for facet in corners[dim - 1]])
     edges = np.stack([first[:, 2**axis] - first[:, 0] for axis in range(dim - 1)], axis=1)
     points = first[:, None, 0] + np.einsum("qa,fad->fqd", flat, edges)

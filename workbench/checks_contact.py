@@ -1,4 +1,4 @@
-"""Check of the contact penalty. Verified by tests/unit/test_workbench_contact.py."""
+"""Checks of the contact methods. Verified by tests/unit/test_workbench_contact.py."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from collections.abc import Callable, Mapping
 from contracts.records import Check
 from workbench.check_rules import Claim, at_most
 
-__all__ = ["AUGMENTED", "largest_change", "penalty_check"]
+__all__ = ["AUGMENTED", "largest_change", "penalty_check", "penetration_check"]
 
 AUGMENTED = "augmented_lagrangian"
 _LIMIT = 0.005
+_DEEPEST = 1e-6
 
 
 def largest_change(loads: Mapping[str, float]) -> float:
@@ -29,3 +30,16 @@ def penalty_check(loads: Callable[[], Mapping[str, float]], where: str) -> Check
         source="project's own requirement",
     )
     return at_most(claim, lambda: largest_change(loads()), _LIMIT)
+
+
+def penetration_check(depth: Callable[[], float], where: str) -> Check:
+    """``depth`` gives the largest penetration [m] that the augmented Lagrangian leaves anywhere on the faces."""
+    claim = Claim(
+        id="fe.penetration",
+        title=f"FE: largest penetration anywhere on the faces with the augmented Lagrangian, up to {where}",
+        quantity="penetration",
+        unit="m",
+        role="gate",
+        source="project's own requirement",
+    )
+    return at_most(claim, depth, _DEEPEST)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.records import Check
-from workbench.checks_contact import AUGMENTED, penalty_check
+from workbench.checks_contact import AUGMENTED, penalty_check, penetration_check
 from workbench.graph_fe import degrees, fe_inputs, fe_task, mesh_task
 from workbench.results import CURVE
 from workbench.study import Study
@@ -40,9 +40,9 @@ class ContactRun:
         """Load at the last point [N]."""
         return float(self.curve.load[-1])
 
-    def last(self, column: str) -> float:
-        """A column of the curve at its last point."""
-        return float(self.curve.columns[column][-1])
+    def largest(self, column: str) -> float:
+        """Largest value of a column along the curve."""
+        return float(self.curve.columns[column].max())
 
     @property
     def iterations(self) -> int:
@@ -105,7 +105,10 @@ def _read(study: Study, folders: Mapping[str, Path]) -> PenaltyStudy:
 
 def _checks(study: Study, found: Comparison, results: PenaltyStudy) -> Sequence[Check]:
     where = f"{results.deflection * 1e3:g} mm, {results.orientation_deg:g} deg"
-    return [penalty_check(results.loads, where)]
+    return [
+        penalty_check(results.loads, where),
+        penetration_check(lambda: results.runs[-1].largest("penetration_m"), where),
+    ]
 
 
 CONTACT = Topic(name="contact", title="Contact", tasks=_tasks, read=_read, checks=_checks, applies=_applies)

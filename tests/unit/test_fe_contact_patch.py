@@ -48,6 +48,16 @@ def test_patch_of_an_undeformed_arc_is_the_chord_below_the_plane() -> None:
     assert patch.penetration == pytest.approx(depth, rel=1e-6)
 
 
+def test_the_depth_is_that_of_the_deepest_edge() -> None:
+    """A flat facet that tilts dips deepest at its edge, beyond the outermost Gauss point."""
+    mesh, depth, slope = block_mesh((1, 1, 1), lambda X: X), 1e-3, 2e-3
+    tilted = np.column_stack([np.zeros((len(mesh.points), 2)), slope * (mesh.points[:, 0] - 0.5)])
+    patch = measure_patch(
+        mesh, contact_faces(mesh, ["z0"]), tilted, partial(height_over, -depth), np.array([1.0, 0.0, 0.0])
+    )
+    assert patch.penetration == pytest.approx(depth + 0.5 * slope, rel=1e-12)
+
+
 def test_no_contact_gives_an_empty_patch() -> None:
     mesh = block_mesh((4, 1, 1), arc)
     plane = partial(height_over, RADIUS + 1e-3)

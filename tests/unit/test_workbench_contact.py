@@ -80,15 +80,22 @@ def test_the_penalty_study_differs_in_the_contact_only(study: Study) -> None:
         ((99.0,) * 4, 0.009, "error"),
     ],
 )
+@pytest.mark.parametrize("depth", [0.9e-6, 1.1e-6])
 def test_the_check_holds_the_loads_against_the_augmented_lagrangian(
-    study: Study, loads: tuple[float, ...], end: float, status: str
+    study: Study, loads: tuple[float, ...], end: float, status: str, depth: float
 ) -> None:
     runs = []
     for name, load in zip(("0.1", "1", "10", "augmented_lagrangian"), loads, strict=True):
         curve = StiffnessCurve(
-            model="fe", orientation_deg=15.0, deflection=np.array([0.0, end]), load=np.array([0.0, load])
+            model="fe",
+            orientation_deg=15.0,
+            deflection=np.array([0.0, end]),
+            load=np.array([0.0, load]),
+            columns={"penetration_m": np.array([0.0, depth])},
         )
         runs.append(ContactRun(name=name, stiffness=1e11, curve=curve))
     found = PenaltyStudy(orientation_deg=15.0, deflection=0.01, runs=tuple(runs))
-    (check,) = CONTACT.checks(study, None, found)  # type: ignore[arg-type]
+    check, deepest = CONTACT.checks(study, None, found)  # type: ignore[arg-type]
     assert (check.id, check.role, check.status) == ("fe.penalty_study", "gate", status)
+    assert (deepest.id, deepest.role, deepest.value) == ("fe.penetration", "gate", depth)
+    assert deepest.status == ("pass" if depth < 1e-6 else "fail")
