@@ -1,0 +1,63 @@
+"""Small vibrations about a state: natural frequencies, and the longest stable explicit step."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+from scipy.sparse import csc_array, kron
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from ancf_reduced.mass_factor import MassFactor
+from ancf_reduced.plate_assembly import sparse_matrix
+from ancf_reduced.plate_system import PlateSystem
+
+__all__ = ["natural_frequencies", "stable_step", "stiffness_matrix"]
+
+FloatArray = NDArray[np.float64]
+
+
+def stiffness_matrix(system: PlateSystem, z: FloatArray) -> csc_array:
+    """Elastic tangent in the independent coordinates, (3 n_vectors, 3 n_vectors) sparse; row 3 k + i."""
+    B = kron(system.coordinates.map, np.eye(3), format="csr")
+    K = sparse_matrix(system.model.mesh, system.model.elastic_tangents(system.coordinates.expand(z)))
+    return csc_array(B.T @ K @ B)
+
+
+def natural_frequencies(system: PlateSystem, z: FloatArray, count: int | None = None) -> FloatArray:
+    """The lowest natural frequencies about z, ascending [Hz]; all of them where ``count`` is None.
+
+    Rigid motions have zero; triads are taken as deformable, so that a hub adds frequencies of its own if it is free.
+    External forces and damping are left out.
+
+    Verified by tests/verification/test_ancf_frequencies.py.
+    """
+    K = stiffness_matrix(system, z)
+    M = csc_array(kron(system.mass, np.eye(3)))
+    if count is None or K.shape[0] < 600:
+        squares = eigh(K.toarray(), M.toarray(), eigvals_only=True, check_finite=False)
+    else:
+        shift = -1e-6 * K.diagonal().max() / M.diagonal().max()
+        squares = np.sort(eigsh(K, k=count, M=M, sigma=shift, return_eigenvectors=False))
+    found = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi)
+    return np.asarray(found if count is None else found[:count])
+
+
+def stable_step(system: PlateSystem, z: FloatArray, safety: float = 0.8) -> float:
+    """Longest step of `explicit_dynamics`: safety times 2 / omega_max of the elastic forces about z [s].
+
+    Verified by tests/unit/test_ancf_explicit_dynamics.py.
+    """
+    K, factor = stiffness_matrix(system, z), MassFactor(system.mass)
+    n = K.shape[0]
+    if n < 600:
+        M = csc_array(kron(system.mass, np.eye(3))).toarray()
+        largest = eigh(K.toarray(), M, eigvals_only=True, subset_by_index=(n - 1, n - 1), check_finite=False)[0]
+    else:
+
+        def product(x: FloatArray) -> FloatArray:
+            return factor.force_to_cholesky((K @ factor.from_cholesky(x.reshape(-1, 3)).ravel()).reshape(-1, 3)).ravel()
+
+        operator = LinearOperator((n, n), matvec=product, dtype=np.float64)
+        largest = 1.02 * eigsh(operator, k=1, which="LM", tol=1e-2, return_eigenvectors=False)[0]
+    return float(safety * 2.0 / np.sqrt(largest))
