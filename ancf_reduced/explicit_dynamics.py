@@ -60,7 +60,7 @@ def integrate_explicit(
     InputError, ConvergenceError
         For a step or times out of range; if the motion is no longer finite, which a step beyond the stable one causes.
 
-    Verified by tests/verification/test_ancf_pendulum.py and tests/unit/test_ancf_explicit_dynamics.py.
+    Verified by tests/verification/test_ancf_pendulum.py and tests/unit/test_ancf_rigid_hub.py.
     """
     _check(start, times, step)
     factor = MassFactor(system.mass)

@@ -65,7 +65,7 @@ def hub_mass(hub: HubMass) -> FloatArray:
     The gradients' part is the second moment of mass J = tr(I) / 2 - I, so that sum J_ij a_i' . a_j' / 2 is the energy
     of the spin.
 
-    Verified by tests/unit/test_ancf_plate_system.py.
+    Verified by tests/unit/test_ancf_rigid_hub.py.
     """
     matrix = np.zeros((4, 4))
     matrix[0, 0] = hub.mass

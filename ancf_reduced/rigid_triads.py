@@ -85,7 +85,7 @@ def _stop(v: FloatArray, a: FloatArray, W: FloatArray, active: IntArray, Lambda:
 class RigidTriads:
     """All rigid reference nodes of a system, with the mass they act through.
 
-    Verified by tests/unit/test_ancf_rigid_triads.py.
+    Verified by tests/unit/test_ancf_rigid_hub.py.
     """
 
     def __init__(self, triads: IntArray, factor: MassFactor, n_vectors: int) -> None:

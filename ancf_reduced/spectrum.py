@@ -46,7 +46,7 @@ def natural_frequencies(system: PlateSystem, z: FloatArray, count: int | None = 
 def stable_step(system: PlateSystem, z: FloatArray, safety: float = 0.8) -> float:
     """Longest step of `explicit_dynamics`: safety times 2 / omega_max of the elastic forces about z [s].
 
-    Verified by tests/unit/test_ancf_explicit_dynamics.py.
+    Verified by tests/unit/test_ancf_rigid_hub.py.
     """
     K, factor = stiffness_matrix(system, z), MassFactor(system.mass)
     n = K.shape[0]
