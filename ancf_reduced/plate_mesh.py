@@ -15,6 +15,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
 from contracts.errors import InputError, MeshError
 
@@ -170,20 +173,18 @@ def build_plate_mesh(patches: Sequence[PlatePatch], tolerance: float = 1e-9) -> 
     """
     if not patches:
         raise MeshError("a plate mesh needs one patch or more: give at least one PlatePatch")
-    points: list[FloatArray] = []
-    elements = np.empty((len(patches), 4), dtype=np.int64)
+    corners = np.concatenate([patch.corners for patch in patches])
+    pairs = cKDTree(corners).query_pairs(tolerance, output_type="ndarray")
+    links = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(corners), len(corners)))
+    _, group = connected_components(links, directed=False)
+    _, first, node = np.unique(group, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # nodes are numbered as they first appear
+    elements = np.argsort(order)[node].reshape(-1, 4)
     for j, patch in enumerate(patches):
-        for k, corner in enumerate(patch.corners):
-            distance = np.linalg.norm(np.array(points) - corner, axis=1) if points else np.empty(0)
-            if not len(distance) or distance.min() > tolerance:
-                points.append(corner)
-                elements[j, k] = len(points) - 1
-            else:
-                elements[j, k] = int(distance.argmin())
         if len(set(elements[j].tolist())) < 4:
             raise MeshError(f"patch {j} ({patch.part}) has corners closer than {tolerance:g} m: lower the tolerance")
     return PlateMesh(
-        points=np.array(points),
+        points=corners[first[order]],
         elements=elements,
         gradients=np.array([patch.gradients for patch in patches]),
         dimensions=np.array([patch.dimensions for patch in patches]),

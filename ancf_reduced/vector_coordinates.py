@@ -47,6 +47,12 @@ class VectorCoordinates:
         """Number of independent vectors."""
         return int(self.map.shape[1])
 
+    @property
+    def position_rows(self) -> IntArray:
+        """Rows of z that are positions: those that no gradient of a node depends on."""
+        on_gradients = np.delete(np.arange(self.map.shape[0]), np.s_[::4])
+        return np.setdiff1d(np.arange(self.n_vectors), self.map[on_gradients].indices)
+
     def expand(self, z: FloatArray) -> FloatArray:
         """Structure coordinates (n_nodes, 4, 3) from the independent vectors (n_vectors, 3)."""
         return np.asarray(self.map @ z + self.held).reshape(-1, 4, 3)

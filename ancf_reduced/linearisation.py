@@ -1,0 +1,87 @@
+"""Tangent stiffness and damping of a system of plates in its independent coordinates, full or sparse by size.
+
+Row 3 k + i is component i of independent vector k. Verified by tests/unit/test_ancf_implicit_dynamics.py.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lu_factor, lu_solve
+from scipy.sparse import block_array, csc_array, eye_array, kron
+from scipy.sparse.linalg import splu
+
+from ancf_reduced.plate_assembly import dense_matrix, sparse_matrix
+from ancf_reduced.plate_system import PlateSystem
+
+__all__ = ["Linearisation", "Matrix"]
+
+FloatArray = NDArray[np.float64]
+type Matrix = FloatArray | csc_array
+"""Full for small systems, sparse for large ones."""
+
+_SMALL = 250
+"""Up to so many vectors matrices are full."""
+
+
+class Linearisation:
+    """Matrices of one system, and solves with them.
+
+    Attributes
+    ----------
+    mass : (3 n, 3 n) matrix of the inertia
+    """
+
+    def __init__(self, system: PlateSystem) -> None:
+        self.system, self._small = system, system.coordinates.n_vectors <= _SMALL
+        self._map = system.coordinates.map.toarray() if self._small else kron(system.coordinates.map, eye_array(3))
+        mass = kron(system.mass, eye_array(3))
+        self.mass: Matrix = mass.toarray() if self._small else csc_array(mass)
+
+    def elastic(self, z: FloatArray) -> Matrix:
+        """Derivative of the elastic force by z."""
+        return self._reduced(self.system.model.elastic_tangents(self.system.coordinates.expand(z)))
+
+    def stiffness_and_damping(self, z: FloatArray, v: FloatArray, time: float) -> tuple[Matrix, Matrix]:
+        """Minus the derivatives of `PlateSystem.force` by z and by v."""
+        system = self.system
+        p, p_dot = system.coordinates.expand(z), system.coordinates.expand_rates(v)
+        stiffness, damping = system.model.elastic_tangents(p), np.zeros((len(system.model.mesh.elements), 48, 48))
+        if any(system.model.viscosity):
+            by_position, by_rate = system.model.damping_tangents(p, p_dot)
+            stiffness += by_position
+            damping += by_rate
+        for external in system.external:
+            by_position, by_rate = external.tangents(p, p_dot, time)
+            stiffness += by_position
+            damping += by_rate
+        return self._reduced(stiffness), self._reduced(damping)
+
+    def solve(self, matrix: Matrix, constraints: FloatArray, right: FloatArray) -> FloatArray:
+        """Solution of [matrix G^T; G 0] x = right with the constraints' Jacobian G (m, 3 n)."""
+        m = len(constraints)
+        if isinstance(matrix, np.ndarray):
+            whole = np.block([[matrix, constraints.T], [constraints, np.zeros((m, m))]])
+            return np.asarray(lu_solve(lu_factor(whole, check_finite=False), right, check_finite=False))
+        if m:
+            below = csc_array(constraints)
+            blocks: list[list[csc_array | None]] = [[matrix, csc_array(below.T)], [below, None]]
+            matrix = csc_array(block_array(blocks))
+        return np.asarray(splu(matrix).solve(right))
+
+    def like_mass(self, matrix: FloatArray) -> Matrix:
+        """A matrix (n, n) that is the same for each direction, as (3 n, 3 n)."""
+        if self._small:
+            return np.asarray(np.kron(matrix, np.eye(3)), dtype=np.float64)
+        return csc_array(kron(csc_array(matrix), eye_array(3)))
+
+    def _reduced(self, blocks: FloatArray) -> Matrix:
+        mesh = self.system.model.mesh
+        if not self._small:
+            return csc_array(self._map.T @ sparse_matrix(mesh, blocks) @ self._map)
+        B, n = self._map, self.system.coordinates.n_vectors
+        rows = 4 * len(mesh.points)
+        half = B.T @ dense_matrix(mesh, blocks).reshape(rows, -1)  # (n, 3 rows 3)
+        halves = half.reshape(n, 3, rows, 3).transpose(2, 0, 1, 3).reshape(rows, -1)
+        whole = (B.T @ halves).reshape(n, n, 3, 3)  # [column vector, row vector, row component, column component]
+        return np.ascontiguousarray(whole.transpose(1, 2, 0, 3).reshape(3 * n, 3 * n))

@@ -1,0 +1,141 @@
+"""Speed of the ANCF plate loops: force and tangent of the 8-plate tire, of ever larger meshes, the arithmetic limit.
+
+``make bench NAME=ancf_tire`` prints the table and writes ``build/bench/ancf_tire.json``. Each number is the shortest of
+many short runs on one core, calls from Python included. No other code with this element is on the package registries,
+so there is no peer in the run; for scale, Project Chrono's same plate, built from source on such a machine, needs 2.3
+microseconds a plate for the force and 94 for force with tangent (issue text of this project). The arithmetic limit is
+the loop's own floating point operations over this core's measured rate of multiply-adds in vector registers.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch  # noqa: E402
+from ancf_reduced.plate_model import PlateModel, build_plate_model  # noqa: E402
+from ancf_reduced.tire_mesh import build_tire  # noqa: E402
+from ancf_reduced.tire_preset import thesis_preset  # noqa: E402
+
+OUT = ROOT / "build" / "bench" / "ancf_tire.json"
+QUADRATURE = (4, 4, 2)
+TARGETS = {"force": 18.0, "tangent": 40.0}
+"""Microseconds: force of the whole 8-plate tire, and force with tangent of one plate."""
+MESHES = (8, 50, 400, 3000)
+FORCE_FLOPS_POINT = 2 * (2 * 16 * 6 + 2 * 4 * 3 + 90)
+"""Multiply-adds, each two, at a point: base vectors and forces of 16 functions, strain and stress."""
+TANGENT_FLOPS_POINT = 2 * (81 * 7 + 48 * 9 * 2 + (16 * 17 // 2) * 9 * 2)
+"""Of the point's 81 stiffnesses, their rows for 48 coordinates, and 136 pairs of functions."""
+
+
+def main() -> None:
+    """Measure, print, write."""
+    rows = [*tire_rows(), *mesh_rows()]
+    OUT.parent.mkdir(parents=True, exist_ok=True)
+    OUT.write_text(json.dumps({"schema": 1, "name": "ancf_tire", "rows": rows}, indent=1) + "\n", encoding="utf-8")
+    for r in rows:
+        print(f"{r['case']:<24}{r['metric']:<56}{r['ours']:>10.3g} {r['unit']}")
+
+
+def row(case: str, metric: str, unit: str, ours: float) -> dict[str, object]:
+    """One line of the table; there is no peer."""
+    return {"case": case, "metric": metric, "unit": unit, "ours": ours, "peer": None, "ratio": None}
+
+
+def tire_rows() -> list[dict[str, object]]:
+    """The thesis' tire with 4 x 4 x 2 points."""
+    model = build_tire(replace(thesis_preset(), quadrature=QUADRATURE)).model
+    force, tangent, damping = times(model)
+    plates, points = len(model.mesh.elements), int(np.prod(QUADRATURE))
+    rate, case = multiply_add_rate(), "8-plate tire"
+    limit_force = 1e6 * plates * points * FORCE_FLOPS_POINT / rate
+    limit_tangent = 1e6 * points * TANGENT_FLOPS_POINT / rate
+    return [
+        row(case, f"force (target {TARGETS['force']:g})", "us", force),
+        row(case, "damping force", "us", damping),
+        row(case, f"force with tangent, a plate (target {TARGETS['tangent']:g})", "us", (force + tangent) / plates),
+        row(case, "arithmetic of the force at this core's rate", "us", limit_force),
+        row(case, "force over its arithmetic", "-", force / limit_force),
+        row(case, "arithmetic of the tangent of a plate", "us", limit_tangent),
+        row(case, "tangent of a plate over its arithmetic", "-", tangent / plates / limit_tangent),
+        row("this core", "multiply-adds in vector registers", "Gflop/s", 1e-9 * rate),
+    ]
+
+
+def mesh_rows() -> list[dict[str, object]]:
+    """Cost of a plate as the mesh grows."""
+    rows = []
+    for plates in MESHES:
+        patches = [
+            flat_patch(np.array([0.1 * i, 0, 0]), np.array([0.1, 0, 0]), np.array([0, 0.1, 0]), 0.01, "strip")
+            for i in range(plates)
+        ]
+        model = build_plate_model(
+            build_plate_mesh(patches), young_modulus=1e6, poisson_ratio=0.3, density=1.0, quadrature=QUADRATURE
+        )
+        force, tangent, _ = times(model)
+        rows += [
+            row(f"{plates} plates", "force, a plate", "us", force / plates),
+            row(f"{plates} plates", "tangent, a plate", "us", tangent / plates),
+        ]
+    return rows
+
+
+def times(model: PlateModel) -> tuple[float, float, float]:
+    """Force, tangents and damping force of a whole mesh [us]."""
+    model = replace(model, viscosity=(1.0, 1.0))
+    p = model.mesh.reference_coordinates()
+    p += 1e-3 * np.random.default_rng(1).normal(size=p.shape)
+    rates, force = 0.1 * p, np.empty_like(p)
+    tangents = np.empty((len(model.mesh.elements), 48, 48))
+    return (
+        shortest(lambda: model.elastic_force(p, force)),
+        shortest(lambda: model.elastic_tangents(p, tangents)),
+        shortest(lambda: model.damping_force(p, rates, force)),
+    )
+
+
+def shortest(call: Callable[[], object], budget_s: float = 2.0) -> float:
+    """Shortest time of a call in bursts of about a millisecond [us]."""
+    call()
+    begun = time.perf_counter()
+    call()
+    burst = max(1, int(1e-3 / (time.perf_counter() - begun)))
+    best, end = float("inf"), time.perf_counter() + budget_s
+    while time.perf_counter() < end:
+        begun = time.perf_counter()
+        for _ in range(burst):
+            call()
+        best = min(best, (time.perf_counter() - begun) / burst)
+    return 1e6 * best
+
+
+@numba.njit(fastmath=True)
+def _multiply_add(a: NDArray[np.float64], rounds: int) -> float:
+    """Eight chains of eight lanes each, in registers: 2 * 64 * rounds operations."""
+    x = a.copy()
+    for _ in range(rounds):
+        for k in range(64):
+            x[k] = x[k] * 0.999999 + 1e-7
+    return float(x.sum())
+
+
+def multiply_add_rate() -> float:
+    """Floating point operations a second of one core that does nothing but multiply and add."""
+    a, rounds = np.ones(64), 20000
+    return 2.0 * 64.0 * rounds / (1e-6 * shortest(lambda: _multiply_add(a, rounds)))
+
+
+if __name__ == "__main__":
+    main()
