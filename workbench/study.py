@@ -28,6 +28,7 @@ from workbench.study_sections import (
     Positive,
     Section,
     ToleranceSection,
+    VerificationSection,
 )
 from workbench.study_wheel import WheelSection
 
@@ -85,6 +86,7 @@ class Study(WheelStudy):
     full : what `workbench report --full` takes instead of the study's orientations and mesh
     hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
     penalty_study : where the load is held against other contact penalties; None to leave it out
+    verification : whether the finite elements' benchmarks are part of the report
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
     """
@@ -95,6 +97,7 @@ class Study(WheelStudy):
     mesh_study: MeshStudySection
     hub_study: HubStudySection | None = None
     penalty_study: PenaltyStudySection | None = None
+    verification: VerificationSection = VerificationSection()
     full: FullSection = FullSection()
     ancf: AncfSection
     brush: BrushSection

@@ -40,6 +40,7 @@ __all__ = [
     "Section",
     "Thickness",
     "ToleranceSection",
+    "VerificationSection",
     "in_key",
 ]
 
@@ -197,6 +198,12 @@ class FullSection(Section):
                 "mesh_study_factors", shown, f"must increase and contain factor = {self.factor:g}", "e.g. 1, 1.5, 2"
             )
         return self
+
+
+class VerificationSection(Section):
+    """Whether the report runs the finite elements' benchmarks, which do not depend on the study."""
+
+    enabled: StrictBool = True
 
 
 class AncfSection(Section):

@@ -11,10 +11,20 @@ from workbench.topic_mesh_study import MESH_STUDY
 from workbench.topic_orientations import ORIENTATIONS
 from workbench.topic_section import SECTION
 from workbench.topic_strength import STRENGTH
+from workbench.topic_verification import VERIFICATION
 
 __all__ = ["TOPICS", "topics_of"]
 
-TOPICS: tuple[Topic, ...] = (ORIENTATIONS, MESH_STUDY, CONTACT, SECTION, HUB, STRENGTH, ENVIRONMENT)
+TOPICS: tuple[Topic, ...] = (
+    ORIENTATIONS,
+    MESH_STUDY,
+    CONTACT,
+    SECTION,
+    HUB,
+    STRENGTH,
+    ENVIRONMENT,
+    VERIFICATION,
+)
 
 
 def topics_of(study: Study) -> tuple[Topic, ...]:
