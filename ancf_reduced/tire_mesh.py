@@ -16,7 +16,7 @@ from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape
 from ancf_reduced.tire_preset import TirePreset
 from contracts.frames import ground_direction_h
 
-__all__ = ["RIM", "SPOKE", "Tire", "arc_tangent_length", "build_tire", "rim_patch", "spoke_patch"]
+__all__ = ["RIM", "SPOKE", "Tire", "arc_tangent_length", "build_tire", "rim_patch", "spoke_patch", "tire_on_mesh"]
 
 FloatArray = NDArray[np.float64]
 RIM, SPOKE = "rim", "spoke"
@@ -121,7 +121,28 @@ def build_tire(
         for i in range(preset.spokes)
         for part in range(preset.plates_per_spoke)
     ]
-    mesh = build_plate_mesh([*rim, *spokes])
+    return tire_on_mesh(preset, build_plate_mesh([*rim, *spokes]), shape)
+
+
+def tire_on_mesh(preset: TirePreset, mesh: PlateMesh, shape: PlateShape = THESIS_SHAPE) -> Tire:
+    """A tire on plates of one's own, e.g. from B-spline surfaces (spline_plates); nodes within the hub radius are tied.
+
+    Parameters
+    ----------
+    preset : material, contact and integration; its outer radius is where deflection counts from, its hub radius [m]
+        how far from the axle nodes belong to the hub
+    mesh : plates in the wheel frame, the part "rim" with directors outwards
+    shape : interpolation
+
+    Raises
+    ------
+    InputError
+        If there is no part "rim", or no node within the hub radius.
+
+    Verified by tests/verification/test_ancf_spline_tire.py.
+    """
+    hub_nodes = np.flatnonzero(np.hypot(mesh.points[:, 0], mesh.points[:, 2]) <= preset.hub_radius + 1e-9)
+    grid = build_contact_grid(mesh, mesh.plates_of(RIM), preset.contact_points, preset.contact_layout, shape)
     model = build_plate_model(
         mesh,
         young_modulus=preset.young_modulus,
@@ -130,7 +151,4 @@ def build_tire(
         quadrature=preset.quadrature,
         shape=shape,
     )
-    grid = build_contact_grid(mesh, mesh.plates_of(RIM), preset.contact_points, preset.contact_layout, shape)
-    innermost = mesh.plates_of(SPOKE)[:: preset.plates_per_spoke]
-    hub_nodes = np.unique(mesh.elements[innermost][:, [0, 3]])
     return Tire(preset=preset, model=model, grid=grid, tie=tie_reference_node(mesh, hub_nodes, np.zeros(3)))

@@ -8,8 +8,10 @@ from geometry.measures import MeshQuality, joint_areas, mesh_quality, mesh_volum
 from geometry.msh import write_msh
 from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
 from geometry.planar import build_planar_mesh
+from geometry.spline_surface import SplineSurface, bezier_surface
 from geometry.step import write_step
 from geometry.summary import MeshSummary, PartSummary, summarize_mesh
+from geometry.surface_step import step_points, write_surfaces_step
 from geometry.vtu import write_vtu
 from geometry.wheel import WheelDesign, exomars
 
@@ -20,9 +22,11 @@ __all__ = [
     "MeshQuality",
     "MeshSummary",
     "PartSummary",
+    "SplineSurface",
     "SpringSet",
     "Tire",
     "WheelDesign",
+    "bezier_surface",
     "build_mesh",
     "build_planar_mesh",
     "check_matches_design",
@@ -34,9 +38,11 @@ __all__ = [
     "mesh_quality",
     "mesh_volume",
     "part_masses",
+    "step_points",
     "summarize_mesh",
     "write_inp",
     "write_msh",
     "write_step",
+    "write_surfaces_step",
     "write_vtu",
 ]

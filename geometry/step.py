@@ -20,10 +20,10 @@ from geometry.section import build_section
 from geometry.solids import draw_faces, draw_frustum_section
 from geometry.wheel import WheelDesign
 
-__all__ = ["write_step"]
+__all__ = ["in_metres", "write_named", "write_step"]
 
 _UNIT = "Geometry.OCCTargetUnit"
-_PRODUCT = re.compile(r"PRODUCT\('[^']* \d+\.(\d+)',\s*'[^']*'")
+_PRODUCT = re.compile(r"PRODUCT\('[^']* \d+(?:\.(\d+))?',\s*'[^']*'")
 
 
 def write_step(design: WheelDesign, path: Path) -> None:
@@ -34,7 +34,6 @@ def write_step(design: WheelDesign, path: Path) -> None:
     design : the wheel
     path : file to write (``.step``); its folder is made if needed
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
     names: list[str] = []
     with gmsh_session(design.name) as gmsh:
         for part, solids in _solids(gmsh, design):
@@ -42,15 +41,27 @@ def write_step(design: WheelDesign, path: Path) -> None:
         occ = gmsh.model.occ
         occ.remove([entity for dim in (2, 1, 0) for entity in occ.getEntities(dim)])
         occ.synchronize()
-        before = gmsh.option.getString(_UNIT)
-        gmsh.option.setString(_UNIT, "M")
-        try:
-            with _silenced_stdout():
-                gmsh.write(str(path))
-        finally:
-            gmsh.option.setString(_UNIT, before)
+        write_named(gmsh, path, names)
+
+
+def write_named(gmsh: Any, path: Path, names: list[str]) -> None:
+    """Write an open session's shapes, drawn in metres, with a product's name for each in the order of their tags."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with in_metres(gmsh), _silenced_stdout():
+        gmsh.write(str(path))
     text = path.read_text(encoding="utf-8")
     path.write_text(_PRODUCT.sub(lambda m: _named(m, names), text), encoding="utf-8")
+
+
+@contextmanager
+def in_metres(gmsh: Any) -> Iterator[None]:
+    """Let OpenCASCADE take the numbers of shapes written or read as metres."""
+    before = gmsh.option.getString(_UNIT)
+    gmsh.option.setString(_UNIT, "M")
+    try:
+        yield
+    finally:
+        gmsh.option.setString(_UNIT, before)
 
 
 @contextmanager
@@ -68,8 +79,10 @@ def _silenced_stdout() -> Iterator[None]:
 
 
 def _named(match: re.Match[str], names: list[str]) -> str:
-    """Product of the k-th solid, which OpenCASCADE numbers 1.k, with the part's name."""
-    name = names[int(match.group(1)) - 1]
+    """Product of the k-th shape, which OpenCASCADE numbers 1.k (1 if it is the only one), with its name."""
+    if match.group(1) is None and len(names) > 1:
+        return match.group(0)  # the assembly
+    name = names[int(match.group(1) or 1) - 1]
     return f"PRODUCT('{name}','{name}'"
 
 
