@@ -21,7 +21,10 @@ from typing import Any
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT))
-OUT = ROOT / "build" / "bench" / "fe_ranks.json"
+
+from benchmarks.output.run import Run, add_option  # noqa: E402
+
+ANSWERS = ROOT / "build" / "bench"
 DEFLECTIONS = (0.002, 0.005, 0.010, 0.015)
 SIZES = {"medium": (7e-3, 15e-3), "large": (4e-3, 10e-3)}
 """Element size along strips and along the axle [m]."""
@@ -33,11 +36,13 @@ def main() -> None:
     parser.add_argument("--size", choices=SIZES, default="medium")
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--child", type=Path, help=argparse.SUPPRESS)
+    add_option(parser)
     options = parser.parse_args()
     if options.child:
         solve(options.size, options.child)
         return
     load = os.getloadavg()[0]
+    run = Run("fe_ranks")
     runs: dict[int, list[dict[str, float]]] = {1: [], 2: []}
     for _ in range(options.repeats):
         for ranks, found in runs.items():
@@ -46,12 +51,13 @@ def main() -> None:
     rows = [row(f"wheel, {one['dofs']:.0f} unknowns", name, unit, two[key], one[key]) for key, name, unit in METRICS]
     rows.append(row("machine", "load average at the start", "-", load, None))
     rows.append(row("machine", "cores", "-", float(os.cpu_count() or 1), None))
-    OUT.parent.mkdir(parents=True, exist_ok=True)
-    OUT.write_text(json.dumps({"schema": 1, "name": "fe_ranks", "rows": rows}, indent=1) + "\n", encoding="utf-8")
+    written = run.write(rows, keep=options.record)
     print(f"{'case':<24}{'metric':<44}{'two':>10}{'one':>10}{'ratio':>8}")
     for r in rows:
         shown = [f"{r[k]:.3g}" if r[k] is not None else "" for k in ("ours", "peer", "ratio")]
         print(f"{r['case']:<24}{r['metric'] + ' [' + r['unit'] + ']':<44}{shown[0]:>10}{shown[1]:>10}{shown[2]:>8}")
+    for path in written:
+        print(f"written: {path}")
 
 
 METRICS = (
@@ -73,7 +79,7 @@ def measured(size: str, ranks: int) -> dict[str, float]:
     """Numbers of one run in processes of its own."""
     from workbench.ranks import mpiexec
 
-    answer = OUT.with_name(f"fe_ranks_{ranks}.tmp")
+    answer = ANSWERS / f"fe_ranks_{ranks}.tmp"
     answer.parent.mkdir(parents=True, exist_ok=True)
     own = [sys.executable, __file__, "--size", size, "--child", str(answer)]
     launcher = [] if ranks == 1 else [mpiexec(), "-n", str(ranks)]

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
-import json
 import shutil
 import subprocess
 import sys
@@ -25,6 +24,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT)]
 
+from benchmarks.output.run import Run, add_option  # noqa: E402
 from benchmarks.peer_codes import calculix  # noqa: E402
 from benchmarks.peer_codes.case import Description, from_description  # noqa: E402
 from benchmarks.peer_codes.outcome import Outcome, python_run  # noqa: E402
@@ -173,7 +173,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="+", choices=list(CASES), default=list(CASES), help="cases to run")
     parser.add_argument("--threads", type=int, default=1, help="threads of every code (wall time is then what counts)")
+    add_option(parser)
     chosen = parser.parse_args()
+    if chosen.record and set(chosen.only) != set(CASES):
+        parser.error("--record keeps whole runs only: leave --only out")
+    if chosen.record and None in _peers().values():
+        parser.error("--record keeps whole runs only: install CalculiX and FElupe")
+    run = Run("fe_wheel", {"CalculiX": calculix.version()})
     for peer, hint in (
         ("CalculiX", "install the package calculix-ccx (Debian, Ubuntu) so that ccx is on PATH"),
         ("FElupe", "`make bench` installs it; by hand: uv pip install --constraints constraints.txt --group bench"),
@@ -184,10 +190,11 @@ def main() -> None:
     for row in rows:
         peer, ratio = (f"{row[key]:12.4g}" if row[key] is not None else f"{'-':>12s}" for key in ("peer", "ratio"))
         print(f"{row['case']:48s} {row['metric']:30s} {row['unit']:3s} {row['ours']:12.4g} {peer} {ratio}")
-    target = ROOT / "build" / "bench" / "fe_wheel.json"
-    target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(json.dumps({"schema": 1, "name": "fe_wheel", "rows": rows}, indent=1) + "\n")
-    print(f"written: {target.relative_to(ROOT)}")
+    whole = all(row["peer"] is not None for row in rows)
+    for written in run.write(rows, keep=chosen.record and whole):
+        print(f"written: {written}")
+    if chosen.record and not whole:
+        sys.exit("the run is not kept for the report: a code did not reach 20 mm in every case")
 
 
 if __name__ == "__main__":

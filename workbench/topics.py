@@ -10,6 +10,7 @@ from workbench.topic_hub import HUB
 from workbench.topic_mesh_study import MESH_STUDY
 from workbench.topic_orientations import ORIENTATIONS
 from workbench.topic_section import SECTION
+from workbench.topic_speed import SPEED
 from workbench.topic_strength import STRENGTH
 from workbench.topic_verification import VERIFICATION
 
@@ -24,6 +25,7 @@ TOPICS: tuple[Topic, ...] = (
     STRENGTH,
     ENVIRONMENT,
     VERIFICATION,
+    SPEED,
 )
 
 

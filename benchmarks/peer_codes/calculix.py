@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +13,18 @@ from benchmarks.peer_codes.case import TOLERANCE, LoadCase
 from benchmarks.peer_codes.outcome import Outcome, measured
 from geometry.inp import TWENTY_NODES, write_inp
 
-__all__ = ["PROGRAM", "solve"]
+__all__ = ["PROGRAM", "solve", "version"]
 
 PROGRAM = "ccx"
+
+
+def version() -> str:
+    """Version of the program, or ``missing``."""
+    if shutil.which(PROGRAM) is None:
+        return "missing"
+    shown = subprocess.run([PROGRAM, "-v"], capture_output=True, text=True, check=False, timeout=30).stdout
+    found = re.search(r"Version (\S+)", shown)
+    return found.group(1) if found else "unknown"
 
 
 def solve(case: LoadCase, folder: Path, threads: int, limit_s: float, element: str = "C3D20R") -> Outcome:

@@ -1,0 +1,106 @@
+"""The Speed section: kept benchmark runs are whole and readable, aims say met or missed, and the page shows them."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import numpy as np
+import pytest
+
+import workbench.report
+from benchmarks.fe_wheel import CASES
+from benchmarks.output.run import Run
+from contracts.curves import StiffnessCurve, average_curve
+from contracts.errors import InputError
+from workbench.benchmark_record import read_record
+from workbench.number_format import displayed
+from workbench.results import ModelCurves
+from workbench.topic_speed import RANKS, SPEED, Aim, CurveCost, SpeedResults, _costs
+
+SOLID = CurveCost(model="fe", orientation=15.0, dofs=40, points=18, increments=19, iterations=72, solve_s=9.0)
+
+
+def results(*curves: CurveCost) -> SpeedResults:
+    return SpeedResults(wheel=read_record("fe_wheel"), ranks=read_record("fe_ranks"), curves=curves or (SOLID,))
+
+
+def test_the_kept_runs_are_whole() -> None:
+    wheel, ranks = read_record("fe_wheel"), read_record("fe_ranks")
+    assert set(wheel.cases("time to 20 mm")) == {f"{c} against {p}" for c in CASES for p in ("CalculiX", "FElupe")}
+    assert len(ranks.cases(RANKS)) == 1
+    for run in (wheel, ranks):
+        assert len(run.commit) == 40
+        assert run.versions["numpy"] != "missing"
+        for row in run.rows:
+            if row.ratio is not None and row.peer is not None:
+                assert row.ratio == pytest.approx(row.peer / row.ours)
+    with pytest.raises(InputError, match="must be among the rows"):
+        wheel.row("half-cylinder-40 against CalculiX", "time to the moon")
+
+
+@pytest.mark.parametrize(
+    ("rule", "met"),
+    [("at least", (False, True, True)), ("more than", (False, False, True)), ("at most", (True, True, False))],
+)
+def test_an_aim_is_met_on_the_right_side(rule: Any, met: tuple[bool, ...]) -> None:
+    assert tuple(Aim(title="", found=found, limit=3.0, rule=rule).met for found in (2.9, 3.0, 3.1)) == met
+
+
+def test_aims_take_the_worst_number() -> None:
+    found = results(SOLID, replace(SOLID, iterations=90), replace(SOLID, model="section", solve_s=6.0))
+    iterations, planar = found.own_aims
+    assert (iterations.found, iterations.met) == (pytest.approx(100.0), False)
+    assert (planar.found, planar.met) == (6.0, False)
+    assert [aim.met for aim in results().own_aims] == [True]
+    calculix = [row.ratio for row in found.wheel.rows if "CalculiX" in row.case and row.metric.startswith("Newton")]
+    assert found.aims[2].found == min(calculix)
+
+
+def test_the_check_fails_where_a_curve_took_too_many_iterations() -> None:
+    statuses = [SPEED.checks(None, None, results(replace(SOLID, iterations=n)))[0].status for n in (72, 73)]  # type: ignore[arg-type]
+    assert statuses == ["pass", "fail"]
+
+
+def test_cost_is_read_from_the_stored_numbers() -> None:
+    D = np.linspace(0.0, 0.03, 4)
+    curve = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=D, load=1e4 * D)
+    attempts = [{"converged": True, "residuals": [1.0, 1e-3, 1e-9]}, {"converged": False, "residuals": [1.0, 2.0]}]
+    numbers = {"dofs": 81, "solve_s": 2.5, "increments": attempts}
+    curves = ModelCurves(
+        model="fe", by_orientation={0.0: curve}, average=average_curve([curve]), numbers={0.0: numbers}
+    )
+    (cost,) = _costs("fe", curves)
+    wanted = CurveCost(model="fe", orientation=0.0, dofs=81, points=3, increments=1, iterations=3, solve_s=2.5)
+    assert cost == wanted
+
+
+def test_the_section_says_met_and_missed() -> None:
+    loader = jinja2.FileSystemLoader(Path(workbench.report.__file__).parent / "templates")
+    environment = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, autoescape=True)
+    environment.filters["number"] = displayed
+    found = results(SOLID, replace(SOLID, model="section", solve_s=6.0))
+    text = environment.get_template("section_speed.html.j2").render(topic=found)
+    met = sum(aim.met for aim in found.aims)
+    assert (text.count("✓ met"), text.count("△ missed")) == (met, len(found.aims) - met)
+    assert 0 < met < len(found.aims)
+    assert found.wheel.commit in text
+
+
+def test_a_run_is_kept_only_when_asked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import benchmarks.output.run as module
+
+    monkeypatch.setattr(module, "ROOT", tmp_path)
+    monkeypatch.setattr(module, "DATA", tmp_path / "data")
+    row = {"case": "a", "metric": "b", "unit": "s", "ours": 1.0, "peer": 3.0, "ratio": 3.0}
+    run = Run("made_up", {"ccx": "2.20"})
+    run.write([row], keep=False)
+    assert not (tmp_path / "data").exists()
+    plain = json.loads((tmp_path / "build" / "bench" / "made_up.json").read_text(encoding="utf-8"))
+    assert plain == {"schema": 1, "name": "made_up", "rows": [row]}
+    run.write([row], keep=True)
+    kept = read_record("made_up", tmp_path / "data")
+    assert (kept.row("a", "b").ratio, kept.versions["ccx"]) == (3.0, "2.20")
