@@ -16,7 +16,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["add_tangent", "internal_force", "point_stress"]
+__all__ = ["add_tangent", "block_places", "diagonal_places", "internal_force", "point_stress"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int32]
@@ -91,6 +91,30 @@ def point_stress(u: Array, du: Array, G: Array, moduli: Array, dofs: Index, out:
                         trace += 0.5 * twice
             for i in range(3):
                 out[c, q, i, i] += lam * trace
+
+
+@numba.njit(cache=True)
+def block_places(nodes: Index, indptr: Index, indices: Index) -> Index:
+    """Place of node b's three columns within the rows of node a, (n_cells, n_nodes, n_nodes); nodes (n_cells, n_nodes).
+
+    indptr, indices : pattern of a CSR matrix of three unknowns a node, columns ascending
+    """
+    places = np.empty((nodes.shape[0], nodes.shape[1], nodes.shape[1]), dtype=np.int32)
+    for c in range(nodes.shape[0]):
+        for a in range(nodes.shape[1]):
+            row = indices[indptr[3 * nodes[c, a]] : indptr[3 * nodes[c, a] + 1]]
+            for b in range(nodes.shape[1]):
+                places[c, a, b] = np.searchsorted(row, 3 * nodes[c, b])
+    return places
+
+
+@numba.njit(cache=True)
+def diagonal_places(rows: Index, indptr: Index, indices: Index) -> NDArray[np.int64]:
+    """Places of the diagonal entries of rows in the values of a CSR matrix, (n_rows,)."""
+    places = np.empty(len(rows), dtype=np.int64)
+    for k, row in enumerate(rows):
+        places[k] = indptr[row] + np.searchsorted(indices[indptr[row] : indptr[row + 1]], row)
+    return places
 
 
 @numba.njit(cache=True, fastmath={"contract", "reassoc"})

@@ -66,18 +66,14 @@ class CompiledCells:
         groups = [*self._nodes, *surfaces.couplings()]
         self._csr = api.cell_matrix(self._V, groups, np.unique(supported // 3).astype(np.int32))
         indptr, indices = self._csr.indptr, self._csr.indices
-        rows = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
         self._indptr = np.ascontiguousarray(indptr, dtype=np.int32)
         self._indices = np.ascontiguousarray(indices, dtype=np.int32)
         held = np.zeros(len(indptr) - 1, dtype=bool)
         held[supported] = True
-        self._fixed = np.flatnonzero(held[rows] | held[indices])
-        own = rows < 3 * self._V.dofmap.index_map.size_local
-        self._fixed_diagonal = np.flatnonzero(held[rows] & (rows == indices) & own)
-        keys = rows * np.int64(len(held)) + indices
-        first = 3 * self._nodes.astype(np.int64)
-        wanted = first[:, :, None] * len(held) + first[:, None, :]
-        self._blocks = (np.searchsorted(keys, wanted) - indptr[first][:, :, None]).astype(np.int32)
+        self._fixed = np.flatnonzero(np.repeat(held, np.diff(indptr)) | held[indices])
+        own = supported[supported < 3 * self._V.dofmap.index_map.size_local]
+        self._fixed_diagonal = cell_kernels.diagonal_places(own, self._indptr, self._indices)
+        self._blocks = cell_kernels.block_places(self._nodes, self._indptr, self._indices)
         self._whole = surfaces.whole
         if api.COMM.size == 1:
             self._matrix = api.shared_matrix(self._csr)

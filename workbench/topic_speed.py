@@ -88,12 +88,12 @@ class SpeedResults:
     def aims(self) -> list[Aim]:
         """Aims of the kept runs, then those of this report's curves."""
         calculix = [case for case in self.wheel.cases(ITERATION) if case.endswith("CalculiX")]
-        faster, fewer = "faster an iteration than CalculiX", "fewer iterations than CalculiX, worst case"
+        faster, fewer = "Faster an iteration than CalculiX", "Fewer iterations than CalculiX, worst case"
         aims = [
             Aim(title=f"{faster} at equal accuracy", found=self._least([EQUAL_ACCURACY], ITERATION), limit=3.0),
             Aim(title=f"{faster}, same element, worst mesh", found=self._least(SAME_ELEMENT, ITERATION), limit=3.0),
             Aim(title=fewer, found=self._least(calculix, ITERATIONS), limit=1.0, rule="more than"),
-            Aim(title="faster on two processes than on one", found=_ratio(self.ranks, RANKS), limit=1.6),
+            Aim(title="Faster on two processes than on one", found=_ratio(self.ranks, RANKS), limit=1.6),
         ]
         return [*aims, *self.own_aims]
 
@@ -112,7 +112,7 @@ class SpeedResults:
             )
         ]
         if planar:
-            title = "an orientation of the planar model, slowest of this report"
+            title = "An orientation of the planar model, slowest of this report"
             aims.append(Aim(title=title, found=max(planar), limit=PLANAR_SECONDS, unit="s", rule="at most"))
         return aims
 
