@@ -18,7 +18,7 @@ from workbench.preset_table import COLUMNS, preset_table
 from workbench.results import ModelCurves, UserCurve
 from workbench.study_sections import ToleranceSection
 
-__all__ = ["agreement_checks", "ancf_checks", "plate_checks", "preset_error", "user_checks"]
+__all__ = ["agreement_checks", "ancf_checks", "plate_checks", "preset_error", "surfaces_check", "user_checks"]
 
 _PRESET_SOURCE = "two independent codes computed for this project, which agree (workbench/data/ancf_thesis_preset.csv)"
 _PLATE_SOURCE = "exact quadrature of thesis eq. 2.13; Project Chrono's reference matrices to 1e-11"
@@ -91,6 +91,22 @@ def plate_checks(errors: Mapping[str, float], tolerances: ToleranceSection) -> l
         )
         for name, error in errors.items()
     ]
+
+
+def surfaces_check(read_back: Mapping[str, float], tolerances: ToleranceSection) -> Check:
+    """The ANCF tire's surfaces in STEP files, unloaded and loaded, against the plates' own [m]."""
+    return at_most(
+        Claim(
+            id="ancf.surfaces",
+            title="ANCF tire as B-spline surfaces in STEP files, read back by gmsh: unloaded and loaded",
+            quantity="largest distance",
+            unit="m",
+            role="gate",
+            source="thesis eq. 2.13 at points of every plate's faces and mid-surface",
+        ),
+        lambda: max(read_back.values()),
+        tolerances.surface_distance,
+    )
 
 
 def agreement_checks(metrics: Mapping[str, Mapping[str, Any]], tolerances: ToleranceSection) -> list[Check]:

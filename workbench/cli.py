@@ -72,13 +72,19 @@ def report(
 @app.command()
 def mesh(
     study: StudyArgument,
+    model: Annotated[str, typer.Option(help="fe, or ancf: the reduced tire's surfaces as STEP.")] = "fe",
+    deflection: Annotated[
+        list[str] | None,
+        typer.Option(help="ancf: the loaded tire too, e.g. '10 mm'; may be given several times.", show_default=False),
+    ] = None,
+    orientation: Annotated[float, typer.Option(help="ancf: what faces the ground, in degrees.")] = 0.0,
     out: Annotated[Path, typer.Option(help="Folder of the mesh files.")] = Path("build/mesh"),
     store: Store = DEFAULT_STORE,
 ) -> None:
-    """Build and check the mesh; write .msh, .vtu, .step, a summary and a picture."""
-    from workbench.commands import run_mesh
+    """Build and check the mesh; write .msh, .vtu, .step, a summary and a picture. Of the ANCF tire: .step."""
+    from workbench.command_surfaces import run_mesh_of
 
-    raise typer.Exit(run_mesh(study, out, store))
+    raise typer.Exit(run_mesh_of(study, model, orientation, tuple(deflection or ()), out, store))
 
 
 @app.command()

@@ -6,8 +6,6 @@ Verified by tests/end_to_end.
 from __future__ import annotations
 
 import math
-import os
-import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,7 +19,7 @@ from contracts.records import Check
 from workbench.errors import InterruptedRunError, RunError
 from workbench.full_study import full_study
 from workbench.graph import mesh_tasks, report_tasks, stiffness_tasks
-from workbench.outputs import check_folder, check_targets, junit, publish, summary, to_json
+from workbench.outputs import check_folder, copy_files, junit, publish, summary, to_json
 from workbench.progress import RunDisplay
 from workbench.result_files import early_ends
 from workbench.results import mean_curve
@@ -30,7 +28,7 @@ from workbench.store import Entry, Store
 from workbench.study_file import built_in_study, read_study
 from workbench.task import Task
 
-__all__ = ["run_compare", "run_doctor", "run_mesh", "run_report", "run_stiffness"]
+__all__ = ["check_orientation", "naming", "run_compare", "run_doctor", "run_mesh", "run_report", "run_stiffness"]
 
 console = Console()
 _MODELS = ("fe", "section", "ancf", "brush")
@@ -41,7 +39,7 @@ def run_report(study_path: Path | None, out: Path, store: Path, computing: Compu
     path = study_path or built_in_study()
     study = read_study(path)
     if full:
-        with _naming(path):
+        with naming(path):
             study = full_study(study)
     check_folder(out)
     entries = _compute(path, report_tasks(study, path.parent), store, computing)
@@ -52,7 +50,7 @@ def run_report(study_path: Path | None, out: Path, store: Path, computing: Compu
     from workbench.results import task_timings
     from workbench.topics import topics_of
 
-    with _naming(path):
+    with naming(path):
         found = compare(study, {name: entry.path for name, entry in entries.items()})
     timings, origin = task_timings(entries), provenance(path, entries)
     content = PageContent(
@@ -84,14 +82,9 @@ def run_mesh(study_path: Path, out: Path, store: Path) -> int:
     study = read_study(study_path)
     check_folder(out)
     entries = _compute(study_path, mesh_tasks(study, with_files=True), store, Computing(workers=1))
-    out.mkdir(parents=True, exist_ok=True)
-    check_targets(out, entries["mesh_files"].manifest["files"])
-    for path in sorted(entries["mesh_files"].path.iterdir()):
-        if path.name in entries["mesh_files"].manifest["files"]:
-            fresh = out / f".{path.name}.new-{os.getpid()}"
-            shutil.copyfile(path, fresh)
-            fresh.replace(out / path.name)
-            console.print(str(out / path.name), highlight=False, markup=False, soft_wrap=True)
+    files = entries["mesh_files"]
+    for path in copy_files(files.path, sorted(files.manifest["files"]), out):
+        console.print(str(path), highlight=False, markup=False, soft_wrap=True)
     return 0
 
 
@@ -102,14 +95,12 @@ def run_stiffness(
     if model not in _MODELS:
         raise InputError("model", model, "is not known", f"give one of {', '.join(_MODELS)}")
     for orientation in orientations:
-        if not (math.isfinite(orientation) and 0.0 <= orientation < 360.0):
-            rule = "must be finite, at least 0 and less than 360"
-            raise InputError("orientation", f"{orientation} deg", rule, "give degrees such as 15")
+        check_orientation(orientation)
     study = read_study(study_path)
     check_folder(out)
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
     entries = _compute(study_path, tasks, store, computing)
-    with _naming(study_path):
+    with naming(study_path):
         curves = _curves(model, entries)
     publish(out, {}, curves)
     for curve in curves:
@@ -120,6 +111,13 @@ def run_stiffness(
     console.print(f"curves: {out / 'curves'}", highlight=False, markup=False, soft_wrap=True)
     _complain_of_early_ends(study_path, early_ends({name: entry.path for name, entry in entries.items()}))
     return 0
+
+
+def check_orientation(orientation: float) -> None:
+    """Raise InputError for an orientation [deg] that is not one of a turn."""
+    if not (math.isfinite(orientation) and 0.0 <= orientation < 360.0):
+        rule = "must be finite, at least 0 and less than 360"
+        raise InputError("orientation", f"{orientation} deg", rule, "give degrees such as 15")
 
 
 def _curves(model: str, entries: dict[str, Entry]) -> list[StiffnessCurve]:
@@ -178,7 +176,7 @@ def run_doctor() -> int:
 
 
 @contextmanager
-def _naming(study_path: Path) -> Iterator[None]:
+def naming(study_path: Path) -> Iterator[None]:
     """Put the study's path in front of what a task of it complains of."""
     try:
         yield
@@ -191,7 +189,7 @@ def _naming(study_path: Path) -> Iterator[None]:
 def _compute(study_path: Path, tasks: Sequence[Task], store: Path, computing: Computing) -> dict[str, Entry]:
     """Run a study's graph with a display; entries in the order of the graph."""
     results = Store(store)
-    with _naming(study_path), RunDisplay(console, len(tasks)) as display:
+    with naming(study_path), RunDisplay(console, len(tasks)) as display:
         entries = run_tasks(tasks, results, display, computing)
     console.print(
         f"{len(tasks) - display.reused} tasks computed, {display.reused} reused", highlight=False, markup=False

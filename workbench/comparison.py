@@ -21,9 +21,10 @@ from workbench.checks_fe import (
     yield_check,
 )
 from workbench.checks_limits import circumferential_tangent_check, overlap_checks
-from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, user_checks
+from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, surfaces_check, user_checks
 from workbench.full_study import rotational_period
 from workbench.graph import degrees
+from workbench.graph_surfaces import SURFACES
 from workbench.mesh_study import MeshStudy
 from workbench.result_files import early_ends, read_result
 from workbench.results import CURVE, ModelCurves, UserCurve, model_curves
@@ -97,19 +98,19 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
         agreement_limit=study.tolerances.model_agreement,
         checks=(),
     )
-    plate = read_result(folders["ancf_plate"])
     complete = completeness_check(early_ends(folders))
-    return replace(comparison, checks=(complete, *_checks(study, comparison, plate)))
+    return replace(comparison, checks=(complete, *_checks(study, comparison, folders)))
 
 
-def _checks(study: Study, found: Comparison, plate: Mapping[str, float]) -> list[Check]:
+def _checks(study: Study, found: Comparison, folders: Mapping[str, Path]) -> list[Check]:
     tol, fe = study.tolerances, found.fe
     strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
     checks = band_checks(fe, study.reference, tol)
     checks += [*solver_checks(fe, found.mesh_study.runs, tol), reach_check(fe, tol)]
     checks.append(energy_check(list(fe.by_orientation.values()), tol.fe_energy))
     checks += mesh_checks(found.mesh, found.mesh_whole, tol)
-    checks += plate_checks(plate, tol)
+    checks += plate_checks(read_result(folders["ancf_plate"]), tol)
+    checks.append(surfaces_check(read_result(folders[SURFACES])["read_back_m"], tol))
     checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
     checks += noted(agreement_checks(found.metrics, tol), found.agreements)
     checks += [

@@ -20,6 +20,7 @@ from workbench.graph_fe import (
     orientation_name,
 )
 from workbench.graph_section import section_tasks
+from workbench.graph_surfaces import report_surfaces_task
 from workbench.preset_table import preset_table
 from workbench.study import Study
 from workbench.study_models import ancf_preset, brush_parameters, wheel_design
@@ -47,7 +48,7 @@ def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
     fe = tuple(degrees(o) for o in study.fe.orientations)
     ancf = tuple(degrees(o) for o in study.ancf.orientations)
     tasks = [*mesh_tasks(study), *_fe_tasks(study, fe)]
-    tasks += [*_ancf_tasks(study, ancf), _brush_task(study), _plate_task()]
+    tasks += [*_ancf_tasks(study, ancf), _brush_task(study), _plate_task(), report_surfaces_task(study)]
     tasks += [task for topic in topics_of(study) for task in topic.tasks(study)]
     curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi"))]
     tasks.append(_metrics_task(study, (*curves, "brush"), curve_folder))

@@ -18,7 +18,7 @@ from contracts.errors import InputError
 from contracts.records import Check, Timing
 from workbench.comparison import overall_status
 
-__all__ = ["check_folder", "check_targets", "curve_file", "junit", "publish", "summary", "to_json"]
+__all__ = ["check_folder", "check_targets", "copy_files", "curve_file", "junit", "publish", "summary", "to_json"]
 
 
 def check_folder(out: Path) -> None:
@@ -43,6 +43,17 @@ def check_targets(out: Path, names: Iterable[str]) -> None:
             raise InputError("output file", target, "is a folder", hint)
         if (target.parent.exists() or target.parent.is_symlink()) and not target.parent.is_dir():
             raise InputError("output folder", target.parent, "is not a folder", hint)
+
+
+def copy_files(folder: Path, names: Sequence[str], out: Path) -> list[Path]:
+    """Copy a task's files into the user's folder, each put in place whole; returns where they are."""
+    out.mkdir(parents=True, exist_ok=True)
+    check_targets(out, names)
+    for name in names:
+        fresh = out / f".{name}.new-{os.getpid()}"
+        shutil.copyfile(folder / name, fresh)
+        fresh.replace(out / name)
+    return [out / name for name in names]
 
 
 def curve_file(curve: StiffnessCurve) -> str:

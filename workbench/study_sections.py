@@ -278,6 +278,7 @@ class ToleranceSection(Section):
     mesh_uncertainty: Annotated[Number, Positive] = 0.05
     hub_compliance: Annotated[Number, Positive] = 0.01
     plate_element: Annotated[Number, Positive] = 1e-10
+    surface_distance: Annotated[Length, Positive] = 1e-9
     section_agreement: Annotated[Number, Positive] = 0.05
     model_agreement: Annotated[Number, Positive] = 0.10
     iso_rating: Annotated[Number, Positive] = 0.80

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError, StudyError
-from workbench.commands import _naming
+from workbench.commands import naming
 from workbench.doctor import NEEDED
 from workbench.errors import InterruptedRunError, RunError
 
@@ -19,13 +19,13 @@ PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dyna
 
 @pytest.mark.parametrize("error", [RunError("task mesh failed"), InputError("load", "1 N", "is low", "raise it")])
 def test_an_error_of_a_task_names_the_study(error: Exception) -> None:
-    with pytest.raises(RunError, match=rf"^my/study.toml: {error}$"), _naming(Path("my/study.toml")):
+    with pytest.raises(RunError, match=rf"^my/study.toml: {error}$"), naming(Path("my/study.toml")):
         raise error
 
 
 @pytest.mark.parametrize("error", [InterruptedRunError("interrupted"), StudyError("s.toml", "a", 1, "is bad", "mend")])
 def test_what_needs_no_study_name_stays_as_it_is(error: Exception) -> None:
-    with pytest.raises(type(error)) as caught, _naming(Path("my/study.toml")):
+    with pytest.raises(type(error)) as caught, naming(Path("my/study.toml")):
         raise error
     assert caught.value is error
 
