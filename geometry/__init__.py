@@ -10,6 +10,7 @@ from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
 from geometry.planar import build_planar_mesh
 from geometry.spline_surface import SplineSurface, bezier_surface
 from geometry.step import write_step
+from geometry.step_surfaces import read_surfaces_step
 from geometry.summary import MeshSummary, PartSummary, summarize_mesh
 from geometry.surface_step import step_points, write_surfaces_step
 from geometry.vtu import write_vtu
@@ -38,6 +39,7 @@ __all__ = [
     "mesh_quality",
     "mesh_volume",
     "part_masses",
+    "read_surfaces_step",
     "step_points",
     "summarize_mesh",
     "write_inp",

@@ -1,6 +1,6 @@
 """B-spline surfaces in STEP files (ISO 10303-21), and the points gmsh's OpenCASCADE kernel finds on them again.
 
-Files are in millimetres, one product per surface under its name; coordinates are kept to 1e-15 m.
+Files are in millimetres, one product per surface under its name; coordinates have 13 digits.
 
 Verified by tests/unit/test_geometry_surface_step.py and tests/verification/test_ancf_spline_step.py.
 """

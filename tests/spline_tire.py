@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ancf_reduced.plate_mesh import PlateMesh, build_plate_mesh
@@ -11,7 +13,7 @@ from ancf_reduced.tire_preset import TirePreset
 from contracts.frames import ground_direction_h
 from geometry.spline_surface import SplineSurface
 
-__all__ = ["ring", "spline_mesh", "spoke"]
+__all__ = ["ring", "spline_mesh", "spokes"]
 
 
 def ring(preset: TirePreset, arcs: int) -> SplineSurface:
@@ -38,13 +40,19 @@ def spoke(preset: TirePreset, phi: float) -> SplineSurface:
     half_width = np.array([0.0, 0.5 * preset.width, 0.0])
     knots = np.array([0.0, 0.0, 1.0, 1.0])
     points = np.stack([ends + half_width, ends - half_width], axis=1)
-    return SplineSurface(name=f"spoke at {phi:g}", control_points=points, degrees=(1, 1), knots=(knots, knots))
+    return SplineSurface(
+        name=f"spoke at {np.degrees(phi):.0f} deg", control_points=points, degrees=(1, 1), knots=(knots, knots)
+    )
 
 
-def spline_mesh(preset: TirePreset, rim: SplineSurface) -> PlateMesh:
-    """Plates of the ring and of the preset's spokes."""
+def spokes(preset: TirePreset) -> list[SplineSurface]:
+    """The preset's spokes, the first straight down."""
+    return [spoke(preset, 2.0 * np.pi * k / preset.spokes) for k in range(preset.spokes)]
+
+
+def spline_mesh(preset: TirePreset, rim: SplineSurface, spokes: Sequence[SplineSurface]) -> PlateMesh:
+    """Plates of the ring and of the spokes."""
     patches = list(plates_on_surface(rim, preset.rim_thickness, part=RIM).patches)
-    for k in range(preset.spokes):
-        surface = spoke(preset, 2.0 * np.pi * k / preset.spokes)
+    for surface in spokes:
         patches += plates_on_surface(surface, preset.spoke_thickness, part=SPOKE).patches
     return build_plate_mesh(patches)

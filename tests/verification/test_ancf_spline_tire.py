@@ -14,6 +14,7 @@ Negative controls: one control point of the ring moved by 1 mm; a ring of anothe
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -27,7 +28,9 @@ from ancf_reduced.tire_preset import refined_preset, thesis_preset
 from ancf_reduced.tire_surfaces import surface_grid
 from contracts.errors import InputError
 from geometry.spline_surface import SplineSurface
-from tests.spline_tire import ring, spline_mesh
+from geometry.step_surfaces import read_surfaces_step
+from geometry.surface_step import write_surfaces_step
+from tests.spline_tire import ring, spline_mesh, spokes
 
 PRESET = thesis_preset()
 DEFLECTION = 0.010
@@ -47,6 +50,14 @@ def _distance(one: PlateMesh, two: PlateMesh) -> float:
     return max(float(np.abs(one.points - two.points).max()), float(np.abs(_frames(one) - _frames(two)).max()))
 
 
+def test_a_step_file_of_five_surfaces_is_the_mesh(tmp_path: Path) -> None:
+    """CAD to analysis: the ring and the spokes from a STEP file, nothing else."""
+    write_surfaces_step([ring(PRESET, 4), *spokes(PRESET)], tmp_path / "tire.step")
+    rim, *found = read_surfaces_step(tmp_path / "tire.step")
+    assert (rim.name, len(found)) == ("ring", 4)
+    assert _distance(spline_mesh(PRESET, rim, found), build_tire(PRESET).mesh) < LENGTH_TOLERANCE
+
+
 def _moved(row: int) -> SplineSurface:
     """The ring with one control point 1 mm further from the axle."""
     rim = ring(PRESET, 4)
@@ -58,7 +69,7 @@ def _moved(row: int) -> SplineSurface:
 @pytest.mark.parametrize("plates", [4, 8])
 def test_the_ring_is_the_mesh(plates: int) -> None:
     preset = refined_preset(PRESET, plates)
-    mesh = spline_mesh(preset, ring(preset, plates))
+    mesh = spline_mesh(preset, ring(preset, plates), spokes(preset))
     reference = build_tire(preset).mesh
     assert mesh.parts == reference.parts
     assert _distance(mesh, reference) < LENGTH_TOLERANCE
@@ -68,7 +79,7 @@ def test_the_ring_is_the_mesh(plates: int) -> None:
 @pytest.mark.parametrize("phi", [0.0, np.pi / 4])
 def test_the_load_is_the_same(phi: float) -> None:
     """At 10 mm, spoke down and between spokes."""
-    tire = tire_on_mesh(PRESET, spline_mesh(PRESET, ring(PRESET, 4)))
+    tire = tire_on_mesh(PRESET, spline_mesh(PRESET, ring(PRESET, 4), spokes(PRESET)))
     load = solve_tire(tire, phi, [DEFLECTION]).load[0]
     assert load == pytest.approx(solve_tire(build_tire(PRESET), phi, [DEFLECTION]).load[0], rel=LOAD_TOLERANCE)
     assert load > 40.0
@@ -76,15 +87,15 @@ def test_the_load_is_the_same(phi: float) -> None:
 
 def test_negative_control_a_moved_control_point() -> None:
     """Beside the clamped seam it turns a tangent: frames and load miss. Elsewhere it moves the rim off a spoke."""
-    mesh, reference = spline_mesh(PRESET, _moved(1)), build_tire(PRESET)
+    mesh, reference = spline_mesh(PRESET, _moved(1), spokes(PRESET)), build_tire(PRESET)
     assert 1e-4 < _distance(mesh, reference.mesh) < 1e-2
     load = solve_tire(tire_on_mesh(PRESET, mesh), np.pi / 4, [DEFLECTION]).load[0]
     assert load != pytest.approx(solve_tire(reference, np.pi / 4, [DEFLECTION]).load[0], rel=1e6 * LOAD_TOLERANCE)
-    assert _distance(spline_mesh(PRESET, _moved(4)), reference.mesh) == np.inf
+    assert _distance(spline_mesh(PRESET, _moved(4), spokes(PRESET)), reference.mesh) == np.inf
 
 
 def test_negative_control_unit_tangents_and_another_radius() -> None:
-    mesh = spline_mesh(PRESET, ring(PRESET, 4))
+    mesh = spline_mesh(PRESET, ring(PRESET, 4), spokes(PRESET))
     assert _distance(mesh, build_tire(PRESET, tangent_length=lambda angle: 1.0).mesh) > 1e-3
     wider = replace(PRESET, outer_radius=PRESET.outer_radius + 1e-6)
     assert _distance(mesh, build_tire(wider).mesh) > LENGTH_TOLERANCE
