@@ -57,6 +57,7 @@ __all__ = [
     "fem_petsc",
     "flush",
     "gauss_rule",
+    "global_dot",
     "global_norm",
     "lagrange_gradients",
     "lagrange_points",
@@ -252,6 +253,12 @@ def global_norm(own: NDArray[np.float64]) -> float:
     """Euclidean norm of a vector of which each process holds its own entries."""
     local = float(np.linalg.norm(own))
     return local if COMM.size == 1 else float(np.sqrt(COMM.allreduce(local * local)))
+
+
+def global_dot(own: NDArray[np.float64], other: NDArray[np.float64]) -> float:
+    """Scalar product of two vectors of which each process holds its own entries."""
+    local = float(own @ other)
+    return local if COMM.size == 1 else float(COMM.allreduce(local))
 
 
 def largest_of_all[Number: (np.float64, np.int64)](local: NDArray[Number]) -> NDArray[Number]:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe.contact_step import settle_contact
 from reference_fe.direct_solver import direct_solver
 from reference_fe.hyperelastic import SMALLEST_STRETCH, MaterialLaw
 from reference_fe.static_problem import StaticProblem
@@ -27,7 +28,7 @@ class NewtonSettings:
     ----------
     relative_tolerance : largest residual norm over free unknowns, relative to the norm of the support and contact
         forces at the same state [-]
-    maximum_iterations : linear solves before the increment is given up
+    maximum_iterations : factorisations before the increment is given up
     """
 
     relative_tolerance: float = 1e-8
@@ -51,7 +52,7 @@ class NewtonOutcome:
         `hyperelastic.SMALLEST_STRETCH`; a large first increment can find one
     stalled : whether the residual stopped falling near the tolerance: round-off, which no smaller increment cures
     residuals : relative residual at each evaluation [-]: at the start, where 1 means that nothing balances yet, after
-        each linear solve, and after each change of multipliers
+        each iteration, and after each change of multipliers
     augmentations : changes of the contact multipliers
     residual : (n_own_dofs,) residual at the last state, supported unknowns included [N]
     """
@@ -65,7 +66,7 @@ class NewtonOutcome:
 
     @property
     def iterations(self) -> int:
-        """Number of linear solves."""
+        """Number of linearisations of the body, with a factorisation each."""
         return len(self.residuals) - 1 - self.augmentations
 
 
@@ -87,18 +88,20 @@ class NewtonSolver:
         """Iterate from the present displacement; leaves the last iterate in ``problem.u``.
 
         ``rise`` is the obstacle's rise since the last converged state [m]: the first solve then uses that state's
-        contact set (see `contact_obstacle.ObstacleTerm.evaluate`), which spares most of the search for the new one.
+        contact set (see `contact_obstacle.ObstacleTerm.evaluate`). Every solve goes on to find the touching set, see
+        `contact_step`.
         """
         problem, history = self.problem, list[float]()
         offset = self._offset_at_supports()
         problem.store_stress(extrapolate=False)
+        force = problem.surfaces.force(problem.u.x.array, rise)
         if rise:
-            problem.contact_lag = rise
-            self._step(problem.residual(), offset)
-            problem.contact_lag, offset = 0.0, np.zeros(0)
+            force = self._step(problem.body_residual() - force, force, offset)
+            offset = np.zeros(0)
             history.append(1.0)
-        residual, augmentations, goal = problem.residual(), 0, self.settings.relative_tolerance
+        augmentations, goal = 0, self.settings.relative_tolerance
         while True:
+            residual = problem.body_residual() - force
             history.append(self._relative(residual, moved=not history and offset.size > 0))
             augmented = history[-1] <= max(AUGMENTATION_TOLERANCE, goal) and problem.surfaces.augment()
             reached = history[-1] <= goal and not augmented
@@ -116,10 +119,10 @@ class NewtonSolver:
                 )
             if augmented:
                 augmentations += 1
+                force = problem.surfaces.force(problem.u.x.array, 0.0)
             else:
-                self._step(residual, offset)
+                force = self._step(residual, force, offset)
                 offset = np.zeros(0)
-            residual = problem.residual()
 
     def _is_stalled(self, history: list[float]) -> bool:
         """Whether the last four residuals lie within a factor of three, at most 100 tolerances above the goal."""
@@ -132,8 +135,13 @@ class NewtonSolver:
         limit = SMALLEST_STRETCH if self.problem.discretisation.law is MaterialLaw.ST_VENANT_KIRCHHOFF else 0.0
         return self.problem.smallest_stretch() <= limit
 
-    def _step(self, residual: NDArray[np.float64], offset: NDArray[np.float64]) -> None:
-        """One linear solve; stores the extrapolated stress and moves u."""
+    def _step(
+        self, residual: NDArray[np.float64], force: NDArray[np.float64], offset: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """One factorisation; stores the extrapolated stress, moves u and returns the contact forces there.
+
+        force : contact forces that ``residual`` holds
+        """
         problem = self.problem
         right_hand_side = np.where(self._free, -residual, 0.0)
         if offset.size:
@@ -142,17 +150,27 @@ class NewtonSolver:
         last, self._matrix = self._matrix, problem.tangent(self._matrix)
         if self._ksp is None or self._matrix is not last:
             self._ksp = direct_solver(self._matrix, symmetric=problem.surfaces.symmetric)
-        x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
-        b.array[:] = right_hand_side
         self._ksp.setOperators(self._matrix)
-        self._ksp.solve(b, x)
-        problem.du.x.array[: problem.own_dofs] = x.array
+        problem.du.x.array[: problem.own_dofs] = self._solved(right_hand_side)
         problem.du.x.scatter_forward()
-        b.destroy()
-        x.destroy()
+        if problem.surfaces.terms:
+            force = settle_contact(problem, self._solved, force, self._free)
         if problem.discretisation.mixed_integration_points:
             problem.store_stress(extrapolate=True)
         problem.u.x.array[:] += problem.du.x.array
+        return force
+
+    def _solved(self, right_hand_side: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Solution with the present factors, (n_own_dofs,)."""
+        assert self._matrix is not None
+        assert self._ksp is not None
+        x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
+        b.array[:] = right_hand_side
+        self._ksp.solve(b, x)
+        solution = np.array(x.array, dtype=np.float64)
+        b.destroy()
+        x.destroy()
+        return solution
 
     def _offset_at_supports(self) -> NDArray[np.float64]:
         """Prescribed minus present displacement at supported unknowns, else zero, (n_own_dofs,) [m]; empty if none.

@@ -73,7 +73,6 @@ class StaticProblem:
     bcs : Dirichlet conditions of the supports (DOLFINx)
     supported : unknowns held by a support, ascending
     lame, stretch, transverse_strain : constants on each cell, see `elastic_fields.ElasticFields`
-    contact_lag : linearise contact about the obstacle lowered by this lag [m]; 0 but in an increment's first solve
     """
 
     def __init__(
@@ -100,7 +99,6 @@ class StaticProblem:
         self.lame, self.stretch, self.transverse_strain = fields.lame, fields.stretch, fields.transverse
         self._flexible_cells = domain.cells_of(materials)
         self.load_factor = fem.Constant(mesh, 0.0)
-        self.contact_lag = 0.0
         self._build_forms([*tractions, *(load for load in loads if not isinstance(load, EdgeLoad))])
         edge_loads = [edge_load_vector(domain, self.V, load) for load in loads if isinstance(load, EdgeLoad)]
         self._edge_force = np.sum(edge_loads, axis=0) if edge_loads else np.zeros(self.own_dofs)
@@ -136,6 +134,10 @@ class StaticProblem:
 
     def residual(self) -> NDArray[np.float64]:
         """Internal minus external force at every unknown, supported ones included, (n_own_dofs,) [N]."""
+        return self.body_residual() - self.surfaces.force(self.u.x.array, 0.0)
+
+    def body_residual(self) -> NDArray[np.float64]:
+        """Internal force minus loads and tractions, without the surface terms, (n_own_dofs,) [N]."""
         array = -float(self.load_factor.value) * self._edge_force
         if self._residual_form is not None:
             b = fem_petsc.assemble_vector(self._residual_form)
@@ -144,14 +146,12 @@ class StaticProblem:
             b.destroy()
         if self._compiled is not None:
             array += self._compiled.internal_force(self.u.x.array)
-        if self.surfaces.terms:
-            array -= self.surfaces.force(self.u.x.array, self.contact_lag)
         return array
 
     def tangent(self, matrix: api.PETSc.Mat | None = None) -> api.PETSc.Mat:
         """Tangent stiffness with unit rows at supported unknowns [N/m]; give the last one back to spare its set-up.
 
-        Surface terms enter with the stiffness of the last `residual`. Another matrix object than the one given means
+        Surface terms enter with the stiffness of their last evaluation. Another matrix object than the one given means
         another pattern.
         """
         if self._compiled is not None:

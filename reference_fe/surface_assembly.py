@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numba
 import numpy as np
@@ -13,7 +14,21 @@ from reference_fe import dolfinx_api as api
 from reference_fe.surface_term import SurfaceForces, SurfaceTerm, TermState
 from reference_fe.whole_body import WholeBody
 
-__all__ = ["SurfaceAssembly"]
+__all__ = ["SurfaceAssembly", "SurfaceStiffness"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SurfaceStiffness:
+    """Stiffness of all surface terms at one evaluation.
+
+    Attributes
+    ----------
+    local : blocks of this process' facets
+    whole : blocks of terms of the whole body, the same on every process
+    """
+
+    local: tuple[SurfaceForces, ...]
+    whole: tuple[SurfaceForces, ...]
 
 
 class SurfaceAssembly:
@@ -32,7 +47,7 @@ class SurfaceAssembly:
         self._whole_terms = [t for t in self.terms if getattr(t, "whole_body", False)]
         self._local_terms = [t for t in self.terms if t not in self._whole_terms]
         self.whole = WholeBody(V) if self._whole_terms else None
-        self._forces = api.fem.Function(V)
+        self._forces, self._direction = api.fem.Function(V), api.fem.Function(V)
         self._batches: tuple[SurfaceForces, ...] = ()
 
     @property
@@ -70,6 +85,23 @@ class SurfaceAssembly:
             everywhere = self.whole.gathered(u)
             force += self.whole.own_force([term.evaluate(everywhere, lag) for term in self._whole_terms])
         return force
+
+    def stiffness(self) -> SurfaceStiffness:
+        """Stiffness at the last evaluation; stays what it is when the terms are evaluated again."""
+        return SurfaceStiffness(local=self._batches, whole=() if self.whole is None else self.whole.batches)
+
+    def product(self, stiffness: SurfaceStiffness, direction: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Stiffness times a displacement, (n_own_dofs,) [N], for one at the own unknowns [m]; no support is known."""
+        x, total = self._direction.x, self._forces.x.array
+        x.array[: len(direction)] = direction
+        x.scatter_forward()
+        total[:] = 0.0
+        for batch in stiffness.local:
+            _add_products(batch.nodes, batch.stiffness, x.array, total)
+        product = api.sum_shared(self._forces)
+        if self.whole is not None:
+            product += self.whole.own_product(stiffness.whole, self.whole.gathered(x.array))
+        return product
 
     def add_to_csr(self, indptr: NDArray[np.int32], indices: NDArray[np.int32], data: NDArray[np.float64]) -> None:
         """Add the stiffness of the last evaluation to a CSR matrix that has room for it."""
@@ -128,6 +160,21 @@ def _add_forces(nodes: NDArray[np.int64], force: NDArray[np.float64], out: NDArr
             if nodes[m, a] >= 0:
                 for i in range(dim):
                     out[dim * nodes[m, a] + i] += force[m, a, i]
+
+
+@numba.njit(cache=True)
+def _add_products(
+    nodes: NDArray[np.int64], stiffness: NDArray[np.float64], x: NDArray[np.float64], out: NDArray[np.float64]
+) -> None:
+    dim = stiffness.shape[2]
+    for m in range(nodes.shape[0]):
+        for a in range(nodes.shape[1]):
+            for b in range(nodes.shape[1]):
+                if nodes[m, a] < 0 or nodes[m, b] < 0:
+                    continue
+                for i in range(dim):
+                    for j in range(dim):
+                        out[dim * nodes[m, a] + i] += stiffness[m, a, i, b, j] * x[dim * nodes[m, b] + j]
 
 
 @numba.njit(cache=True)

@@ -34,6 +34,10 @@ class WholeBody:
     Parameters
     ----------
     V : displacement space
+
+    Attributes
+    ----------
+    batches : forces and stiffness of the terms, as last given to `own_force`
     """
 
     def __init__(self, V: api.Expr) -> None:
@@ -42,7 +46,7 @@ class WholeBody:
         self._size = int(V.dofmap.index_map.size_global)
         self._keys = np.zeros(0, dtype=np.int64)
         self._free = np.ones((self._size, self._dim))
-        self._batches: tuple[SurfaceForces, ...] = ()
+        self.batches: tuple[SurfaceForces, ...] = ()
 
     def gathered(self, u: Array) -> Array:
         """Values at all nodes of the body, (size, ...) flat, from those this process knows."""
@@ -57,7 +61,16 @@ class WholeBody:
         for batch in batches:
             there = batch.nodes >= 0
             np.add.at(whole, batch.nodes[there], batch.force[there])
-        self._batches = tuple(batches)
+        self.batches = tuple(batches)
+        return whole[self._first : self._last].ravel()
+
+    def own_product(self, batches: Sequence[SurfaceForces], x: Array) -> Array:
+        """Stiffness of the batches times values at all nodes (size * dim,), at this process' own unknowns."""
+        whole, values = np.zeros((self._size, self._dim)), x.reshape(self._size, self._dim)
+        for batch in batches:
+            there = batch.nodes >= 0
+            near = np.where(there[..., None], values[batch.nodes], 0.0)
+            np.add.at(whole, batch.nodes[there], np.einsum("maibj,mbj->mai", batch.stiffness, near)[there])
         return whole[self._first : self._last].ravel()
 
     def lay_out(self, couplings: Sequence[Index], supported: NDArray[np.int32]) -> tuple[Index, Index]:
@@ -80,7 +93,7 @@ class WholeBody:
     def own_stiffness(self, *, supported: bool) -> Array:
         """Entries of the last batches in the order of `lay_out` [N/m]; zero at held unknowns if ``supported``."""
         values = np.zeros((len(self._keys), self._dim, self._dim))
-        for batch in self._batches:
+        for batch in self.batches:
             keys, own = self._pairs(batch.nodes)
             blocks = batch.stiffness.transpose(0, 1, 3, 2, 4)[own]
             np.add.at(values, np.searchsorted(self._keys, keys), blocks)

@@ -104,6 +104,18 @@ def test_tangent_is_the_derivative_of_the_residual(compiled: bool) -> None:
     np.testing.assert_allclose(dense(made) @ direction, slope, atol=1e-8)
 
 
+def test_product_with_the_stiffness_is_the_derivative_of_the_force() -> None:
+    made, _ = sprung_block(compiled=True)
+    rng = np.random.default_rng(6)
+    u, direction = 0.05 * rng.standard_normal(made.dofs), rng.standard_normal(made.dofs)
+    made.surfaces.force(u, 0.0)
+    stiffness = made.surfaces.stiffness()
+    ahead, behind = (made.surfaces.force(u + step * direction, 0.0) for step in (1e-6, -1e-6))
+    product = made.surfaces.product(stiffness, direction)
+    assert np.linalg.norm(product) > 0.1
+    np.testing.assert_allclose(product, (behind - ahead) / 2e-6, atol=1e-8)
+
+
 @pytest.mark.parametrize("compiled", [True, False])
 def test_newton_solves_with_a_pattern_that_changes(compiled: bool) -> None:
     made, term = sprung_block(compiled=compiled)
