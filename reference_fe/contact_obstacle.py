@@ -21,7 +21,7 @@ from reference_fe.domain import Domain
 from reference_fe.obstacles import Obstacle, Plane, smallest_gap
 from reference_fe.surface_term import SurfaceForces, TermState
 
-__all__ = ["ContactMethod", "ObstacleContact", "ObstacleTerm"]
+__all__ = ["ContactMethod", "ObstacleContact", "ObstacleTerm", "moment_of"]
 
 
 STIFFENING = 10.0
@@ -199,7 +199,7 @@ class ObstacleTerm:
 
     def moment(self) -> NDArray[np.float64]:
         """Moment of those forces about the origin, (3,) [N m]; (1,) in the plane."""
-        arm = np.atleast_1d(_cross(self._last_x, self._out.force))
+        arm = np.atleast_1d(moment_of(self._last_x, self._out.force))
         local = np.einsum("mq,mq...->...", self._facets.weights, arm)
         return np.atleast_1d(np.array(self._comm.allreduce(local)))
 
@@ -287,8 +287,8 @@ class ObstacleTerm:
         )
 
 
-def _cross(x: NDArray[np.float64], f: NDArray[np.float64]) -> NDArray[np.float64]:
-    """x cross f over the last axis; in the plane its one component."""
+def moment_of(x: NDArray[np.float64], f: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Moment x cross f of forces at points x over the last axis; in the plane its one component."""
     if x.shape[-1] == 3:
         return np.cross(x, f)
     return np.asarray(x[..., 0] * f[..., 1] - x[..., 1] * f[..., 0])

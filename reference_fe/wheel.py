@@ -18,6 +18,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import ConvergenceError, IncrementRecord
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
+from reference_fe.balance import support_moment
 from reference_fe.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
 from reference_fe.contact_obstacle import ObstacleTerm
 from reference_fe.contact_patch import ContactPatch, measure_patch
@@ -56,7 +57,8 @@ def solve_wheel(
     -------
     result : the curve's columns are ``contact_length_m`` (extent along the ground), ``contact_area_m2``,
         ``penetration_m`` (also between the points of contact), ``contact_point_penetration_m``,
-        ``force_imbalance`` (support plus contact force over contact force),
+        ``force_imbalance`` (support plus contact force over contact force), ``moment_imbalance`` (support plus contact
+        moment about the hub's centre, over contact force times the distance of hub and plane at first touch),
         ``relative_residual``, ``newton_iterations``, ``spring_rim_gap_m`` (smallest distance of the springs from the
         rim's inside; negative is overlap: the contact's penetration, or more without inner contact),
         ``stored_energy_J`` (elastic energy), ``inner_penetration_m`` (largest at any point of inner contact) and
@@ -118,6 +120,8 @@ class _WheelRun:
     def record(self, state: ConvergedState) -> float:
         """Add one converged state to the curve, with the snapshots passed on the way; returns its load [N]."""
         load, depth = self._load(state.contact_force), self._obstacle_term.penetration()
+        moment = self._obstacle_term.moment() + support_moment(self.problem, state.outcome.residual)
+        turning = float(np.linalg.norm(moment)) / self.wheel.contact.distance_at_touch
         for wanted in self.load_case.snapshot_loads:
             if self.rows[-1]["load_N"] < wanted <= load:
                 self._keep_snapshot(wanted, state.control, load)
@@ -129,6 +133,7 @@ class _WheelRun:
         imbalance = float(np.linalg.norm(state.reaction + state.contact_force)) / force if force else 0.0
         row = self._row(state.control, load, patch)
         row["force_imbalance"], row["relative_residual"] = imbalance, state.outcome.residuals[-1]
+        row["moment_imbalance"] = turning / force if force else 0.0
         row["contact_point_penetration_m"] = depth
         row["newton_iterations"] = float(state.outcome.iterations)
         if self.overlap is not None:
@@ -195,6 +200,7 @@ class _WheelRun:
             "penetration_m": patch.penetration,
             "contact_point_penetration_m": 0.0,
             "force_imbalance": 0.0,
+            "moment_imbalance": 0.0,
             "relative_residual": 0.0,
             "newton_iterations": 0.0,
         }

@@ -90,6 +90,7 @@ def solver_checks(fe: ModelCurves, others: Sequence[MeshRun], tol: ToleranceSect
     """Residual and balance of every run, those of the mesh study included."""
     curves = [*fe.by_orientation.values(), *(run.curve for run in others)]
     numbers = [*fe.numbers.values(), *(run.numbers for run in others)]
+    moments = "FE: largest imbalance of moments about the hub's centre over contact force times radius"
     residual = "FE: largest residual of any converged increment, relative to the nodal support and contact forces"
     return [
         at_most(
@@ -100,6 +101,11 @@ def solver_checks(fe: ModelCurves, others: Sequence[MeshRun], tol: ToleranceSect
         at_most(
             _claim("fe.balance", "FE: largest imbalance of forces over contact force", "imbalance", "-", "gate", _OURS),
             lambda: max(float(np.abs(c.columns["force_imbalance"]).max()) for c in curves),
+            tol.fe_balance,
+        ),
+        at_most(
+            _claim("fe.moment_balance", moments, "imbalance", "-", "gate", _OURS),
+            lambda: max(float(np.abs(c.columns["moment_imbalance"]).max()) for c in curves),
             tol.fe_balance,
         ),
     ]

@@ -170,6 +170,7 @@ def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:
         "partial": curve.partial,
         "residual": max(r["residuals"][-1] for r in records if r["converged"]),
         "imbalance": float(abs(curve.columns["force_imbalance"]).max()),
+        "moment_imbalance": float(abs(curve.columns["moment_imbalance"]).max()),
         "deflection": float(curve.deflection[-1]),
         "load": float(curve.load[-1]),
         "dofs": numbers["dofs"],

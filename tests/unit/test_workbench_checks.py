@@ -33,7 +33,7 @@ D = np.linspace(0.0, 0.036, 37)
 
 def _fe_curve(orientation: float, slope: float, **columns: float) -> StiffnessCurve:
     shape = D - 2.0 * D**2
-    values = {"force_imbalance": 1e-9, "max_von_mises_tire_Pa": 4e8} | columns
+    values = {"force_imbalance": 1e-9, "moment_imbalance": 1e-9, "max_von_mises_tire_Pa": 4e8} | columns
     return StiffnessCurve(
         model="fe",
         orientation_deg=orientation,
@@ -83,6 +83,7 @@ def _fine(residual: float, imbalance: float) -> MeshRun:
         ({}, set()),
         ({"residual": 2e-8}, {"fe.residual"}),
         ({"force_imbalance": 2e-6}, {"fe.balance"}),
+        ({"moment_imbalance": 2e-6}, {"fe.moment_balance"}),
         ({"fine_residual": 2e-8}, {"fe.residual"}),
         ({"fine_imbalance": 2e-6}, {"fe.balance"}),
     ],

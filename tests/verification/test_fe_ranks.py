@@ -17,7 +17,7 @@ import pytest
 from tests.end_to_end.small_study import ROOT, environment
 from workbench.ranks import mpiexec
 
-NOISE = ("force_imbalance", "relative_residual")
+NOISE = ("force_imbalance", "moment_imbalance", "relative_residual")
 
 
 def _solve(folder: Path, ranks: int, factor: float = 1.0) -> dict[str, np.ndarray]:

@@ -15,6 +15,7 @@ import pytest
 from contracts.errors import ConvergenceError
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
+from reference_fe.contact_obstacle import ObstacleTerm
 from reference_fe.newton import NewtonOutcome, NewtonSolver
 from reference_fe.static_problem import StaticProblem
 from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
@@ -72,6 +73,16 @@ def test_force_balance_is_measured_not_assumed(monkeypatch: pytest.MonkeyPatch) 
     assert result.curve.columns["force_imbalance"][-1] == pytest.approx(0.01 / 1.01, rel=0.01)
 
 
+def test_moment_balance_is_measured_not_assumed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Negative control: a contact moment that is one per cent off shows."""
+    measured = ObstacleTerm.moment
+    monkeypatch.setattr(ObstacleTerm, "moment", lambda self: 1.01 * measured(self))
+    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    case = WheelLoadCase(orientation_deg=0.0, deflections=(0.002,))
+    result = solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
+    assert result.curve.columns["moment_imbalance"][-1] > 1e-4
+
+
 @pytest.mark.parametrize("equal", [-15.0, 135.0])
 def test_mirrored_and_rotated_orientations_are_equal(equal: float) -> None:
     np.testing.assert_allclose(coarse_wheel(15.0).curve.load, coarse_wheel(equal).curve.load, rtol=1e-6, atol=1e-9)
@@ -86,6 +97,7 @@ def test_every_increment_converged_and_balances() -> None:
     curve = coarse_wheel(15.0).curve
     assert (curve.columns["relative_residual"][1:] <= 1e-8).all()
     assert (curve.columns["force_imbalance"] < 1e-6).all()
+    assert (curve.columns["moment_imbalance"] < 1e-6).all()
     assert (np.diff(curve.load) > 0.0).all()
     assert (curve.columns["contact_area_m2"][1:] > 0.0).all()
 
