@@ -20,6 +20,7 @@ __all__ = [
     "FE",
     "FILES",
     "HUB_PARTS",
+    "INNER_STIFFNESS",
     "MESH",
     "Origin",
     "curve_deflections",
@@ -46,6 +47,8 @@ FE = Origin(
 )
 HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
 """Parts within the springs' welds on the hub, outside to inside."""
+INNER_STIFFNESS = 1e11
+"""Penalty stiffness between the wheel's own parts [N/m^3]."""
 
 
 def degrees(angle: float) -> float:
@@ -95,6 +98,7 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "obstacle": fe.obstacle.model_dump(mode="json"),
         "camber_deg": degrees(fe.camber),
         "inner_contact": fe.inner_contact,
+        "inner_contact_stiffness": INNER_STIFFNESS,
         "relative_tolerance": fe.relative_tolerance,
         "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
         "materials": {part: asdict(m) for part, m in wheel_design(study).materials.items()},

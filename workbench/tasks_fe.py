@@ -87,6 +87,7 @@ def load_case(inputs: Mapping[str, Any]) -> WheelLoadCase:
         contact_method=ContactMethod(inputs["contact_method"]),
         friction=inputs["friction"],
         inner_contact=inputs["inner_contact"],
+        inner_contact_stiffness=inputs["inner_contact_stiffness"],
         newton=NewtonSettings(relative_tolerance=inputs["relative_tolerance"]),
     )
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks_contact import AUGMENTED, penalty_check, penetration_check
-from workbench.graph_fe import degrees, fe_inputs, fe_task, mesh_task
+from workbench.graph_fe import INNER_STIFFNESS, degrees, fe_inputs, fe_task, mesh_task
 from workbench.results import CURVE
 from workbench.study import Study
 from workbench.task import Task
@@ -86,9 +86,15 @@ def _tasks(study: Study) -> Sequence[Task]:
     end = round(section.deflection, 12)
     inputs = fe_inputs(study, degrees(section.orientation), (0.5 * end, end))
     inputs |= {"snapshot_loads": [], "max_load": _NO_LIMIT}
-    changes = {f: {"contact_stiffness": float(f) * stiffness, "contact_method": "penalty"} for f in _FACTORS}
+    changes: dict[str, dict[str, Any]] = {f: _scaled(float(f), stiffness) for f in _FACTORS}
     changes[AUGMENTED] = {"contact_stiffness": stiffness, "contact_method": AUGMENTED}
     return [mesh, *(fe_task(_task_name(name), inputs | change, mesh.name) for name, change in changes.items())]
+
+
+def _scaled(factor: float, stiffness: float) -> dict[str, Any]:
+    """Both penalties of a run, on the ground and between the wheel's own parts."""
+    inner = factor * INNER_STIFFNESS
+    return {"contact_stiffness": factor * stiffness, "inner_contact_stiffness": inner, "contact_method": "penalty"}
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> PenaltyStudy:

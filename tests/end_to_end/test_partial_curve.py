@@ -58,6 +58,7 @@ def _inputs(end: float) -> dict[str, Any]:
         "obstacle": {"shape": "plane"},
         "camber_deg": 0.0,
         "inner_contact": False,
+        "inner_contact_stiffness": 1e11,
         "relative_tolerance": 1e-8,
         "rigid_parts": ["outer_hub"],
         "materials": {"tire": asdict(TI_6AL_4V)},

@@ -67,6 +67,8 @@ def test_the_penalty_study_differs_in_the_contact_only(study: Study) -> None:
     mesh, *runs = CONTACT.tasks(study)
     assert [run.needs for run in runs] == [(mesh.name,)] * 4
     assert [run.inputs["contact_stiffness"] for run in runs] == pytest.approx([1e10, 1e11, 1e12, 1e11])
+    assert [run.inputs["inner_contact_stiffness"] for run in runs] == pytest.approx([1e10, 1e11, 1e12, 1e11])
+    assert load_case(runs[0].inputs).inner_contact_stiffness == pytest.approx(1e10)
     assert [run.inputs["contact_method"] for run in runs] == [*["penalty"] * 3, "augmented_lagrangian"]
     assert not CONTACT.applies(study.model_copy(update={"penalty_study": None}))
     assert not CONTACT.applies(changed(contact_stiffness="auto"))
