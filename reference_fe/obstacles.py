@@ -4,7 +4,7 @@ Each is a cylinder over a profile in a plane: s points along the ground, z up; n
 of convex pieces of solid. A point has one normal gap to each piece, and one contact condition for each: the union of
 the pieces therefore needs no blend and has no kink at its re-entrant corners, where a point is pressed by both.
 
-Verified by tests/unit/test_fe_obstacles.py.
+Verified by tests/unit/test_fe_obstacles.py and tests/verification/test_fe_wheel_obstacles.py.
 """
 
 from __future__ import annotations
