@@ -20,7 +20,7 @@ RUBBER = Material(name="soft", young_modulus=1e6, poisson_ratio=0.3, density=1.0
 def pressed_column() -> tuple[StaticProblem, np.ndarray]:
     """A slender column held at its head, its foot pressed askew by a tilted plane; residual at the end."""
     tilt = (np.sin(0.3), 0.0, np.cos(0.3))
-    mesh = block_mesh((1, 1, 3), lambda X: ([*X, 1.0, -0.5, 0.0]) * [0.02, 0.02, 0.1])
+    mesh = block_mesh((1, 1, 3), lambda X: (X + np.array([1.0, -0.5, 0.0])) * [0.02, 0.02, 0.1])
     touch = float((mesh.points @ tilt).min())
     contact = ObstacleContact(faces=("z0",), normal=tilt, distance_at_touch=-touch, stiffness=1e9)
     problem = StaticProblem(Domain.from_tagged(mesh), {"body": RUBBER}, [Support(faces=("z1",))], contact=contact)
