@@ -138,6 +138,18 @@ def test_a_face_does_not_touch_itself_across_its_own_edges() -> None:
     assert len(term.couplings()) == 0
 
 
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_of_two_masters_the_nearer_counts_though_the_other_is_deeper(order: tuple[int, int]) -> None:
+    """A point 20 mm above one straight edge and 30 mm behind another, whose gap is the more negative one."""
+    x = np.array([[0.0, 0, 0], [1.0, 0, 0], [0.0, 0.05, 0], [1.0, 0.05, 0], [0.4, 0.02, 0]])
+    master = (np.array([[0, 1], [2, 3]]), np.array([-1.0, -1.0]), (2, 1))
+    balls = (np.array([[0.5, 0.0, 0.0], [0.5, 0.05, 0.0]]), np.ones(2), np.array([[0.0, 1.0, 0.0]] * 2))
+    downward, candidates = np.array([[[0.0, -1.0, 0.0]]]), (np.array([0, 2]), np.array(order))
+    facet, _, gap = nearest_contacts(x, x[None, 4:], downward, candidates, master, balls, (1.0, 1.0, 1e-3))
+    assert facet[0, 0] == 0
+    assert gap[0, 0] == pytest.approx(0.02)
+
+
 @pytest.mark.parametrize("bulge", [0.0, 0.3])
 def test_planar_edges_have_the_same_law(bulge: float) -> None:
     """An edge is a facet extruded along the third axis: its potential is k A g^2/2, k A = 2 here."""
