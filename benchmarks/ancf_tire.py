@@ -25,13 +25,14 @@ sys.path.insert(0, str(ROOT))
 
 from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch  # noqa: E402
 from ancf_reduced.plate_model import PlateModel, build_plate_model  # noqa: E402
+from ancf_reduced.static_tire import solve_tire  # noqa: E402
 from ancf_reduced.tire_mesh import build_tire  # noqa: E402
 from ancf_reduced.tire_preset import thesis_preset  # noqa: E402
 
 OUT = ROOT / "build" / "bench" / "ancf_tire.json"
 QUADRATURE = (4, 4, 2)
-TARGETS = {"force": 18.0, "tangent": 40.0}
-"""Microseconds: force of the whole 8-plate tire, and force with tangent of one plate."""
+TARGETS = {"force": 18.0, "tangent": 40.0, "statics": 5.0}
+"""Microseconds for the force of the whole 8-plate tire, and for force with tangent of one plate; seconds for curves."""
 MESHES = (8, 50, 400, 3000)
 FORCE_FLOPS_POINT = 2 * (2 * 16 * 6 + 2 * 4 * 3 + 90)
 """Multiply-adds, each two, at a point: base vectors and forces of 16 functions, strain and stress."""
@@ -41,11 +42,11 @@ TANGENT_FLOPS_POINT = 2 * (81 * 7 + 48 * 9 * 2 + (16 * 17 // 2) * 9 * 2)
 
 def main() -> None:
     """Measure, print, write."""
-    rows = [*tire_rows(), *mesh_rows()]
+    rows = [*tire_rows(), curves_row(), *mesh_rows()]
     OUT.parent.mkdir(parents=True, exist_ok=True)
     OUT.write_text(json.dumps({"schema": 1, "name": "ancf_tire", "rows": rows}, indent=1) + "\n", encoding="utf-8")
     for r in rows:
-        print(f"{r['case']:<24}{r['metric']:<56}{r['ours']:>10.3g} {r['unit']}")
+        print(f"{r['case']:<24}{r['metric']:<62}{r['ours']:>10.3g} {r['unit']}")
 
 
 def row(case: str, metric: str, unit: str, ours: float) -> dict[str, object]:
@@ -71,6 +72,18 @@ def tire_rows() -> list[dict[str, object]]:
         row(case, "tangent of a plate over its arithmetic", "-", tangent / plates / limit_tangent),
         row("this core", "multiply-adds in vector registers", "Gflop/s", 1e-9 * rate),
     ]
+
+
+def curves_row() -> dict[str, object]:
+    """Stiffness curves of the thesis' tire at 36 orientations, 35 loads each."""
+    tire, deflections = build_tire(thesis_preset()), 1e-3 * np.arange(1, 36)
+    solve_tire(tire, 0.0, deflections[:2])
+    begun = time.process_time()
+    for orientation in range(36):
+        solve_tire(tire, np.deg2rad(10.0 * orientation), deflections)
+    spent = time.process_time() - begun
+    metric = f"36 curves of 35 loads, processor time (target {TARGETS['statics']:g})"
+    return row("8-plate tire", metric, "s", spent)
 
 
 def mesh_rows() -> list[dict[str, object]]:
