@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from workbench.study import Study
 from workbench.topic import Topic
+from workbench.topic_ancf_mesh import ANCF_MESH
 from workbench.topic_contact import CONTACT
 from workbench.topic_environment import ENVIRONMENT
 from workbench.topic_hub import HUB
@@ -24,6 +25,7 @@ TOPICS: tuple[Topic, ...] = (
     HUB,
     STRENGTH,
     ENVIRONMENT,
+    ANCF_MESH,
     VERIFICATION,
     SPEED,
 )
