@@ -1,83 +1,87 @@
-"""Contact points on the outer face of plates, against a rigid plane (thesis section 2.4.1, eqs. 2.21 and 2.22).
+"""Contact points on faces of plates (thesis section 2.4.1, steps 1 and 2): tables for the compiled loops.
 
-Statics without friction: f_n = k delta n (thesis eq. 2.22 without its damping term), never tensile. The normal is the
-plane's own, not the thesis' r_x1 x r_x2 / |r_x1 x r_x2|: the robust choice of theory notes, section 6.
+The thesis says "100 points"; where they lie is a choice, and part of the model (see `build_contact_grid`).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ancf_reduced.compiled import LANES
 from ancf_reduced.plate_mesh import PlateMesh
+from ancf_reduced.plate_tables import in_blocks
 from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape
+from contracts.errors import InputError
 
-__all__ = ["ContactGrid", "ContactLayout", "PlaneContact", "build_contact_grid", "contact_tangent", "plane_contact"]
+__all__ = ["ContactGrid", "ContactLayout", "GridTables", "build_contact_grid", "contact_grid"]
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 ContactLayout = Literal["edges", "centres"]
+
+
+class GridTables(NamedTuple):
+    """What the compiled loops read of a grid.
+
+    Attributes
+    ----------
+    plates : (n_carriers,) int, plates that carry points
+    nodes : (n_carriers, 4) int, their nodes
+    frame : (n_carriers, 4, 3, 3) float [m], J0 diag(a, b, t) at the nodes
+    shape : (n_blocks, 16, LANES) float [-], normalised shape functions at the points, blocks filled up with zeros
+    hull : (16, LANES) float [-], Bezier points of the faces: the points lie in their convex hull
+    interpolation : (n_carriers, n_points, 16) float [-, m], T folded in: r = interpolation . p of the plate's nodes
+    slopes : (n_carriers, n_points, 2, 16) float, r_xi1 and r_xi2 likewise, ordered so that their cross product points
+        out of the face
+    """
+
+    plates: IntArray
+    nodes: IntArray
+    frame: FloatArray
+    shape: FloatArray
+    hull: FloatArray
+    interpolation: FloatArray
+    slopes: FloatArray
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactGrid:
-    """Points on plates' faces, with the linear map from node coordinates to their positions.
+    """The same points on each of some plates.
 
     Attributes
     ----------
-    plates : (n_points,) int, the plate each point lies on
-    xi : (n_points, 3) float [-], its (xi, eta, zeta)
-    interpolation : (n_points, 4 n_nodes) float [-, m], T folded in: r = interpolation @ p; column 4 n + c is node n,
-        vector c
+    n_plates : plates of the whole mesh
+    xi : (n_points, 3) float [-], (xi, eta, zeta); zeta is -1/2 or +1/2
+    share : (n_points,) float [-], share of the face that a point stands for, sum 1
+    tables : for the compiled loops
 
     Verified by tests/unit/test_ancf_contact_grid.py.
     """
 
-    plates: NDArray[np.int64]
+    n_plates: int
     xi: FloatArray
-    interpolation: FloatArray
+    share: FloatArray
+    tables: GridTables
 
     def positions(self, coordinates: FloatArray) -> FloatArray:
-        """Positions (n_points, 3) float [m] at structure coordinates (n_nodes, 4, 3)."""
-        return self.interpolation @ coordinates.reshape(-1, 3)
+        """Positions (n_carriers, n_points, 3) float [m] at structure coordinates (n_nodes, 4, 3)."""
+        p = coordinates[self.tables.nodes].reshape(len(self.tables.nodes), 16, 3)
+        return np.asarray(self.tables.interpolation @ p)
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlaneContact:
-    """Contact of a grid with a plane at one configuration.
-
-    Attributes
-    ----------
-    gap : (n_points,) float [m], normal gap, open > 0; penetration delta = max(-gap, 0)
-    pressure_force : (n_points,) float [N], k delta >= 0, pushes along the plane's normal
-    force : (n_nodes, 4, 3) float [N, N m], generalised force of the plane on the mesh
-    """
-
-    gap: FloatArray
-    pressure_force: FloatArray
-    force: FloatArray
-
-    @property
-    def load(self) -> float:
-        """Sum of the normal forces, ground on wheel [N]."""
-        return float(self.pressure_force.sum())
-
-    @property
-    def penetration_max(self) -> float:
-        """Largest penetration of a point [m]; 0 without contact."""
-        return float(max(-self.gap.min(), 0.0))
-
-    @property
-    def penetration_mean(self) -> float:
-        """Load-weighted mean penetration, sum f delta / sum f [m]; 0 without contact."""
-        return float(self.pressure_force @ -self.gap / self.load) if self.load > 0.0 else 0.0
+    def areas(self, coordinates: FloatArray) -> FloatArray:
+        """Present area of the face that each point stands for, (n_carriers, n_points) float [m^2]."""
+        p = coordinates[self.tables.nodes].reshape(len(self.tables.nodes), 1, 16, 3)
+        a = self.tables.slopes @ p
+        return np.asarray(self.share * np.linalg.norm(np.cross(a[:, :, 0], a[:, :, 1]), axis=-1))
 
 
 def build_contact_grid(
     mesh: PlateMesh,
-    plates: NDArray[np.int64],
+    plates: IntArray,
     counts: tuple[int, int],
     layout: ContactLayout = "edges",
     shape: PlateShape = THESIS_SHAPE,
@@ -87,61 +91,67 @@ def build_contact_grid(
     Parameters
     ----------
     mesh : plates; their directors x3 point out of the face that touches the ground
-    plates : (n_plates,) int, plates that carry points
+    plates : (n_carriers,) int, plates that carry points
     counts : points along x1 and x2
     layout : ``"edges"``: at i/(n-1), so a row shared by two plates counts for both; ``"centres"``: at (i+1/2)/n
     shape : interpolation, thesis eq. 2.13 by default
 
     Verified by tests/unit/test_ancf_contact_grid.py.
     """
+    if min(counts) < (2 if layout == "edges" else 1):
+        raise InputError("contact points", counts, "needs 2 or more along each edge", "give e.g. 10 x 10")
     axes = [np.linspace(0.0, 1.0, n) if layout == "edges" else (np.arange(n) + 0.5) / n for n in counts]
     xi = np.stack(np.meshgrid(*axes, [0.5], indexing="ij"), axis=-1).reshape(-1, 3)
-    T = mesh.transform
-    interpolation = np.zeros((len(plates) * len(xi), len(mesh.points), 4))
-    for row, j in enumerate(plates):
-        block = (shape.value(xi, mesh.dimensions[j]) @ T[j]).reshape(-1, 4, 4)
-        interpolation[row * len(xi) : (row + 1) * len(xi), mesh.elements[j]] = block
-    return ContactGrid(
-        plates=np.repeat(plates, len(xi)),
-        xi=np.tile(xi, (len(plates), 1)),
-        interpolation=interpolation.reshape(len(interpolation), -1),
-    )
+    shares = [np.full(n, 1.0 / n) for n in counts]
+    if layout == "edges":  # trapezoidal rule
+        shares = [np.array([0.5, *[1.0] * (n - 2), 0.5]) / (n - 1) for n in counts]
+    return contact_grid(mesh, plates, xi, np.outer(*shares).ravel(), shape)
 
 
-def plane_contact(
-    grid: ContactGrid, coordinates: FloatArray, direction: FloatArray, offset: float, stiffness: float
-) -> PlaneContact:
-    """Normal gap and penalty force against the plane direction . x = offset.
+def contact_grid(
+    mesh: PlateMesh, plates: IntArray, xi: FloatArray, share: FloatArray, shape: PlateShape = THESIS_SHAPE
+) -> ContactGrid:
+    """Any points on the faces of plates.
 
     Parameters
     ----------
-    grid : contact points
-    coordinates : (n_nodes, 4, 3) float [m, -]
-    direction : (3,) float [-], unit vector from the hub to the ground; the plane's outward normal is its negative
-    offset : distance of the plane from the origin along ``direction`` [m]
-    stiffness : k per point [N/m]
+    mesh, plates, shape : as `build_contact_grid`
+    xi, share : see `ContactGrid`
 
-    Returns
-    -------
-    PlaneContact
-        gap = offset - direction . r; force of each point = k max(-gap, 0) along -direction (thesis eq. 2.22).
-
-    Verified by tests/unit/test_ancf_contact_grid.py (finite differences).
+    Raises
+    ------
+    InputError
+        For points that are not on a face.
     """
-    gap = offset - grid.interpolation @ (coordinates.reshape(-1, 3) @ direction)
-    pressure_force = stiffness * np.maximum(-gap, 0.0)
-    generalised = pressure_force @ grid.interpolation
-    force = np.multiply.outer(generalised.reshape(-1, 4), -direction)
-    return PlaneContact(gap=gap, pressure_force=pressure_force, force=force)
+    faces = np.unique(xi[:, 2])
+    if xi.ndim != 2 or not np.all(np.isin(faces, [-0.5, 0.5])) or np.any((xi[:, :2] < 0.0) | (xi[:, :2] > 1.0)):
+        rule = "must have xi, eta in 0..1 and zeta = -1/2 or +1/2"
+        raise InputError("contact points", xi.shape, rule, "place them on the faces of the plates")
+    elements, gradients, dimensions = mesh.elements[plates], mesh.gradients[plates], mesh.dimensions[plates]
+    carriers = replace(mesh, elements=elements, gradients=gradients, dimensions=dimensions)
+    frame, unit = gradients * dimensions[:, None, None, :], np.ones(3)
+    value, slopes = shape.value(xi, unit), shape.gradient(xi, unit)[:, :2]
+    slopes = np.where(xi[:, 2, None, None] > 0.0, slopes, slopes[:, ::-1])
+    folded = carriers.in_structure_coordinates(slopes.reshape(1, -1, 16), frame)
+    tables = GridTables(
+        plates=np.asarray(plates, dtype=np.int64),
+        nodes=elements,
+        frame=frame,
+        shape=np.ascontiguousarray(np.moveaxis(in_blocks(value.T), 1, 0)),
+        hull=_hull(shape, faces),
+        interpolation=np.ascontiguousarray(carriers.in_structure_coordinates(value[None], frame)),
+        slopes=np.ascontiguousarray(folded.reshape(len(elements), len(xi), 2, 16)),
+    )
+    return ContactGrid(n_plates=len(mesh.elements), xi=xi, share=share, tables=tables)
 
 
-def contact_tangent(grid: ContactGrid, contact: PlaneContact, direction: FloatArray, stiffness: float) -> FloatArray:
-    """Exact tangent of minus the contact force, -dQ_c/dp, (12 n_nodes, 12 n_nodes) float [N/m, N, N m].
-
-    k sum over closed points of s s^T kron n n^T: symmetric, positive semi-definite, to be added to the elastic tangent.
-
-    Verified by tests/unit/test_ancf_contact_grid.py (finite differences).
-    """
-    closed = grid.interpolation[contact.gap < 0.0]
-    tangent = np.kron(stiffness * (closed.T @ closed), np.outer(direction, direction))
-    return np.asarray(tangent, dtype=np.float64)
+def _hull(shape: PlateShape, faces: FloatArray) -> FloatArray:
+    """Maps from a plate's coordinates to the 16 Bezier points of each face, filled up by repetition: (16, LANES)."""
+    t = np.linspace(0.0, 1.0, 4)
+    bernstein = np.column_stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3])
+    to_bezier = np.linalg.inv(np.kron(bernstein, bernstein))
+    maps = [
+        to_bezier @ shape.value(np.stack(np.meshgrid(t, t, [z], indexing="ij"), axis=-1).reshape(-1, 3), np.ones(3))
+        for z in np.resize(faces, LANES // 16)
+    ]
+    return np.ascontiguousarray(np.concatenate(maps).T)

@@ -7,10 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.contact_grid import PlaneContact, contact_tangent, plane_contact
+from ancf_reduced.contact_law import ContactLaw
 from ancf_reduced.equilibrium import NewtonControls, NewtonResult, newton_solve
+from ancf_reduced.plate_assembly import dense_matrix
+from ancf_reduced.plate_contact import ContactPatch, PlateContact
 from ancf_reduced.reference_node import rigid_reference_node
 from ancf_reduced.tire_mesh import Tire
+from contracts.terrain import Plane
 
 __all__ = ["PlaneProblem"]
 
@@ -41,11 +44,20 @@ class PlaneProblem:
         """Node coordinates (n_nodes, 4, 3) from the free ones, flat."""
         return self.tire.tie.expand(x.reshape(-1, 4, 3), self.hub)
 
-    def contact(self, p: FloatArray, deflection: float) -> PlaneContact:
-        """Contact with the plane at R - deflection."""
-        preset = self.tire.preset
-        offset = preset.outer_radius - deflection
-        return plane_contact(self.tire.grid, p, self.direction, offset, preset.contact_stiffness)
+    def contact(self, deflection: float) -> PlateContact:
+        """The tire's contact points on the plane at R - deflection from the hub, without friction and damping."""
+        x, y, z = (-self.direction).tolist()
+        plane = Plane(normal=(x, y, z), offset=deflection - self.tire.preset.outer_radius)
+        law = ContactLaw(stiffness=self.tire.preset.contact_stiffness)
+        return PlateContact(grid=self.tire.grid, terrain=plane.pieces(), law=law)
+
+    def contact_force(self, p: FloatArray, deflection: float) -> FloatArray:
+        """Generalised force (n_nodes, 4, 3) of the plane on the tire."""
+        return self.contact(deflection).force(p, np.zeros_like(p))
+
+    def patch(self, p: FloatArray, deflection: float) -> ContactPatch:
+        """The points that touch."""
+        return self.contact(deflection).patch(p, np.zeros_like(p))
 
     def residual(self, x: FloatArray, deflection: float) -> tuple[FloatArray, float]:
         """Elastic minus contact force on the free coordinates, gradient rows divided by t: all in newtons.
@@ -53,7 +65,7 @@ class PlaneProblem:
         The scale is the largest contact force component, and at least 1e-4 E t w (so that the dead zone has one).
         """
         preset, p = self.tire.preset, self.expand(x)
-        contact, free = self.contact(p, deflection).force, self.tire.tie.free
+        contact, free = self.contact_force(p, deflection), self.tire.tie.free
         unit = np.array([1.0, *[1.0 / preset.rim_thickness] * 3])[:, None]
         floor = 1e-4 * preset.young_modulus * preset.rim_thickness * preset.width
         out_of_balance = (self.tire.model.elastic_force(p) - contact)[free] * unit
@@ -62,10 +74,11 @@ class PlaneProblem:
     def tangent(self, x: FloatArray, deflection: float) -> FloatArray:
         """Exact derivative of `residual` (contact points that switch excepted)."""
         preset, p = self.tire.preset, self.expand(x)
-        contact = contact_tangent(self.tire.grid, self.contact(p, deflection), self.direction, preset.contact_stiffness)
+        contact = self.contact(deflection).tangents(p, np.zeros_like(p))[0]
         rows = (12 * self.tire.tie.free[:, None] + np.arange(12)).ravel()
         unit = np.tile([1.0] * 3 + [1.0 / preset.rim_thickness] * 9, len(self.tire.tie.free))
-        return (self.tire.model.elastic_tangent(p) + contact)[np.ix_(rows, rows)] * unit[:, None]
+        tangent = dense_matrix(self.tire.mesh, self.tire.model.elastic_tangents(p) + contact)
+        return np.asarray(tangent[np.ix_(rows, rows)] * unit[:, None])
 
     def solve(self, deflection: float, start: FloatArray, controls: NewtonControls) -> NewtonResult:
         """Newton at one deflection; a result with an inverted plate counts as not converged."""

@@ -15,7 +15,7 @@ from ancf_reduced.compiled import LANES
 from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape, gauss_points
 from contracts.errors import InputError
 
-__all__ = ["PlateTables", "plate_tables"]
+__all__ = ["PlateTables", "in_blocks", "plate_tables"]
 
 FloatArray = NDArray[np.float64]
 
@@ -45,7 +45,7 @@ class PlateTables:
 
     def in_blocks(self, values: FloatArray) -> FloatArray:
         """Values (..., n_points) as (..., n_blocks, LANES), the last block filled up with zeros."""
-        return _in_blocks(values)
+        return in_blocks(values)
 
     def at_points(self, blocks: FloatArray) -> FloatArray:
         """The inverse of `in_blocks`: (..., n_blocks, LANES) as (..., n_points)."""
@@ -68,7 +68,7 @@ def plate_tables(quadrature: tuple[int, int, int], shape: PlateShape = THESIS_SH
     return PlateTables(
         points=points,
         weights=weights,
-        gauss_weight=_in_blocks(weights),
+        gauss_weight=in_blocks(weights),
         shape=shape.value(points, unit),
         gradient=_gradient_blocks(shape.gradient(points, unit)),
         middle_gradient=_gradient_blocks(shape.gradient(middle, unit)),
@@ -77,10 +77,11 @@ def plate_tables(quadrature: tuple[int, int, int], shape: PlateShape = THESIS_SH
 
 def _gradient_blocks(gradient: FloatArray) -> FloatArray:
     """(n_points, 3, 16) as (n_blocks, 3, 16, LANES)."""
-    return np.ascontiguousarray(np.moveaxis(_in_blocks(np.moveaxis(gradient, 0, -1)), -2, 0))
+    return np.ascontiguousarray(np.moveaxis(in_blocks(np.moveaxis(gradient, 0, -1)), -2, 0))
 
 
-def _in_blocks(values: FloatArray) -> FloatArray:
+def in_blocks(values: FloatArray) -> FloatArray:
+    """Values (..., n_points) as (..., n_blocks, LANES), the last block filled up with zeros."""
     n_points = values.shape[-1]
     n_blocks = -(-n_points // LANES)
     padding = [(0, 0)] * (values.ndim - 1) + [(0, n_blocks * LANES - n_points)]

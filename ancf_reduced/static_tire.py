@@ -90,18 +90,19 @@ def _collect(
     """Evaluate loads and penetrations at the converged points."""
     model, tie = problem.tire.model, problem.tire.tie
     coordinates = np.array([problem.expand(point.x) for point in points])
-    contacts = [problem.contact(p, point.target) for p, point in zip(coordinates, points, strict=True)]
+    states = [(p, point.target) for p, point in zip(coordinates, points, strict=True)]
+    patches = [problem.patch(p, deflection) for p, deflection in states]
     reactions = [
-        tie.reference_force(model.elastic_force(p) - contact.force)[0]
-        for p, contact in zip(coordinates, contacts, strict=True)
+        tie.reference_force(model.elastic_force(p) - problem.contact_force(p, deflection))[0]
+        for p, deflection in states
     ]
     return TireEquilibria(
         phi=phi,
         deflection=np.array([point.target for point in points]),
         load=np.array(reactions) @ problem.direction,
-        contact_load=np.array([c.load for c in contacts]),
-        penetration=np.array([c.penetration_mean for c in contacts]),
-        penetration_max=np.array([c.penetration_max for c in contacts]),
+        contact_load=np.array([patch.load for patch in patches]),
+        penetration=np.array([patch.penetration_mean for patch in patches]),
+        penetration_max=np.array([patch.penetration_max for patch in patches]),
         volume_ratio_min=np.array([model.volume_ratio(p).min() for p in coordinates]),
         iterations=np.array([point.iterations for point in points], dtype=np.int64),
         coordinates=coordinates,

@@ -1,4 +1,4 @@
-"""Speed of the ANCF plate loops: force and tangent of the 8-plate tire, of ever larger meshes, the arithmetic limit.
+"""Speed of the ANCF plate loops: force, tangent and contact of the 8-plate tire, larger meshes, the arithmetic limit.
 
 ``make bench NAME=ancf_tire`` prints the table and writes ``build/bench/ancf_tire.json``. Each number is the shortest of
 many short runs on one core, calls from Python included. No other code with this element is on the package registries,
@@ -23,16 +23,38 @@ from numpy.typing import NDArray
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
+from ancf_reduced.contact_law import ContactLaw  # noqa: E402
+from ancf_reduced.explicit_dynamics import integrate_explicit  # noqa: E402
+from ancf_reduced.plate_contact import PlateContact  # noqa: E402
 from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch  # noqa: E402
 from ancf_reduced.plate_model import PlateModel, build_plate_model  # noqa: E402
+from ancf_reduced.plate_system import HubMass  # noqa: E402
+from ancf_reduced.spectrum import stable_step  # noqa: E402
 from ancf_reduced.static_tire import solve_tire  # noqa: E402
 from ancf_reduced.tire_mesh import build_tire  # noqa: E402
 from ancf_reduced.tire_preset import thesis_preset  # noqa: E402
+from ancf_reduced.wheel_rig import build_wheel_rig  # noqa: E402
+from contracts.height_field import sampled_terrain  # noqa: E402
+from contracts.terrain import Plane, Terrain  # noqa: E402
+from contracts.terrain_ridges import HalfRound, Sinusoid  # noqa: E402
 
 OUT = ROOT / "build" / "bench" / "ancf_tire.json"
 QUADRATURE = (4, 4, 2)
-TARGETS = {"force": 18.0, "tangent": 40.0, "statics": 5.0}
-"""Microseconds for the force of the whole 8-plate tire, and for force with tangent of one plate; seconds for curves."""
+TARGETS = {"force": 18.0, "tangent": 40.0, "statics": 5.0, "real time": 5.0}
+"""Microseconds for the force of the whole 8-plate tire, and for force with tangent of one plate; seconds for curves;
+seconds of motion computed in a second.
+"""
+DAMPING_RATIOS = (0.0, 0.02, 0.05)
+"""Of the first mode. The highest modes are damped more in proportion to their frequency, which shortens the step."""
+WAVES = Sinusoid(amplitude=0.01, wavelength=0.2, yaw=0.3, base=-0.1375)
+GRID_LINES = np.linspace(-0.5, 0.5, 101)
+CONTACT_TERRAIN: dict[str, Terrain] = {
+    "in the air": Plane(offset=-0.2),
+    "plane, 5 mm deep": Plane(offset=-0.1375),
+    "half-round of 20 mm": HalfRound(radius=0.02, position=0.05, base=-0.1375),
+    "waves": WAVES,
+    "height field": sampled_terrain(WAVES, GRID_LINES, GRID_LINES),
+}
 MESHES = (8, 50, 400, 3000)
 FORCE_FLOPS_POINT = 2 * (2 * 16 * 6 + 2 * 4 * 3 + 90)
 """Multiply-adds, each two, at a point: base vectors and forces of 16 functions, strain and stress."""
@@ -42,7 +64,7 @@ TANGENT_FLOPS_POINT = 2 * (81 * 7 + 48 * 9 * 2 + (16 * 17 // 2) * 9 * 2)
 
 def main() -> None:
     """Measure, print, write."""
-    rows = [*tire_rows(), curves_row(), *mesh_rows()]
+    rows = [*tire_rows(), *contact_rows(), curves_row(), *motion_rows(), *mesh_rows()]
     OUT.parent.mkdir(parents=True, exist_ok=True)
     OUT.write_text(json.dumps({"schema": 1, "name": "ancf_tire", "rows": rows}, indent=1) + "\n", encoding="utf-8")
     for r in rows:
@@ -84,6 +106,47 @@ def curves_row() -> dict[str, object]:
     spent = time.process_time() - begun
     metric = f"36 curves of 35 loads, processor time (target {TARGETS['statics']:g})"
     return row("8-plate tire", metric, "s", spent)
+
+
+def contact_rows() -> list[dict[str, object]]:
+    """Contact of the same tire's four rim plates, 100 points each, with friction and damping; see `CONTACT_TERRAIN`."""
+    tire = build_tire(replace(thesis_preset(), quadrature=QUADRATURE))
+    law = ContactLaw(stiffness=1000.0, damping=5.0, damping_depth=1e-3, friction=0.6)
+    p = tire.mesh.reference_coordinates()
+    v, force, tangents = 0.01 * p, np.empty_like(p), np.empty((2, len(tire.mesh.elements), 48, 48))
+    rows = []
+    for case, terrain in CONTACT_TERRAIN.items():
+        contact = PlateContact(grid=tire.grid, terrain=terrain.pieces(), law=law)
+        touching = len(contact.patch(p, v).points)
+        rows += [
+            row(
+                case,
+                f"contact force, {touching} points touch",
+                "us",
+                shortest(lambda c=contact: c.force(p, v, out=force)),
+            ),
+            row(case, "contact tangents", "us", shortest(lambda c=contact: c.tangents(p, v, out=tangents))),
+        ]
+    return rows
+
+
+def motion_rows() -> list[dict[str, object]]:
+    """The thesis' tire with 25 kg on its hub, standing on level ground: explicit steps of the longest stable length."""
+    rows, seconds = [], 0.2
+    preset = replace(thesis_preset(), quadrature=QUADRATURE)
+    for ratio in DAMPING_RATIOS:
+        hub = HubMass(mass=25.0, inertia=0.1 * np.eye(3))
+        rig = build_wheel_rig(preset, Plane(), hub=hub, damping_ratio=ratio)
+        start = rig.start(np.array([0.0, 0.0, preset.outer_radius - 0.01]), np.zeros(3))
+        step, end = stable_step(rig.system, start.z), np.array([seconds])
+        spent = shortest(lambda r=rig, s=start, e=end, h=step: list(integrate_explicit(r.system, s, e, h)))  # type: ignore[misc]
+        case = f"wheel, damping {ratio:g}"
+        rows += [
+            row(case, "longest stable step", "ms", 1e3 * step),
+            row(case, "one step", "us", spent * step / seconds),
+            row(case, f"faster than real time (target {TARGETS['real time']:g})", "-", 1e6 * seconds / spent),
+        ]
+    return rows
 
 
 def mesh_rows() -> list[dict[str, object]]:

@@ -1,4 +1,4 @@
-"""Contact points: where they lie, the sign of the gap, force and exact tangent."""
+"""Contact points: where they lie, what share of the face they stand for, and the hull that encloses them."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_grid import contact_tangent, plane_contact
+from ancf_reduced.contact_grid import build_contact_grid, contact_grid
 from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import thesis_preset
 from ancf_reduced.tire_surfaces import surface_grid
-from contracts.frames import ground_direction_h
+from contracts.errors import InputError
 
 TIRE = build_tire(thesis_preset())
 P0 = TIRE.mesh.reference_coordinates()
-DOWN = ground_direction_h(0.3)
+RIM = TIRE.mesh.plates_of("rim")
 
 
 def _deformed() -> np.ndarray:
@@ -24,8 +24,9 @@ def _deformed() -> np.ndarray:
 
 
 def test_edge_points_lie_on_the_outer_face() -> None:
-    face = surface_grid(TIRE.mesh, P0, n=10, zeta=0.5)[TIRE.mesh.plates_of("rim")]
-    np.testing.assert_allclose(TIRE.grid.positions(P0), face.reshape(-1, 3), atol=1e-15)
+    p = _deformed()
+    face = surface_grid(TIRE.mesh, p, n=10, zeta=0.5)[RIM]
+    np.testing.assert_allclose(TIRE.grid.positions(p), face.reshape(-1, 100, 3), atol=1e-15)
 
 
 def test_layouts_place_their_points() -> None:
@@ -34,39 +35,37 @@ def test_layouts_place_their_points() -> None:
     assert sorted({round(float(x), 12) for x in centres.xi[:, 1]})[:2] == [0.05, 0.15]
 
 
-def test_gap_is_open_positive_and_force_never_tensile() -> None:
-    away = plane_contact(TIRE.grid, P0, DOWN, 0.2, 1000.0)
-    assert away.gap.min() > 0.0
-    assert (away.load, away.penetration_max, away.penetration_mean) == (0.0, 0.0, 0.0)
-    assert not np.any(away.force)
-    touching = plane_contact(TIRE.grid, P0, DOWN, 0.135, 1000.0)
-    positions = TIRE.grid.positions(P0)
-    np.testing.assert_allclose(touching.gap, 0.135 - positions @ DOWN, atol=1e-15)
-    assert touching.pressure_force.min() == 0.0
-    assert 0.0 < touching.penetration_mean < touching.penetration_max
+@pytest.mark.parametrize("layout", ["edges", "centres"])
+def test_shares_add_up_to_the_outer_cylinder(layout: str) -> None:
+    """2 pi R w less what the shortened directors of 24 plates take away."""
+    tire = build_tire(replace(thesis_preset(), circumferential_plates=24, contact_layout=layout))
+    assert tire.grid.share.sum() == pytest.approx(1.0)
+    area = tire.grid.areas(tire.mesh.reference_coordinates()).sum()
+    assert area == pytest.approx(2 * np.pi * 0.1425 * 0.12, rel=2e-3)
 
 
-def test_resultant_is_the_load_along_the_planes_normal() -> None:
-    contact = plane_contact(TIRE.grid, _deformed(), DOWN, 0.135, 1000.0)
-    np.testing.assert_allclose(contact.force[:, 0].sum(axis=0), -contact.load * DOWN, atol=1e-10)
+def test_points_lie_in_the_hull_of_their_face() -> None:
+    e = TIRE.mesh.normalised(_deformed(), TIRE.model.frame)[RIM]
+    hull = np.einsum("sq,jsi->jqi", TIRE.grid.tables.hull, e)
+    positions = TIRE.grid.positions(_deformed())
+    for direction in np.random.default_rng(11).normal(size=(200, 3)):
+        assert np.all((hull @ direction).max(axis=1) > (positions @ direction).max(axis=1) - 1e-12)
+    corners = TIRE.grid.positions(_deformed())[:, [0, 9, 90, 99]]  # a Bezier patch passes through its corners
+    np.testing.assert_allclose(hull[:, [0, 3, 12, 15]], corners, atol=1e-12)
 
 
-def test_force_is_minus_the_derivative_of_the_penalty_energy() -> None:
-    p, step = _deformed(), 1e-6 * np.random.default_rng(11).normal(size=P0.shape)
+def test_slopes_point_out_of_either_face() -> None:
+    for zeta in (-0.5, 0.5):
+        xi = np.array([[0.3, 0.6, zeta]])
+        grid = contact_grid(TIRE.mesh, RIM, xi, np.ones(1))
+        a = grid.tables.slopes @ P0[grid.tables.nodes].reshape(-1, 1, 16, 3)
+        outwards = np.cross(a[:, 0, 0], a[:, 0, 1])
+        radial = grid.positions(P0)[:, 0] * [1.0, 0.0, 1.0]
+        assert np.all(np.sign(np.einsum("ji,ji->j", outwards, radial)) == np.sign(zeta))
 
-    def energy(q: np.ndarray) -> float:
-        gap = plane_contact(TIRE.grid, q, DOWN, 0.135, 1000.0).gap
-        return float(0.5 * 1000.0 * np.sum(np.minimum(gap, 0.0) ** 2))
 
-    force = plane_contact(TIRE.grid, p, DOWN, 0.135, 1000.0).force
-    assert (energy(p - step) - energy(p + step)) / 2 == pytest.approx(float((force * step).sum()), rel=1e-6)
-
-
-def test_tangent_is_minus_the_derivative_of_the_force() -> None:
-    p, step = _deformed(), 1e-7 * np.random.default_rng(12).normal(size=P0.shape)
-    contact = plane_contact(TIRE.grid, p, DOWN, 0.135, 1000.0)
-    assert np.abs(contact.gap).min() > 1e-6  # no point switches within the step
-    expected = (contact_tangent(TIRE.grid, contact, DOWN, 1000.0) @ step.ravel()).reshape(step.shape)
-    ahead = plane_contact(TIRE.grid, p + step, DOWN, 0.135, 1000.0).force
-    behind = plane_contact(TIRE.grid, p - step, DOWN, 0.135, 1000.0).force
-    np.testing.assert_allclose((behind - ahead) / 2, expected, rtol=0, atol=1e-6 * np.abs(expected).max())
+def test_points_off_the_faces_are_refused() -> None:
+    with pytest.raises(InputError, match="zeta"):
+        contact_grid(TIRE.mesh, RIM, np.array([[0.5, 0.5, 0.0]]), np.ones(1))
+    with pytest.raises(InputError, match="contact points"):
+        build_contact_grid(TIRE.mesh, RIM, (1, 10))

@@ -1,0 +1,75 @@
+"""The force of one contact point: limits, signs and derivatives."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ancf_reduced.contact_law import ContactLaw, normal_force, point_force, point_tangents, slip
+from contracts.errors import InputError
+
+LAW = ContactLaw(stiffness=1000.0, damping=20.0, damping_depth=0.004, friction=0.6, slip_velocity=0.02)
+UP = (0.0, 0.0, 1.0)
+
+
+def test_damping_never_pulls() -> None:
+    law = ContactLaw(stiffness=1000.0, damping=20.0).numbers
+    assert normal_force(law, 0.002, 0.01) == pytest.approx(2.2)
+    assert normal_force(law, 0.002, -0.09) == pytest.approx(0.2)
+    assert normal_force(law, 0.002, -0.11) == 0.0
+
+
+def test_damping_depth_lets_the_force_begin_at_zero() -> None:
+    assert normal_force(LAW.numbers, 1e-9, 1.0) < 1e-5
+    assert normal_force(LAW.numbers, 0.004, 1.0) == pytest.approx(24.0)
+    assert normal_force(ContactLaw(stiffness=1000.0, damping=20.0).numbers, 1e-9, 1.0) == pytest.approx(20.0)
+
+
+def test_friction_opposes_slip_and_is_smooth_at_rest() -> None:
+    for speed, share in ((0.0, 0.0), (0.02, np.sqrt(0.5)), (0.2, 1.0 / np.sqrt(1.01))):
+        f = point_force(LAW.numbers, 10.0, UP, (0.6 * speed, -0.8 * speed, -0.3))
+        np.testing.assert_allclose(f, [-6.0 * 0.6 * share, 6.0 * 0.8 * share, 10.0], atol=1e-14)
+
+
+def test_tangents_are_derivatives() -> None:
+    """By position (through gap and terrain's normal), velocity and the normal itself, each with finite differences."""
+    rng = np.random.default_rng(9)
+    Q, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    m, n, v = Q[:, 0], Q @ [0.8, 0.6, 0.0], rng.normal(size=3) * 0.05
+    H = 8.0 * np.outer(Q[:, 1], Q[:, 1]) + 3.0 * np.outer(Q[:, 2], Q[:, 2])
+    r = np.zeros(3)
+
+    def force(r: np.ndarray, v: np.ndarray, n: np.ndarray) -> np.ndarray:
+        gap, normal = -0.003 + m @ r, m + H @ r
+        return np.array(point_force(LAW.numbers, normal_force(LAW.numbers, -gap, -normal @ v), tuple(n), tuple(v)))
+
+    A, h = np.empty((3, 3, 3)), 1e-7
+    curvature = tuple(H[[0, 1, 2, 1, 0, 0], [0, 1, 2, 2, 2, 1]])
+    assert point_tangents(LAW.numbers, (-0.003, tuple(m), curvature), tuple(n), tuple(v), A)
+    for which, expected in enumerate(A):
+        for j in range(3):
+            steps = [h * np.eye(3)[j] if which == k else 0.0 for k in range(3)]
+            ahead, behind = (
+                force(r + steps[0], v + steps[1], n + steps[2]),
+                force(r - steps[0], v - steps[1], n - steps[2]),
+            )
+            np.testing.assert_allclose((ahead - behind) / (2 * h), expected[:, j], atol=1e-6 * np.abs(expected).max())
+
+
+def test_no_force_has_no_tangent() -> None:
+    flat = (0.0,) * 6
+    assert not point_tangents(LAW.numbers, (-0.004, UP, flat), UP, (0.0, 0.0, 1.0), np.empty((3, 3, 3)))
+
+
+def test_slip_lies_in_the_tangent_plane() -> None:
+    n = (0.6, 0.0, 0.8)
+    t, tau, size = slip(LAW.numbers, n, (1.0, 2.0, 3.0))
+    assert np.dot(t, n) == pytest.approx(0.0, abs=1e-15)
+    np.testing.assert_allclose(np.array(t) / size, tau, atol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["stiffness", "slip_velocity", "damping", "friction", "damping_depth"])
+def test_bad_numbers_are_refused(name: str) -> None:
+    numbers = {"stiffness": 1.0, name: -1.0}
+    with pytest.raises(InputError, match=f"contact {name.replace('_', ' ')}"):
+        ContactLaw(**numbers)
