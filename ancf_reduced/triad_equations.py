@@ -62,4 +62,4 @@ class TriadEquations:
         for side in (0, 1):
             free = self._rows[:, side] >= 0
             np.add.at(G, (np.arange(n)[free], self._rows[free, side]), 0.5 * vectors[free, 1 - side])
-        return G.reshape(n, -1)
+        return G.reshape(n, 3 * self._n_vectors)
