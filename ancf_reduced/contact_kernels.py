@@ -17,6 +17,8 @@ __all__ = ["contact_force_kernel", "contact_record_kernel", "contact_tangent_ker
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Account = tuple[int, float, float, float, float]
+BATCH = 4
+"""Points whose tangents are added to a plate's matrix together."""
 
 
 @compiled
@@ -124,16 +126,36 @@ def contact_record_kernel(
 
 
 @inlined
-def _add_outer(left: FloatArray, A: FloatArray, right: FloatArray, row: FloatArray, K: FloatArray) -> None:
-    """Subtract left_s A_ij right_t from K (48, 48); ``row`` (3, 48) is overwritten."""
+def _set_right(A: FloatArray, functions: FloatArray, right: FloatArray) -> None:
+    """right (3, 48) = A_ij functions_t in column 3 t + j."""
     for i in range(3):
         for t in range(16):
             for j in range(3):
-                row[i, 3 * t + j] = A[i, j] * right[t]
+                right[i, 3 * t + j] = A[i, j] * functions[t]
+
+
+@inlined
+def _add_right(A: FloatArray, functions: FloatArray, right: FloatArray) -> None:
+    """Add A_ij functions_t to right (3, 48)."""
+    for i in range(3):
+        for t in range(16):
+            for j in range(3):
+                right[i, 3 * t + j] += A[i, j] * functions[t]
+
+
+@compiled
+def _subtract_batch(left: FloatArray, right: FloatArray, K: FloatArray) -> None:
+    """Subtract the sum over a batch of left_s right_i from K (48, 48): left (BATCH, 16), right (BATCH, 3, 48)."""
     for s in range(16):
+        a, b, c, d = left[0, s], left[1, s], left[2, s], left[3, s]
         for i in range(3):
             for column in range(48):
-                K[3 * s + i, column] -= left[s] * row[i, column]
+                K[3 * s + i, column] -= (
+                    a * right[0, i, column]
+                    + b * right[1, i, column]
+                    + c * right[2, i, column]
+                    + d * right[3, i, column]
+                )
 
 
 @inlined
@@ -172,7 +194,8 @@ def contact_tangent_kernel(
     capacity = len(grid.nodes) * grid.interpolation.shape[1] * len(terrain.rows)
     where, touch = np.empty((capacity, 2), dtype=np.int64), np.empty((capacity, TOUCH))
     count = find_touching(p, grid, terrain, True, where, touch)
-    A, both, half = np.empty((3, 3, 3)), np.empty((2, 3, 3)), np.empty((3, 48))
+    A, both, plate, filled = np.empty((3, 3, 3)), np.empty((2, 3, 3)), -1, 0
+    left, by_p, by_v = np.zeros((BATCH, 16)), np.zeros((BATCH, 3, 48)), np.zeros((BATCH, 3, 48))
     by_position[:] = 0.0
     by_rate[:] = 0.0
     for row in range(count):
@@ -182,14 +205,24 @@ def contact_tangent_kernel(
         n, pressed = _normal(p, nodes, slopes, gap[1], by_surface)
         if not (pressed and point_tangents(law, gap, n, at_point(v, nodes, functions), A)):
             continue
-        K = by_position[grid.plates[j]]
+        if filled == BATCH or (filled > 0 and grid.plates[j] != plate):
+            _subtract_batch(left, by_p, by_position[plate])
+            _subtract_batch(left, by_v, by_rate[plate])
+            left[:] = 0.0
+            filled = 0
+        plate = grid.plates[j]
+        if not by_surface:
+            _add_curvature(A[2], gap[2], A[0])
+        left[filled] = functions
+        _set_right(A[0], functions, by_p[filled])
+        _set_right(A[1], functions, by_v[filled])
         if by_surface:
             a, b = at_point(p, nodes, slopes[0]), at_point(p, nodes, slopes[1])
             _by_slopes(A[2], n, a, b, _inward_normal(a, b)[1], both)
-            _add_outer(functions, both[0], slopes[0], half, K)
-            _add_outer(functions, both[1], slopes[1], half, K)
-        else:
-            _add_curvature(A[2], gap[2], A[0])
-        _add_outer(functions, A[0], functions, half, K)
-        _add_outer(functions, A[1], functions, half, by_rate[grid.plates[j]])
+            _add_right(both[0], slopes[0], by_p[filled])
+            _add_right(both[1], slopes[1], by_p[filled])
+        filled += 1
+    if filled > 0:
+        _subtract_batch(left, by_p, by_position[plate])
+        _subtract_batch(left, by_v, by_rate[plate])
     return count

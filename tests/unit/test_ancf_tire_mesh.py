@@ -18,7 +18,7 @@ TIRE = build_tire(thesis_preset())
 def test_thesis_tire_has_16_nodes_and_8_plates() -> None:
     assert (len(TIRE.mesh.points), len(TIRE.mesh.elements)) == (16, 8)
     assert TIRE.mesh.parts == ("rim",) * 4 + ("spoke",) * 4
-    assert len(TIRE.grid.xi) == 400
+    assert TIRE.grid.positions(TIRE.mesh.reference_coordinates()).shape == (4, 100, 3)
 
 
 def _arc_error(tangent_length: float) -> float:
