@@ -82,6 +82,46 @@ def _stop(v: FloatArray, a: FloatArray, W: FloatArray, active: IntArray, Lambda:
         Lambda[j, i] = r[m]
 
 
+@compiled
+def _gather(z: FloatArray, rows: IntArray, held: float, a: FloatArray) -> None:
+    """Gradients of a triad (3, 3) from z (n_vectors, 3); a held one is ``held`` times its reference value e_i."""
+    for i in range(3):
+        for k in range(3):
+            a[i, k] = z[rows[i], k] if rows[i] >= 0 else (held if i == k else 0.0)
+
+
+@compiled
+def _place_all(
+    z: FloatArray, start: FloatArray, triads: tuple[IntArray, IntArray, FloatArray, FloatArray], moved: FloatArray
+) -> bool:
+    """Displacements that bring z onto the constraints of every triad, written to ``moved``."""
+    rows, active, W, spread = triads
+    a, a_0, Lambda = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
+    moved[:] = 0.0
+    for n in range(len(rows)):
+        _gather(z, rows[n], 1.0, a)
+        _gather(start, rows[n], 1.0, a_0)
+        if not _place(a, a_0, W[n], active[n], Lambda):
+            return False
+        moved += spread[n] @ (Lambda @ a_0)
+    return True
+
+
+@compiled
+def _stop_all(
+    v: FloatArray, z: FloatArray, triads: tuple[IntArray, IntArray, FloatArray, FloatArray], changed: FloatArray
+) -> None:
+    """Changes of rates that make every triad turn rigidly, written to ``changed``."""
+    rows, active, W, spread = triads
+    a, rate, Lambda = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
+    changed[:] = 0.0
+    for n in range(len(rows)):
+        _gather(z, rows[n], 1.0, a)
+        _gather(v, rows[n], 0.0, rate)
+        _stop(rate, a, W[n], active[n], Lambda)
+        changed += spread[n] @ (Lambda @ a)
+
+
 class RigidTriads:
     """All rigid reference nodes of a system, with the mass they act through.
 
@@ -89,22 +129,20 @@ class RigidTriads:
     """
 
     def __init__(self, triads: IntArray, factor: MassFactor, n_vectors: int) -> None:
-        self._rows = [triad[1:] for triad in triads]
-        self._active = [_active(rows) for rows in self._rows]
-        self._spread = []
-        for rows in self._rows:
-            unit = np.zeros((n_vectors, 3))
-            kept = np.flatnonzero(rows >= 0)
-            unit[rows[kept], kept] = 1.0
-            self._spread.append(factor.solve(unit))
+        rows = np.ascontiguousarray(triads[:, 1:])
+        spread = np.zeros((len(rows), n_vectors, 3))
+        for n, own in enumerate(rows):
+            kept = np.flatnonzero(own >= 0)
+            spread[n, own[kept], kept] = 1.0
+            spread[n] = factor.solve(spread[n])
+        W = np.array([np.where(own[:, None] >= 0, s[own], 0.0) for own, s in zip(rows, spread, strict=True)])
+        active = np.array([[own[i] >= 0 or own[j] >= 0 for i, j in _PAIRS] for own in rows], dtype=np.int64)
+        self._triads = rows, active.reshape(-1, 6), W.reshape(-1, 3, 3), spread
 
-    def gradients(self, z: FloatArray) -> list[FloatArray]:
-        """Gradients a_i (3, 3), rows, of each triad; a held one has its reference value."""
-        return [np.where(rows[:, None] >= 0, z[rows], np.eye(3)) for rows in self._rows]
-
-    def rates(self, v: FloatArray) -> list[FloatArray]:
-        """Their rates (3, 3)."""
-        return [np.where(rows[:, None] >= 0, v[rows], 0.0) for rows in self._rows]
+    def gradients(self, z: FloatArray) -> FloatArray:
+        """Gradients a_i, rows, of each triad, (n_triads, 3, 3); a held one has its reference value."""
+        rows = self._triads[0]
+        return np.where(rows[..., None] >= 0, z[rows], np.eye(3))
 
     def place(self, z: FloatArray, start: FloatArray) -> FloatArray:
         """Displacement (n_vectors, 3) that brings z onto the constraints, by forces along the gradients at ``start``.
@@ -114,34 +152,13 @@ class RigidTriads:
         ConvergenceError
             If the step was too large.
         """
-        moved = np.zeros_like(z)
-        at_start = self.gradients(start)
-        for a, a_0, spread, active, rows in zip(
-            self.gradients(z), at_start, self._spread, self._active, self._rows, strict=True
-        ):
-            Lambda = np.empty((3, 3))
-            if not _place(a, a_0, _own(spread, rows), active, Lambda):
-                raise ConvergenceError("a hub's triad could not be kept rigid: the time step is too large", [], None)
-            moved += spread @ (Lambda @ a_0)
+        moved = np.empty_like(z)
+        if not _place_all(z, start, self._triads, moved):
+            raise ConvergenceError("a hub's triad could not be kept rigid: the time step is too large", [], None)
         return moved
 
     def stop(self, v: FloatArray, z: FloatArray) -> FloatArray:
         """Change of rates (n_vectors, 3) after which the triads at z turn rigidly."""
-        changed = np.zeros_like(v)
-        for rate, a, spread, active, rows in zip(
-            self.rates(v), self.gradients(z), self._spread, self._active, self._rows, strict=True
-        ):
-            Lambda = np.empty((3, 3))
-            _stop(rate, a, _own(spread, rows), active, Lambda)
-            changed += spread @ (Lambda @ a)
+        changed = np.empty_like(v)
+        _stop_all(v, z, self._triads, changed)
         return changed
-
-
-def _own(spread: FloatArray, rows: IntArray) -> FloatArray:
-    """The triad's own (3, 3) part of M^-1; zero for held gradients."""
-    return np.ascontiguousarray(np.where(rows[:, None] >= 0, spread[rows], 0.0))
-
-
-def _active(rows: IntArray) -> IntArray:
-    """Which of the six equations are not met by held gradients alone."""
-    return np.array([rows[i] >= 0 or rows[j] >= 0 for i, j in _PAIRS], dtype=np.int64)

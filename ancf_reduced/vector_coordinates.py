@@ -24,6 +24,10 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 
+_DENSE = 40_000
+"""Entries up to which the map is multiplied as a full matrix."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VectorCoordinates:
     """Constant map p = B z + p_0.
@@ -41,6 +45,14 @@ class VectorCoordinates:
     map: csr_array
     held: FloatArray
     triads: IntArray = field(default_factory=lambda: np.zeros((0, 4), dtype=np.int64))
+    _forward: FloatArray | csr_array = field(init=False, repr=False)
+    _backward: FloatArray | csr_array = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Keep the map as a full matrix where that is quicker to multiply with."""
+        small = self.map.shape[0] * self.map.shape[1] <= _DENSE
+        object.__setattr__(self, "_forward", self.map.toarray() if small else self.map)
+        object.__setattr__(self, "_backward", np.ascontiguousarray(self.map.T.toarray()) if small else self.map.T)
 
     @property
     def n_vectors(self) -> int:
@@ -55,15 +67,15 @@ class VectorCoordinates:
 
     def expand(self, z: FloatArray) -> FloatArray:
         """Structure coordinates (n_nodes, 4, 3) from the independent vectors (n_vectors, 3)."""
-        return np.asarray(self.map @ z + self.held).reshape(-1, 4, 3)
+        return np.asarray(self._forward @ z + self.held).reshape(-1, 4, 3)
 
     def expand_rates(self, v: FloatArray) -> FloatArray:
         """Rates (n_nodes, 4, 3) of the structure coordinates; what is held stands still."""
-        return np.asarray(self.map @ v).reshape(-1, 4, 3)
+        return np.asarray(self._forward @ v).reshape(-1, 4, 3)
 
     def reduce(self, force: FloatArray) -> FloatArray:
         """Generalised force (n_vectors, 3) on the independent vectors from that on the mesh (n_nodes, 4, 3)."""
-        return np.asarray(self.map.T @ force.reshape(-1, 3))
+        return np.asarray(self._backward @ force.reshape(-1, 3))
 
     def restrict(self, p: FloatArray) -> FloatArray:
         """The independent vectors of structure coordinates (n_nodes, 4, 3) that keep the ties, by least squares."""
@@ -121,6 +133,7 @@ def with_reference_node(tie: ReferenceNodeTie, held: Sequence[bool] = (False,) *
         ),
         shape=(4 * n_nodes, n_vectors),
     ).tocsr()
+    B.eliminate_zeros()
     reference = np.vstack([tie.origin, np.eye(3)]) * held_rows[:, None]
     p_0 = np.zeros((n_nodes, 4, 3))
     p_0[tie.tied] = tie.map @ reference

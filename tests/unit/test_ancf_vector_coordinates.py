@@ -41,6 +41,8 @@ def test_reference_node_is_the_tie() -> None:
     force = rng.normal(size=(len(TIRE.mesh.points), 4, 3))
     np.testing.assert_allclose(coordinates.reduce(force)[-4:], TIRE.tie.reference_force(force), atol=1e-12)
     np.testing.assert_array_equal(coordinates.triads, [[len(z) - 4, len(z) - 3, len(z) - 2, len(z) - 1]])
+    free_positions = np.arange(0, len(z) - 4, 4)
+    np.testing.assert_array_equal(coordinates.position_rows, [*free_positions, len(z) - 4])
 
 
 def test_held_vectors_of_the_reference_node_are_constant() -> None:

@@ -1,0 +1,186 @@
+"""One ANCF wheel with a rigid hub on terrain: dropped, or driven at a wanted speed of rotation.
+
+The hub moves freely in space; the lateral directions need no guide as long as wheel and terrain are symmetric about the
+wheel's mid-plane. World frame: x forward, y left (axle), z up; the wheel stands on its position phi = 0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+
+from ancf_reduced.contact_law import ContactLaw
+from ancf_reduced.explicit_dynamics import MotionState
+from ancf_reduced.linearisation import Linearisation
+from ancf_reduced.plate_assembly import dense_matrix
+from ancf_reduced.plate_contact import PlateContact
+from ancf_reduced.plate_model import PlateModel
+from ancf_reduced.plate_system import ExternalForce, HubMass, PlateSystem, build_plate_system
+from ancf_reduced.tire_mesh import Tire, build_tire
+from ancf_reduced.tire_preset import TirePreset
+from ancf_reduced.vector_coordinates import with_held_vectors, with_reference_node
+from contracts.errors import InputError
+from contracts.terrain import Terrain
+
+__all__ = ["MARS_GRAVITY", "HubDrive", "WheelRig", "build_wheel_rig", "damped_model"]
+
+FloatArray = NDArray[np.float64]
+
+MARS_GRAVITY = 3.721
+"""[m/s^2]; thesis section 3.1: 1187.52 N on six wheels."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HubDrive:
+    """Torque about the axle that holds the speed of rotation: gain times (wanted - actual), gain in N m s.
+
+    An external force of `plate_system`. The torque tau acts on the hub's gradients as tau x a_i / 2, handed to the tied
+    nodes by forces of least norm whose sum at the reference node is just that.
+
+    Attributes
+    ----------
+    tire : whose hub nodes are driven
+    speed : wanted angular velocity about y, positive rolls towards +x [rad/s]
+    gain : [N m s]
+    """
+
+    tire: Tire
+    speed: float
+    gain: float
+
+    def _spread(self) -> FloatArray:
+        """Least-norm forces (n_tied 4, 3) on tied vectors that add up to unit forces on the gradients."""
+        B = self.tire.tie.map.reshape(-1, 4)
+        return np.asarray(np.linalg.pinv(B)[1:].T)
+
+    def _hub(self, p: FloatArray) -> FloatArray:
+        """Reference node's vectors (4, 3) from the tied nodes."""
+        B = self.tire.tie.map.reshape(-1, 4)
+        return np.asarray(np.linalg.pinv(B) @ p[self.tire.tie.tied].reshape(-1, 3))
+
+    def torque(self, p: FloatArray, v: FloatArray) -> float:
+        """About the axle, on the wheel [N m]."""
+        a, a_dot = self._hub(p)[1:], self._hub(v)[1:]
+        spin = 0.5 * np.cross(a, a_dot).sum(axis=0)
+        return float(self.gain * (self.speed - spin[1]))
+
+    def force(self, p: FloatArray, v: FloatArray, time: float) -> FloatArray:
+        """Generalised force (n_nodes, 4, 3) on the mesh."""
+        tau = np.array([0.0, self.torque(p, v), 0.0])
+        on_gradients = 0.5 * np.cross(tau, self._hub(p)[1:])
+        force = np.zeros_like(p)
+        force[self.tire.tie.tied] = (self._spread() @ on_gradients).reshape(-1, 4, 3)
+        return force
+
+    def tangents(self, p: FloatArray, v: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
+        """Zero: the drive is slow, and Newton's iteration does without its derivative."""
+        none = np.zeros((len(self.tire.mesh.elements), 48, 48))
+        return none, none
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelRig:
+    """System and what is needed to start and read it.
+
+    Attributes
+    ----------
+    tire : plates, contact points, tie
+    system : equations of motion
+    contact : its contact with the ground
+    """
+
+    tire: Tire
+    system: PlateSystem
+    contact: PlateContact
+
+    def start(self, hub: FloatArray, velocity: FloatArray, spin: float = 0.0) -> MotionState:
+        """Undeformed wheel at a hub position [m] with velocity [m/s] and spin about y [rad/s]."""
+        z = self.system.reference()
+        v = np.cross(np.array([0.0, spin, 0.0]), z)
+        positions = self.system.coordinates.position_rows
+        z[positions] += hub
+        v[positions] += velocity
+        return MotionState(time=0.0, z=z, v=v)
+
+    def hub(self, vectors: FloatArray) -> FloatArray:
+        """Position of the hub (3,) [m] from a state's z, or its velocity from v."""
+        return np.asarray(vectors[self.system.coordinates.triads[0, 0]])
+
+    def load(self, state: MotionState) -> FloatArray:
+        """Force of the ground on the wheel (3,) [N]."""
+        p, v = self.system.coordinates.expand(state.z), self.system.coordinates.expand_rates(state.v)
+        return self.contact.patch(p, v).resultant
+
+
+def build_wheel_rig(
+    preset: TirePreset,
+    terrain: Terrain,
+    *,
+    hub: HubMass,
+    law: ContactLaw | None = None,
+    damping_ratio: float = 0.0,
+    gravity: float = MARS_GRAVITY,
+    drive: tuple[float, float] | None = None,
+) -> WheelRig:
+    """A wheel on the ground.
+
+    Parameters
+    ----------
+    preset : the tire
+    terrain : ground at rest
+    hub : mass on the axle
+    law : contact; the preset's stiffness without damping and friction by default
+    damping_ratio : of the first mode of the tire with its hub held [-], see `damped_model`
+    gravity : downwards [m/s^2]
+    drive : speed of rotation [rad/s] and gain [N m s] of `HubDrive`; None lets the hub turn freely
+
+    Verified by tests/verification/test_ancf_wheel_rig.py.
+    """
+    tire = build_tire(preset)
+    model = damped_model(tire, damping_ratio)
+    tire = replace(tire, model=model)
+    law = law or ContactLaw(stiffness=preset.contact_stiffness)
+    contact = PlateContact(grid=tire.grid, terrain=terrain.pieces(), law=law)
+    external: list[ExternalForce] = [contact]
+    if drive is not None:
+        external.append(HubDrive(tire=tire, speed=drive[0], gain=drive[1]))
+    system = build_plate_system(
+        model,
+        with_reference_node(tire.tie),
+        gravity=np.array([0.0, 0.0, -gravity]),
+        hubs=(hub,),
+        external=tuple(external),
+    )
+    return WheelRig(tire=tire, system=system, contact=contact)
+
+
+def damped_model(tire: Tire, ratio: float) -> PlateModel:
+    """The tire's plates with the viscosity mu_v that damps its first mode so much; lambda_v = 0.
+
+    The first mode is that of the free plates with the hub held, about the stress-free state: 2 ratio omega = mu_v c / m
+    with the mode's damping c for mu_v = 1. The thesis gives no coefficients: the ratio is a choice.
+
+    Parameters
+    ----------
+    ratio : >= 0 and below 1 [-]
+    """
+    if not 0.0 <= ratio < 1.0:
+        raise InputError("damping ratio", f"{ratio:g}", "must lie in 0..1, 1 excluded", "0.02 to 0.1 is usual")
+    if ratio == 0.0:
+        return tire.model
+    held = np.zeros((len(tire.mesh.points), 4), dtype=bool)
+    held[tire.tie.tied] = True
+    unit = replace(tire.model, viscosity=(0.0, 1.0))
+    system = build_plate_system(unit, with_held_vectors(tire.mesh, held))
+    z = system.reference()
+    matrices, p = Linearisation(system), system.coordinates.expand(z)
+    K, M = np.asarray(matrices.elastic(z)), np.asarray(matrices.mass)
+    square, mode = eigh(K, M, subset_by_index=(0, 0))
+    _, by_rate = unit.damping_tangents(p, np.zeros_like(p))
+    shape = system.coordinates.expand_rates(mode[:, 0].reshape(-1, 3)).ravel()
+    damping = float(shape @ dense_matrix(tire.mesh, by_rate) @ shape)
+    return replace(tire.model, viscosity=(0.0, 2.0 * ratio * math.sqrt(float(square[0])) / damping))
