@@ -1,0 +1,33 @@
+"""Figures of wheels in motion. Verified by tests/unit/test_workbench_ancf_dynamics.py."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.figures_plotly import empty_figure, figure_html
+from workbench.palette import INK, MODEL_COLOURS
+
+__all__ = ["motion_figure"]
+
+
+def motion_figure(name: str, series: NDArray[np.float64], radius: float) -> str:
+    """Height of the hub over the nominal radius [mm] and load of the ground [N] against time.
+
+    series : (n, 5), columns time_s, hub_x_m, hub_z_m, load_x_N, load_z_N
+    """
+    figure = empty_figure("time [s]", "vertical load [N]")
+    time, height, load = series[:, 0], 1e3 * (series[:, 2] - radius), series[:, 4]
+    line = {"color": MODEL_COLOURS["ancf"], "width": 2.5}
+    figure.add_scatter(x=time, y=load, name="load", mode="lines", line=line, hovertemplate="%{y:.0f} N")
+    figure.add_scatter(
+        x=time,
+        y=height,
+        name="hub above the nominal radius",
+        mode="lines",
+        line={"color": INK, "width": 1.5, "dash": "dot"},
+        yaxis="y2",
+        hovertemplate="%{y:.1f} mm",
+    )
+    figure.update_layout(yaxis2={"title": "hub [mm]", "overlaying": "y", "side": "right", "showgrid": False})
+    return figure_html(figure, f"ancf-{name}")

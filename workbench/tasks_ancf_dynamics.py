@@ -1,0 +1,106 @@
+"""Task: one ANCF wheel dropped and driven over a half-round, with its energy account.
+
+Verified by tests/unit/test_workbench_ancf_dynamics.py.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ancf_reduced.contact_law import ContactLaw
+from ancf_reduced.energy_account import EnergyAccount
+from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
+from ancf_reduced.implicit_dynamics import ImplicitSettings, integrate_implicit
+from ancf_reduced.plate_system import HubMass
+from ancf_reduced.spectrum import stable_step
+from ancf_reduced.tire_preset import TirePreset
+from ancf_reduced.wheel_rig import WheelRig, build_wheel_rig
+from contracts.errors import ConvergenceError
+from contracts.terrain import Plane, TerrainUnion
+from contracts.terrain_ridges import HalfRound
+from workbench.result_files import write_result
+from workbench.task import Progress
+
+__all__ = ["move_wheel"]
+
+STEP_FRACTION = 0.7
+"""Of the longest stable step of the plates: friction near standstill asks for a little less."""
+
+
+def move_wheel(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """One motion by the explicit integrator, and by the implicit one if asked: ``series.csv``, ``result.json``."""
+    rig = _rig(inputs)
+    start = rig.start(np.array(inputs["hub"]), np.array([inputs["speed"], 0.0, 0.0]), inputs["spin"])
+    times = np.linspace(0.0, inputs["end"], inputs["points"] + 1)[1:]
+    step, account = STEP_FRACTION * stable_step(rig.system, start.z), EnergyAccount(rig.system)
+    account.watch(start)
+    states, message = [start], None
+    try:
+        for state in integrate_explicit(rig.system, start, times, step, account.watch):
+            states.append(state)
+            progress(state.time / inputs["end"])
+    except ConvergenceError as error:
+        message = str(error)
+    _write_series(out / "series.csv", rig, states)
+    heights = np.array([rig.hub(s.z)[2] for s in states])
+    numbers: dict[str, Any] = {
+        "closure": account.closure() if message is None else None,
+        "energies": asdict(account.rows[-1]),
+        "lowest_m": float(heights.min()),
+        "largest_load_N": max(float(rig.load(s)[2]) for s in states),
+        "step_s": step,
+        "stopped": message,
+        "end_s": float(states[-1].time),
+        "viscosity": rig.tire.model.viscosity[1],
+    }
+    if inputs["implicit"]:
+        numbers |= _by_implicit(rig, start, times, heights[1:])
+    write_result(out, numbers)
+    return 3 * rig.system.coordinates.n_vectors
+
+
+def _rig(inputs: Mapping[str, Any]) -> WheelRig:
+    """Wheel and ground of a task."""
+    values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in inputs["preset"].items()}
+    preset = TirePreset(**values)
+    rock = [HalfRound(radius=r, position=x) for r, x in inputs["rocks"]]
+    spin = inputs["spin"]
+    return build_wheel_rig(
+        preset,
+        TerrainUnion(parts=(Plane(), *rock)) if rock else Plane(),
+        hub=HubMass(mass=inputs["hub_mass"], inertia=inputs["hub_inertia"] * np.eye(3)),
+        law=ContactLaw(stiffness=preset.contact_stiffness, **inputs["law"]),
+        damping_ratio=inputs["damping_ratio"],
+        drive=(spin, inputs["drive_gain"]) if spin else None,
+    )
+
+
+def _by_implicit(
+    rig: WheelRig, start: MotionState, times: NDArray[np.float64], explicit: NDArray[np.float64]
+) -> dict[str, Any]:
+    """Largest difference of the hub's height between both integrators [m], and steps of the implicit one."""
+    steps: list[float] = []
+    states = integrate_implicit(
+        rig.system, start, times, ImplicitSettings(tolerance=2e-7), lambda state: steps.append(state.time)
+    )
+    heights = np.array([rig.hub(state.z)[2] for state in states])
+    return {"implicit_difference_m": float(np.abs(heights - explicit).max()), "implicit_steps": len(steps)}
+
+
+def _write_series(path: Path, rig: WheelRig, states: Sequence[MotionState]) -> None:
+    """Hub and load against time; units in the header."""
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["time_s", "hub_x_m", "hub_z_m", "load_x_N", "load_z_N"])
+        for state in states:
+            hub, load = rig.hub(state.z), rig.load(state)
+            row = [state.time, hub[0], hub[2], load[0], load[2]]
+            writer.writerow([f"{value:.9g}" if math.isfinite(value) else "" for value in row])
