@@ -27,7 +27,8 @@ class StiffnessCurve:
     load : (n,) float [N], ground on wheel, positive in compression
     columns : further columns by header (name with unit), each (n,) float
     source : where the curve comes from, printed with it
-    partial : True if the run ended before its target; marked wherever the curve appears
+    partial : True if the run ended before its target; marked wherever the curve appears. Such a curve may hold first
+        contact alone, see `unloaded`
 
     Verified by tests/unit/test_curves.py.
     """
@@ -41,7 +42,11 @@ class StiffnessCurve:
     partial: bool = False
 
     def __post_init__(self) -> None:
-        if self.deflection.shape != self.load.shape or self.deflection.ndim != 1 or len(self.deflection) < 2:
+        if (
+            self.deflection.shape != self.load.shape
+            or self.deflection.ndim != 1
+            or len(self.deflection) < 2 - self.partial
+        ):
             raise InputError("curve", f"{self.deflection.shape} points", "needs two or more points", "check the file")
         if not (np.all(np.isfinite(self.deflection)) and np.all(np.isfinite(self.load))):
             raise InputError("curve", self.model, "has values that are not finite", "remove NaN and infinite rows")
@@ -51,6 +56,11 @@ class StiffnessCurve:
             if values.shape != self.deflection.shape:
                 rule = f"must have one value per point, shape {self.deflection.shape}"
                 raise InputError(f"curve column {name}", f"shape {values.shape}", rule, "drop the column or fill it")
+
+    @property
+    def unloaded(self) -> bool:
+        """Whether there is no point but first contact, because the run converged nowhere."""
+        return len(self.deflection) < 2
 
     def load_at(self, deflection: float | NDArray[np.float64]) -> NDArray[np.float64]:
         """Load [N] at a deflection [m] by linear interpolation; NaN-free: raises InputError outside the curve."""
@@ -141,7 +151,8 @@ def read_curve(path: Path, model: str | None = None, orientation_deg: float | No
     except (OSError, UnicodeDecodeError) as error:
         raise InputError("curve file", path, f"cannot be read ({type(error).__name__})", "check the path") from error
     comments = [line[1:].strip() for line in lines if line.startswith("#")]
-    names, table = _table([line for line in lines if line.strip() and not line.startswith("#")], path)
+    partial = "partial: True" in comments
+    names, table = _table([line for line in lines if line.strip() and not line.startswith("#")], path, partial)
     source = next((c.removeprefix("source:").strip() for c in comments if c.startswith("source:")), "")
     try:
         return StiffnessCurve(
@@ -151,21 +162,24 @@ def read_curve(path: Path, model: str | None = None, orientation_deg: float | No
             load=table[:, 1],
             columns={name: table[:, 2 + i] for i, name in enumerate(names[2:])},
             source=source,
-            partial="partial: True" in comments,
+            partial=partial,
         )
     except InputError as error:
         raise InputError("curve file", path, f"{error.what} {error.rule}", error.hint) from error
 
 
-def _table(lines: list[str], path: Path) -> tuple[list[str], NDArray[np.float64]]:
-    """Header names and the (n, n_columns) numbers below them; raises InputError where they do not fit together."""
+def _table(lines: list[str], path: Path, partial: bool) -> tuple[list[str], NDArray[np.float64]]:
+    """Header names and the (n, n_columns) numbers below them; raises InputError where they do not fit together.
+
+    Two rows or more; one is enough for a partial curve.
+    """
     try:
         rows = list(csv.reader(lines))
         names = [name.strip() for name in rows[0]] if rows else []
         table = np.array([[float(value) for value in row] for row in rows[1:]], dtype=np.float64)
     except (ValueError, csv.Error) as error:
         raise InputError("curve file", path, f"has a bad row ({error})", "every cell must be a number") from error
-    if len(rows) < 3 or names[:2] != ["deflection_m", "load_N"]:
+    if len(rows) < 3 - partial or names[:2] != ["deflection_m", "load_N"]:
         rule = "must have a header deflection_m,load_N and two or more rows"
         raise InputError("curve file", path, rule, "give deflection in metres and load in newtons")
     if table.shape[1] != len(names):

@@ -67,7 +67,8 @@ def solve_wheel(
     Raises
     ------
     ConvergenceError
-        With the partial `WheelResult` as ``last_good`` (its curve marked partial), if there are two or more points.
+        With the partial `WheelResult` as ``last_good``: its curve is marked partial, and holds first touch alone if no
+        point converged.
 
     Verified by tests/verification/test_fe_wheel.py.
     """
@@ -84,9 +85,8 @@ def solve_wheel(
             if load >= load_case.maximum_load:
                 break
     except ConvergenceError as error:
-        partial = run.result(partial=True) if len(run.rows) > 1 else None
         where = f"orientation {load_case.orientation_deg:g} deg, {run.reach()}: "
-        raise ConvergenceError(where + str(error), error.history, partial) from error
+        raise ConvergenceError(where + str(error), error.history, run.result(partial=True)) from error
     if kept is not None:
         kept.discard()
     return run.result(partial=False)

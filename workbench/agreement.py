@@ -79,7 +79,7 @@ def noted(checks: Sequence[Check], judged: Mapping[str, Agreement]) -> list[Chec
     """The checks of L2 differences with their numerical uncertainty and verdict in the words of the tolerance."""
     pairs = {"ancf_vs_fe.relative_l2": "ancf_average", "brush_vs_fe.relative_l2": "brush"}
     pairs |= {f"{pair}.relative_l2": pair for pair in judged if pair.startswith("user_")}
-    return [_note(check, judged[pairs[check.id]]) if check.id in pairs else check for check in checks]
+    return [_note(check, judged[pairs[check.id]]) if pairs.get(check.id) in judged else check for check in checks]
 
 
 def _note(check: Check, found: Agreement) -> Check:

@@ -90,6 +90,10 @@ class Series:
         """All of them, that at 20 C first."""
         return (self.reference, *self.others)
 
+    def comparable(self, run: EnvironmentRun) -> bool:
+        """Whether both a run and that at 20 C have points under load."""
+        return not (run.curve.unloaded or self.reference.curve.unloaded)
+
     def load_ratio(self, run: EnvironmentRun) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Deflections [m] of the run's points that both curves have, and load over load at 20 C there [-]."""
         own, reference = run.curve, self.reference.curve

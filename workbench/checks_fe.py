@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_checks.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
@@ -100,21 +101,28 @@ def solver_checks(fe: ModelCurves, others: Sequence[MeshRun], tol: ToleranceSect
         ),
         at_most(
             _claim("fe.balance", "FE: largest imbalance of forces over contact force", "imbalance", "-", "gate", _OURS),
-            lambda: max(float(np.abs(c.columns["force_imbalance"]).max()) for c in curves),
+            partial(_largest, curves, "force_imbalance"),
             tol.fe_balance,
         ),
         at_most(
             _claim("fe.moment_balance", moments, "imbalance", "-", "gate", _OURS),
-            lambda: max(float(np.abs(c.columns["moment_imbalance"]).max()) for c in curves),
+            partial(_largest, curves, "moment_imbalance"),
             tol.fe_balance,
         ),
     ]
 
 
+def _largest(curves: Sequence[StiffnessCurve], column: str) -> float:
+    """Largest absolute value of a column on any curve that carries load; NaN without any."""
+    return max((float(np.abs(c.columns[column]).max()) for c in curves if not c.unloaded), default=math.nan)
+
+
 def largest_residual(runs: Sequence[Mapping[str, Any]]) -> float:
     """Largest relative residual at the end of any converged increment of any run [-]."""
-    records = [r for n in runs for r in n["increments"] if r["converged"]]
-    return max(float(r["residuals"][-1]) for r in records)
+    found = [float(r["residuals"][-1]) for n in runs for r in n["increments"] if r["converged"]]
+    if not found:
+        raise InputError("increments", 0, "converged", "see the runs' messages")
+    return max(found)
 
 
 def yield_check(fe: ModelCurves, yield_strength: Mapping[str, float]) -> Check:

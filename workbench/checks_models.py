@@ -5,7 +5,9 @@ Verified by tests/unit/test_workbench_checks.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -25,6 +27,12 @@ _PLATE_SOURCE = "exact quadrature of thesis eq. 2.13; Project Chrono's reference
 _THESIS_WHEEL_MASS = 4.44157
 _SMALLEST_LOAD = 5.0
 """Load [N] below which an entry of the preset's table counts absolutely."""
+_UNKNOWN: Mapping[str, Any] = dict.fromkeys(("relative_l2", "max_error", "tangent"), math.nan) | {
+    "reference_load": 0.0,
+    "tangent_reference": 0.0,
+    "iso_rating": None,
+}
+"""Distances from an FE average that does not exist."""
 
 
 def preset_error(ancf: ModelCurves, orientation_deg: float) -> float:
@@ -111,47 +119,55 @@ def surfaces_check(read_back: Mapping[str, float], tolerances: ToleranceSection)
 
 def agreement_checks(metrics: Mapping[str, Mapping[str, Any]], tolerances: ToleranceSection) -> list[Check]:
     """ANCF and brush against the FE average, over the range they share up to 250 N: findings."""
-    ancf, brush, agree = metrics["ancf_average"], metrics["brush"], tolerances.model_agreement
-
-    def claim(id: str, title: str, quantity: str, unit: str) -> Claim:
-        numbers = brush if id.startswith("brush") else ancf
-        span = f"{numbers['start'] * 1e3:.1f} to {numbers['end'] * 1e3:.1f} mm"
-        source = f"comparison where the FE average carries up to {numbers['reference_load']:.4g} N; the limit is ours"
-        return Claim(id=id, title=f"{title}, {span}", quantity=quantity, unit=unit, role="finding", source=source)
-
-    def rating() -> float:
-        if ancf["iso_rating"] is None:
-            raise InputError("rating", "not defined", "needs curves that vary", "check the curves")
-        return float(ancf["iso_rating"])
-
-    return [
+    ancf, brush = metrics.get("ancf_average", _UNKNOWN), metrics.get("brush", _UNKNOWN)
+    agree = tolerances.model_agreement
+    against = "ANCF average against FE average"
+    checks = [
         at_most(
-            claim("ancf_vs_fe.relative_l2", "ANCF average against FE average", "relative L2 difference", "-"),
+            _agreement_claim(ancf, "ancf_vs_fe.relative_l2", against, "relative L2 difference"),
             lambda: ancf["relative_l2"],
             agree,
         ),
         at_most(
-            claim("ancf_vs_fe.max_error", "ANCF average against FE average: largest difference", "load", "N"),
+            _agreement_claim(ancf, "ancf_vs_fe.max_error", f"{against}: largest difference", "load", "N"),
             lambda: ancf["max_error"],
             agree * ancf["reference_load"],
         ),
         near(
-            claim("ancf_vs_fe.tangent", "ANCF average against FE average: mean slope", "tangent", "N/m"),
+            _agreement_claim(ancf, "ancf_vs_fe.tangent", f"{against}: mean slope", "tangent", "N/m"),
             lambda: ancf["tangent"],
             ancf["tangent_reference"],
             agree,
         ),
         at_least(
-            claim("ancf_vs_fe.iso_18571", "ANCF average against FE average: ISO/TS 18571 rating", "rating", "-"),
-            rating,
+            _agreement_claim(ancf, "ancf_vs_fe.iso_18571", f"{against}: ISO/TS 18571 rating", "rating"),
+            partial(_rating, ancf),
             tolerances.iso_rating,
         ),
         at_most(
-            claim("brush_vs_fe.relative_l2", "Brush line against FE average", "relative L2 difference", "-"),
+            _agreement_claim(
+                brush, "brush_vs_fe.relative_l2", "Brush line against FE average", "relative L2 difference"
+            ),
             lambda: brush["relative_l2"],
             agree,
         ),
     ]
+    return [replace(check, reference=None, tolerance="not known") if ancf is _UNKNOWN else check for check in checks]
+
+
+def _agreement_claim(numbers: Mapping[str, Any], id: str, title: str, quantity: str, unit: str = "-") -> Claim:
+    if numbers is _UNKNOWN:
+        source = "no point of any FE curve converged"
+    else:
+        title += f", {numbers['start'] * 1e3:.1f} to {numbers['end'] * 1e3:.1f} mm"
+        source = f"comparison where the FE average carries up to {numbers['reference_load']:.4g} N; the limit is ours"
+    return Claim(id=id, title=title, quantity=quantity, unit=unit, role="finding", source=source)
+
+
+def _rating(numbers: Mapping[str, Any]) -> float:
+    if numbers["iso_rating"] is None:
+        raise InputError("rating", "not defined", "needs curves that vary", "check the curves")
+    return float(numbers["iso_rating"])
 
 
 def user_checks(
@@ -168,11 +184,17 @@ def user_checks(
                 role="finding",
                 source=user.curve.source,
             ),
-            partial(float, metrics[f"user_{i}"]["relative_l2"]),
+            partial(_difference_from_user, metrics, i),
             tolerances.model_agreement,
         )
         for i, user in enumerate(users)
     ]
+
+
+def _difference_from_user(metrics: Mapping[str, Mapping[str, Any]], i: int) -> float:
+    if f"user_{i}" not in metrics:
+        raise InputError("FE curve", "no point", "converged at the user curve's orientation", "see its run's message")
+    return float(metrics[f"user_{i}"]["relative_l2"])
 
 
 def _place(user: UserCurve) -> str:

@@ -11,7 +11,7 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.check_rules import Claim, at_most
 from workbench.graph_fe import orientation_name
-from workbench.results import ModelCurves
+from workbench.results import ModelCurves, mean_curve
 from workbench.study_sections import ToleranceSection
 
 __all__ = ["largest_difference", "section_checks"]
@@ -24,7 +24,7 @@ def section_checks(section: ModelCurves, fe: ModelCurves, tolerances: ToleranceS
     """Each orientation and the average: largest difference of load along the curve, relative to the solid model's."""
     solid = fe.by_orientation
     pairs = {orientation_name("vs_solid", o): (curve, solid.get(o)) for o, curve in section.by_orientation.items()}
-    pairs["agreement"] = section.average, fe.average
+    pairs["agreement"] = _averages(section, fe)
     return [
         at_most(
             Claim(
@@ -40,6 +40,15 @@ def section_checks(section: ModelCurves, fe: ModelCurves, tolerances: ToleranceS
         )
         for name, (curve, other) in pairs.items()
     ]
+
+
+def _averages(section: ModelCurves, fe: ModelCurves) -> tuple[StiffnessCurve, StiffnessCurve]:
+    """Both averages; where a model misses an orientation, over those that neither misses."""
+    both = [o for o in section.loaded if o in fe.loaded]
+    if not (both and (section.missing or fe.missing)):
+        return section.average, fe.average
+    of_section, of_solid = (mean_curve([model.by_orientation[o] for o in both]) for model in (section, fe))
+    return of_section, of_solid
 
 
 def largest_difference(curve: StiffnessCurve, solid: StiffnessCurve | None) -> float:

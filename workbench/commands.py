@@ -106,6 +106,7 @@ def run_stiffness(
     for curve in curves:
         label = "average" if curve.orientation_deg is None else f"{curve.orientation_deg:g} deg"
         reach = f"{curve.deflection[-1] * 1e3:.1f} mm at {curve.load[-1]:.1f} N"
+        reach = "no point converged" if curve.unloaded else reach
         part = " (partial)" if curve.partial else ""
         console.print(f"{model} {label}: {reach}{part}", highlight=False, markup=False)
     console.print(f"curves: {out / 'curves'}", highlight=False, markup=False, soft_wrap=True)

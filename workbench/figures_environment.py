@@ -6,7 +6,7 @@ import numpy as np
 
 from contracts.materials_tables import KELVIN_AT_ZERO_CELSIUS
 from workbench.checks_environment import Series
-from workbench.figures_plotly import empty_figure, figure_html
+from workbench.figures_plotly import empty_figure, figure_html, named
 from workbench.palette import INK, ORIENTATION_COLOURS
 from workbench.topic_strength import StrengthResults
 from workbench.yielding import utilisation
@@ -26,8 +26,9 @@ def environment_figures(results: tuple[Series, ...]) -> dict[str, str]:
             line = {"color": next(colours), "width": 2.0, "dash": "solid" if series is results[0] else "dash"}
             name = f"{series.label}, {run.temperature - KELVIN_AT_ZERO_CELSIUS:g} °C"
             x = run.curve.deflection * 1e3
-            loads.add_scatter(x=x, y=run.curve.load, name=name, mode="lines", line=line)
-            if run is series.reference:
+            shown = named(name, run.curve)
+            loads.add_scatter(x=x, y=run.curve.load, name=shown, mode="lines", line=line)
+            if run is series.reference or not series.comparable(run):
                 continue
             at, ratio = series.load_ratio(run)
             ratios.add_scatter(x=at * 1e3, y=ratio, name=name, mode="lines+markers", line=line)

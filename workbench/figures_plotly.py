@@ -26,6 +26,7 @@ __all__ = [
     "figure_html",
     "mesh_study_figure",
     "models_figure",
+    "named",
     "plotly_script",
     "section_figure",
     "stress_figure",
@@ -109,7 +110,7 @@ def section_figure(section: ModelCurves, fe: ModelCurves) -> str:
             figure.add_scatter(
                 x=solid.deflection * 1e3,
                 y=solid.load,
-                name=f"solid {orientation:g}°" + (" (partial)" if solid.partial else ""),
+                name=named(f"solid {orientation:g}°", solid),
                 mode="markers",
                 marker={"symbol": _MARKERS[i % 6], "size": 6, "color": colour},
                 hovertemplate="%{y:.1f} N",
@@ -169,13 +170,18 @@ def figure_html(figure: go.Figure, name: str) -> str:
     return str(figure.to_html(full_html=False, include_plotlyjs=False, div_id=name, config=options))
 
 
+def named(name: str, curve: StiffnessCurve) -> str:
+    """Name in a legend, with what the curve lacks."""
+    return name + (" (missing)" if curve.unloaded else " (partial)" if curve.partial else "")
+
+
 def _add_line(
     figure: go.Figure, curve: StiffnessCurve, name: str, colour: str, width: float, dash: str = "solid"
 ) -> None:
     figure.add_scatter(
         x=curve.deflection * 1e3,
         y=curve.load,
-        name=name + (" (partial)" if curve.partial else ""),
+        name=named(name, curve),
         mode="lines",
         line={"color": colour, "width": width, "dash": dash},
         hovertemplate="%{y:.1f} N",
@@ -191,7 +197,7 @@ def _add_orientations(figure: go.Figure, curves: ModelCurves, model: str, first_
         figure.add_scatter(
             x=curve.deflection * 1e3,
             y=curve.load,
-            name=f"{model} {orientation:g}°" + (" (partial)" if curve.partial else ""),
+            name=named(f"{model} {orientation:g}°", curve),
             mode="lines+markers",
             line={"color": ORIENTATION_COLOURS[i % 6], "width": 1.6, "dash": _DASHES[i % 6]},
             marker={"symbol": _MARKERS[i % 6], "size": 5, "maxdisplayed": 12},

@@ -58,6 +58,7 @@ def render(content: PageContent) -> str:
     environment.filters["number"] = displayed
     environment.filters["reference"] = displayed_reference
     found, study = content.found, content.study
+    figures, lacking = _figures(content)
     values: dict[str, Any] = {
         "sections": _sections(study),
         "study": study,
@@ -66,7 +67,7 @@ def render(content: PageContent) -> str:
         "status": overall_status(found.checks),
         "counts": _counts(found.checks),
         "plotly": plotly_script(),
-        "figures": _figures(content),
+        "figures": figures,
         "wheel": _data_uri(content.pictures / "wheel.png"),
         "deformed": [(p.stem.removeprefix("deformed_"), _data_uri(p)) for p in _deformed(content.pictures)],
         "solver": [_solver_row(found, o) for o in found.fe.by_orientation],
@@ -76,14 +77,18 @@ def render(content: PageContent) -> str:
         "agreements": found.agreements,
         "colours": PART_COLOURS,
     }
-    texts = {section.name: _section_text(environment, section, values) for section in values["sections"]}
+    texts = {section.name: _section_text(environment, section, values, lacking) for section in values["sections"]}
     return environment.get_template("report.html.j2").render(values, texts=texts)
 
 
-def _section_text(environment: jinja2.Environment, section: _Section, values: Mapping[str, Any]) -> str:
-    """One section; where a partial curve leaves it without a number, its title and what is missing."""
+def _section_text(
+    environment: jinja2.Environment, section: _Section, values: Mapping[str, Any], lacking: Mapping[str, InputError]
+) -> str:
+    """One section; where a partial curve leaves it without a number or a figure, its title and what is missing."""
     topic = values["found"].topics.get(section.name)
     try:
+        if section.name in lacking:
+            raise lacking[section.name]
         return environment.get_template(f"section_{section.name}.html.j2").render(values, topic=topic)
     except (InputError, jinja2.UndefinedError) as error:
         if not values["provenance"]["partial"]:
@@ -130,9 +135,10 @@ def _counts(checks: Sequence[Check]) -> list[tuple[str, str, int]]:
     return [row for row in counted if row[2]]
 
 
-def _figures(content: PageContent) -> dict[str, str]:
+def _figures(content: PageContent) -> tuple[dict[str, str], dict[str, InputError]]:
+    """Figures by name; and by topic, what a partial curve leaves without any."""
     found, study = content.found, content.study
-    first = next(iter(found.fe.by_orientation.values()))
+    first, *_ = [*found.fe.loaded.values(), found.fe.average]
     parts = found.mesh["parts"]
     strengths = {p: study.materials[n["material"]].yield_strength for p, n in parts.items()}
     figures = {
@@ -141,13 +147,15 @@ def _figures(content: PageContent) -> dict[str, str]:
         "models": models_figure(found, study.reference),
         "stress": stress_figure(first, strengths),
     }
+    lacking = {}
     for topic in topics_of(study):
         try:
             figures |= topic.figures(study, found.topics[topic.name])
-        except InputError:
+        except InputError as error:
             if not content.provenance["partial"]:
-                raise  # else `_section_text` says what is missing
-    return figures
+                raise
+            lacking[topic.name] = error
+    return figures, lacking
 
 
 def _deformed(pictures: Path) -> list[Path]:
@@ -168,7 +176,8 @@ def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:
         "cuts": sum(not r["converged"] for r in records),
         "iterations": int(sum(len(r["residuals"]) - 1 for r in records)),
         "partial": curve.partial,
-        "residual": max(r["residuals"][-1] for r in records if r["converged"]),
+        "missing": curve.unloaded,
+        "residual": max((r["residuals"][-1] for r in records if r["converged"]), default=None),
         "imbalance": float(abs(curve.columns["force_imbalance"]).max()),
         "moment_imbalance": float(abs(curve.columns["moment_imbalance"]).max()),
         "deflection": float(curve.deflection[-1]),

@@ -34,8 +34,8 @@ def solve_orientation(
 ) -> int:
     """Solve one orientation: ``curve.csv``, ``result.json`` (increments, timings) and fields at chosen loads.
 
-    A solve that does not converge leaves its partial curve, and the reason in the result. Needs one task that holds the
-    mesh. Goes on behind the last increment in ``checkpoint``, if there is one.
+    A solve that does not converge leaves its partial curve, first touch at the least, and the reason in the result.
+    Needs one task that holds the mesh. Goes on behind the last increment in ``checkpoint``, if there is one.
     """
     (mesh_folder,) = needs.values()
     mesh = read_mesh(mesh_folder / MESH)
@@ -63,7 +63,7 @@ def solve_orientation(
 
 
 def converged_part(solve: Callable[[], WheelResult]) -> tuple[WheelResult, str | None]:
-    """The result, or what there is of it with the reason why it ends early; raises if there is no curve at all."""
+    """The result, or what there is of it with the reason why it ends early; raises what failed before first touch."""
     try:
         return solve(), None
     except ConvergenceError as error:

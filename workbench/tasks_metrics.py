@@ -20,20 +20,23 @@ __all__ = ["measure"]
 
 
 def measure(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """Compare ANCF, brush and the user's curves with the continuum's: ``result.json``, ``user_{i}.csv``."""
+    """Compare ANCF, brush and the user's curves with the continuum's: ``result.json``, ``user_{i}.csv``.
+
+    Pairs with a continuum curve of which no point converged are left out.
+    """
     fe, ancf = model_curves("fe", needs), model_curves("ancf", needs)
     brush = read_curve(needs["brush"] / CURVE, model="brush")
     pairs = {"ancf_average": (ancf.average, fe.average), "brush": (brush, fe.average)}
     for orientation, curve in ancf.by_orientation.items():
         if orientation in fe.by_orientation:
             pairs[f"ancf_phi{orientation:g}"] = (curve, fe.by_orientation[orientation])
-    numbers: dict[str, Any] = {name: _distance(pair, inputs["max_load"]) for name, pair in pairs.items()}
     for i, user in enumerate(inputs["user_curves"]):
         path = out / f"user_{i}.csv"
         path.write_text(user["text"], encoding="utf-8")
         curve = read_curve(path, model=user["label"], orientation_deg=user["orientation"])
-        numbers[f"user_{i}"] = _distance((_counterpart(fe, user["orientation"]), curve), inputs["max_load"])
-    write_result(out, numbers)
+        pairs[f"user_{i}"] = _counterpart(fe, user["orientation"]), curve
+    known = {name: pair for name, pair in pairs.items() if not any(curve.unloaded for curve in pair)}
+    write_result(out, {name: _distance(pair, inputs["max_load"]) for name, pair in known.items()})
     progress(1.0)
     return 0
 

@@ -37,17 +37,23 @@ class ContactRun:
 
     @property
     def load(self) -> float:
-        """Load at the last point [N]."""
+        """Load at the last point [N]; InputError if no point converged."""
+        self._need_a_point()
         return float(self.curve.load[-1])
 
     def largest(self, column: str) -> float:
-        """Largest value of a column along the curve."""
+        """Largest value of a column along the curve; InputError if no point of it converged."""
+        self._need_a_point()
         return float(self.curve.columns[column].max())
 
     @property
     def iterations(self) -> int:
         """Newton iterations of the whole curve."""
         return int(self.curve.columns["newton_iterations"].sum())
+
+    def _need_a_point(self) -> None:
+        if self.curve.unloaded:
+            raise InputError(f"run {self.name}", "no point", "converged", "see its message")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,7 +72,7 @@ class PenaltyStudy:
         return {run.name: run.load for run in self.runs}
 
     def change(self, run: ContactRun) -> float:
-        """Load over that with the augmented Lagrangian, minus 1 [-]."""
+        """Load over that with the augmented Lagrangian, minus 1 [-]; InputError if one of them has no point."""
         return run.load / self.runs[-1].load - 1.0
 
 

@@ -38,18 +38,22 @@ class OrientationMap:
 
     Attributes
     ----------
-    curves : by orientation [deg], ascending
+    curves : by orientation [deg], ascending; without those of which no point converged
+    missing : orientations of the latter [deg]
     period : turn after which the wheel repeats itself [deg]
     mirrored : whether the wheel is its own mirror image about position 0
     """
 
     curves: Mapping[float, StiffnessCurve]
+    missing: Sequence[float]
     period: float
     mirrored: bool
 
     @property
     def orientations(self) -> NDArray[np.float64]:
-        """(n,) [deg]."""
+        """(n,) [deg]; InputError if there is none."""
+        if not self.curves:
+            raise InputError("orientations", 0, "converged anywhere", "see the runs' messages")
         return np.array(list(self.curves))
 
     @property
@@ -60,7 +64,7 @@ class OrientationMap:
 
     def deflections(self, step: float) -> NDArray[np.float64]:
         """Multiples of ``step`` [m] that every curve reaches, zero left out, (m,) [m]."""
-        end = min(curve.deflection[-1] for curve in self.curves.values())
+        end = min(self.curves[o].deflection[-1] for o in self.orientations)
         return np.asarray(step * np.arange(1, int(np.floor(end / step + 1e-9)) + 1), dtype=np.float64)
 
     def loads(self, deflections: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -100,8 +104,10 @@ def _no_tasks(study: Study) -> Sequence[Task]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> OrientationMap:
-    curves = model_curves("fe", folders).by_orientation
-    return OrientationMap(curves=curves, period=rotational_period(study), mirrored=is_mirrored(study))
+    fe = model_curves("fe", folders)
+    return OrientationMap(
+        curves=fe.loaded, missing=tuple(fe.missing), period=rotational_period(study), mirrored=is_mirrored(study)
+    )
 
 
 def _checks(study: Study, found: Comparison, results: OrientationMap) -> Sequence[Check]:

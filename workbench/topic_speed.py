@@ -6,6 +6,7 @@ own curves from their stored results. Verified by tests/unit/test_workbench_spee
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -98,19 +99,22 @@ class SpeedResults:
         return [*aims, *self.own_aims]
 
     @property
+    def dearest(self) -> float:
+        """Most Newton iterations, scaled to 20 points, of any curve of the solid model; NaN without a curve."""
+        return max((c.iterations_for_20_points for c in self.curves if c.model == "fe"), default=math.nan)
+
+    @property
     def own_aims(self) -> list[Aim]:
         """Aims this report's own curves can answer."""
         solid = [c for c in self.curves if c.model == "fe"]
         planar = [c.solve_s for c in self.curves if c.model == "section"]
-        aims = [
-            Aim(
-                title="Newton iterations for 20 points of a curve, dearest orientation of this report",
-                found=max(c.iterations_for_20_points for c in solid),
-                limit=CURVE_ITERATIONS,
-                unit="",
-                rule="at most",
+        aims = []
+        if solid:
+            title, found = (
+                "Newton iterations for 20 points of a curve, dearest orientation of this report",
+                self.dearest,
             )
-        ]
+            aims.append(Aim(title=title, found=found, limit=CURVE_ITERATIONS, unit="", rule="at most"))
         if planar:
             title = "An orientation of the planar model, slowest of this report"
             aims.append(Aim(title=title, found=max(planar), limit=PLANAR_SECONDS, unit="s", rule="at most"))
@@ -128,7 +132,7 @@ def _ratio(record: BenchmarkRecord, metric: str) -> float:
 
 
 def _costs(model: str, curves: ModelCurves) -> list[CurveCost]:
-    return [_cost(model, orientation, curves) for orientation in curves.by_orientation]
+    return [_cost(model, orientation, curves) for orientation in curves.loaded]
 
 
 def _cost(model: str, orientation: float, curves: ModelCurves) -> CurveCost:
@@ -161,7 +165,7 @@ def _checks(study: Study, found: object, results: SpeedResults) -> Sequence[Chec
         role="finding",
         source="our own aim; the count does not depend on the machine",
     )
-    return [at_most(claim, lambda: results.own_aims[0].found, CURVE_ITERATIONS)]
+    return [at_most(claim, lambda: results.dearest, CURVE_ITERATIONS)]
 
 
 def _no_tasks(study: Study) -> Sequence[Task]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from contracts.records import Check
 from workbench.check_rules import Claim, at_least
 from workbench.results import model_curves
@@ -26,9 +27,13 @@ _LARGEST_WHEEL_LOAD = 250.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StrengthResults:
-    """FE curves by orientation [deg], yield strengths by part [Pa], first yield by orientation and by part."""
+    """FE curves by orientation [deg], yield strengths by part [Pa], first yield by orientation and by part.
+
+    Orientations of which no point converged are ``missing`` [deg] and nowhere else.
+    """
 
     curves: Mapping[float, StiffnessCurve]
+    missing: Sequence[float]
     yield_strength: Mapping[str, float]
     by_orientation: Mapping[float, FirstYield]
     by_part: Mapping[str, tuple[float, FirstYield]]
@@ -39,9 +44,10 @@ def _no_tasks(study: Study) -> Sequence[Task]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
-    curves = model_curves("fe", folders).by_orientation
+    fe = model_curves("fe", folders)
+    curves = fe.loaded
     strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
-    stressed = {part: s for part, s in strength.items() if part in utilisation(next(iter(curves.values())), strength)}
+    stressed = {part: s for part, s in strength.items() if any(utilisation(c, {part: s}) for c in curves.values())}
     by_part = {}
     for part, value in stressed.items():
         found = {o: first_yield(curve, {part: value}) for o, curve in curves.items()}
@@ -49,6 +55,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
         by_part[part] = (weakest, found[weakest])
     return StrengthResults(
         curves=curves,
+        missing=tuple(fe.missing),
         yield_strength=stressed,
         by_orientation={o: first_yield(curve, stressed) for o, curve in curves.items()},
         by_part=by_part,
@@ -64,8 +71,13 @@ def _checks(study: Study, found: object, results: StrengthResults) -> list[Check
         role="finding",
         source="yield strengths of the study's materials; 250 N is the upper wheel load of the thesis' sweep",
     )
-    first = list(results.by_orientation.values())
-    return [at_least(claim, lambda: smallest_yield_load(first, _LARGEST_WHEEL_LOAD), _LARGEST_WHEEL_LOAD)]
+
+    def smallest() -> float:
+        if results.missing:
+            raise InputError("curve", f"{results.missing[0]:g} deg", "is missing", "see its run's message")
+        return smallest_yield_load(list(results.by_orientation.values()), _LARGEST_WHEEL_LOAD)
+
+    return [at_least(claim, smallest, _LARGEST_WHEEL_LOAD)]
 
 
 def _figures(study: Study, results: StrengthResults) -> dict[str, str]:

@@ -127,3 +127,15 @@ def test_average_of_nothing_or_without_a_common_range_is_refused() -> None:
 def test_average_needs_a_step_that_fits(step: float) -> None:
     with pytest.raises(InputError, match="average step"):
         average_curve([LINE], step=step)
+
+
+def test_only_a_partial_curve_may_be_first_contact_alone() -> None:
+    nothing = curve([0.0], [0.0], partial=True)
+    assert nothing.unloaded
+    assert not LINE.unloaded
+    with pytest.raises(InputError, match=r"lies outside the curve \(0..0 mm\)"):
+        nothing.load_at(0.001)
+    with pytest.raises(InputError, match="lies outside the curve"):
+        nothing.deflection_at(1.0)
+    with pytest.raises(InputError, match="needs two or more points"):
+        replace(nothing, partial=False)

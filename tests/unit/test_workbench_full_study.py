@@ -89,7 +89,7 @@ def _map(orientations: tuple[float, ...] = (0.0, 30.0, 60.0, 90.0), damage: floa
     for phi in orientations:
         load = (8000.0 + 500.0 * math.cos(math.radians(3.0 * phi)) + damage * phi) * d
         curves[phi] = StiffnessCurve(model="fe", orientation_deg=phi, deflection=d, load=load)
-    return OrientationMap(curves=curves, period=120.0, mirrored=True)
+    return OrientationMap(curves=curves, missing=(), period=120.0, mirrored=True)
 
 
 def test_mirrored_orientations_are_found_and_held_against_each_other(study: Study) -> None:
