@@ -4,7 +4,8 @@ shape_functions, plate_tables, plate_mesh, plate_model, plate_mass, plate_assemb
 elastic_kernels, tangent_kernels, damping_kernels, thickness_kernels: their compiled loops (compiled: numba).
 bezier, spline_plates: B-spline surfaces become plates without meshing, and plates B-spline surfaces again.
 reference_node, equilibrium: what ties and balances it.
-contact_grid, contact_law, plate_contact: what touches the ground (contact_search, contact_kernels, terrain_kernels).
+contact_layout, contact_grid, contact_law, plate_contact: what touches the ground (loops: contact_search,
+contact_kernels, terrain_kernels).
 vector_coordinates, plate_system, mass_factor, linearisation, spectrum: equations of motion of any network.
 explicit_dynamics, implicit_dynamics (rigid_triads, triad_equations), energy_account: their integration.
 tire_preset, tire_mesh, plane_problem, static_tire, tire_surfaces, wheel_rig: the airless tire, a client of the above.

@@ -1,27 +1,24 @@
-"""Contact points on faces of plates (thesis section 2.4.1, steps 1 and 2): tables for the compiled loops.
-
-The thesis says "100 points"; where they lie is a choice, and part of the model (see `build_contact_grid`).
-"""
+"""Contact points on faces of plates (thesis section 2.4.1, steps 1 and 2): tables for the compiled loops."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ancf_reduced.compiled import LANES
+from ancf_reduced.contact_layout import ContactLayout, regular_points
 from ancf_reduced.plate_mesh import PlateMesh
 from ancf_reduced.plate_tables import in_blocks
 from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape
 from contracts.errors import InputError
 
-__all__ = ["ContactGrid", "ContactLayout", "GridTables", "build_contact_grid", "contact_grid"]
+__all__ = ["ContactGrid", "GridTables", "build_contact_grid", "contact_grid"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-ContactLayout = Literal["edges", "centres"]
 
 
 class GridTables(NamedTuple):
@@ -92,20 +89,12 @@ def build_contact_grid(
     ----------
     mesh : plates; their directors x3 point out of the face that touches the ground
     plates : (n_carriers,) int, plates that carry points
-    counts : points along x1 and x2
-    layout : ``"edges"``: at i/(n-1), so a row shared by two plates counts for both; ``"centres"``: at (i+1/2)/n
+    counts, layout : see `contact_layout.regular_points`
     shape : interpolation, thesis eq. 2.13 by default
 
     Verified by tests/unit/test_ancf_contact_grid.py.
     """
-    if min(counts) < (2 if layout == "edges" else 1):
-        raise InputError("contact points", counts, "needs 2 or more along each edge", "give e.g. 10 x 10")
-    axes = [np.linspace(0.0, 1.0, n) if layout == "edges" else (np.arange(n) + 0.5) / n for n in counts]
-    xi = np.stack(np.meshgrid(*axes, [0.5], indexing="ij"), axis=-1).reshape(-1, 3)
-    shares = [np.full(n, 1.0 / n) for n in counts]
-    if layout == "edges":  # trapezoidal rule
-        shares = [np.array([0.5, *[1.0] * (n - 2), 0.5]) / (n - 1) for n in counts]
-    return contact_grid(mesh, plates, xi, np.outer(*shares).ravel(), shape)
+    return contact_grid(mesh, plates, *regular_points(counts, layout), shape)
 
 
 def contact_grid(

@@ -38,6 +38,18 @@ def _normal(p: FloatArray, nodes: IntArray, slopes: FloatArray, m: Vector, by_su
     return n, dot(n, m) > 0.0
 
 
+@inlined
+def _add_force(f: Vector, nodes: IntArray, functions: FloatArray, force: FloatArray) -> None:
+    """Add a point's force to the mesh's (n_nodes, 4, 3)."""
+    for n in range(4):
+        node = force[nodes[n]]
+        for c in range(4):
+            s = functions[4 * n + c]
+            node[c, 0] += s * f[0]
+            node[c, 1] += s * f[1]
+            node[c, 2] += s * f[2]
+
+
 @compiled
 def contact_force_kernel(
     p: FloatArray,
@@ -84,13 +96,7 @@ def contact_force_kernel(
         damping += (N + law.stiffness * gap) * rate
         friction += law.friction * N * dot(t, tau)
         power += dot(f, velocity)
-        for k in range(4):
-            node = force[nodes[k]]
-            for c in range(4):
-                s = functions[4 * k + c]
-                node[c, 0] += s * f[0]
-                node[c, 1] += s * f[1]
-                node[c, 2] += s * f[2]
+        _add_force(f, nodes, functions, force)
     return count, energy, damping, friction, power
 
 
@@ -126,17 +132,8 @@ def contact_record_kernel(
 
 
 @inlined
-def _set_right(A: FloatArray, functions: FloatArray, right: FloatArray) -> None:
-    """right (3, 48) = A_ij functions_t in column 3 t + j."""
-    for i in range(3):
-        for t in range(16):
-            for j in range(3):
-                right[i, 3 * t + j] = A[i, j] * functions[t]
-
-
-@inlined
 def _add_right(A: FloatArray, functions: FloatArray, right: FloatArray) -> None:
-    """Add A_ij functions_t to right (3, 48)."""
+    """Add A_ij functions_t to right (3, 48), column 3 t + j."""
     for i in range(3):
         for t in range(16):
             for j in range(3):
@@ -159,13 +156,17 @@ def _subtract_batch(left: FloatArray, right: FloatArray, K: FloatArray) -> None:
 
 
 @inlined
-def _by_slopes(A: FloatArray, n: Vector, a: Vector, b: Vector, size: float, both: FloatArray) -> None:
-    """Derivatives (2, 3, 3) of the force by the slopes a, b from that by the normal, A: n = -(a x b) / |a x b|."""
+def _add_slopes(A: FloatArray, a: Vector, b: Vector, slopes: FloatArray, right: FloatArray) -> None:
+    """Add to right (3, 48) what the force changes with the normal n = -(a x b) / |a x b|; A is its derivative by n."""
+    n, size = _inward_normal(a, b)
+    both = np.empty((2, 3, 3))
     for i in range(3):
-        across = A[i, 0] * n[0] + A[i, 1] * n[1] + A[i, 2] * n[2]
-        x, y, z = (A[i, 0] - across * n[0]) / size, (A[i, 1] - across * n[1]) / size, (A[i, 2] - across * n[2]) / size
+        along = A[i, 0] * n[0] + A[i, 1] * n[1] + A[i, 2] * n[2]
+        x, y, z = (A[i, 0] - along * n[0]) / size, (A[i, 1] - along * n[1]) / size, (A[i, 2] - along * n[2]) / size
         both[0, i, 0], both[0, i, 1], both[0, i, 2] = y * b[2] - z * b[1], z * b[0] - x * b[2], x * b[1] - y * b[0]
         both[1, i, 0], both[1, i, 1], both[1, i, 2] = z * a[1] - y * a[2], x * a[2] - z * a[0], y * a[0] - x * a[1]
+    _add_right(both[0], slopes[0], right)
+    _add_right(both[1], slopes[1], right)
 
 
 @inlined
@@ -194,7 +195,7 @@ def contact_tangent_kernel(
     capacity = len(grid.nodes) * grid.interpolation.shape[1] * len(terrain.rows)
     where, touch = np.empty((capacity, 2), dtype=np.int64), np.empty((capacity, TOUCH))
     count = find_touching(p, grid, terrain, True, where, touch)
-    A, both, plate, filled = np.empty((3, 3, 3)), np.empty((2, 3, 3)), -1, 0
+    A, plate, filled = np.empty((3, 3, 3)), -1, 0
     left, by_p, by_v = np.zeros((BATCH, 16)), np.zeros((BATCH, 3, 48)), np.zeros((BATCH, 3, 48))
     by_position[:] = 0.0
     by_rate[:] = 0.0
@@ -210,17 +211,13 @@ def contact_tangent_kernel(
             _subtract_batch(left, by_v, by_rate[plate])
             left[:] = 0.0
             filled = 0
-        plate = grid.plates[j]
-        if not by_surface:
-            _add_curvature(A[2], gap[2], A[0])
-        left[filled] = functions
-        _set_right(A[0], functions, by_p[filled])
-        _set_right(A[1], functions, by_v[filled])
+        plate, left[filled], by_p[filled], by_v[filled] = grid.plates[j], functions, 0.0, 0.0
         if by_surface:
-            a, b = at_point(p, nodes, slopes[0]), at_point(p, nodes, slopes[1])
-            _by_slopes(A[2], n, a, b, _inward_normal(a, b)[1], both)
-            _add_right(both[0], slopes[0], by_p[filled])
-            _add_right(both[1], slopes[1], by_p[filled])
+            _add_slopes(A[2], at_point(p, nodes, slopes[0]), at_point(p, nodes, slopes[1]), slopes, by_p[filled])
+        else:
+            _add_curvature(A[2], gap[2], A[0])
+        _add_right(A[0], functions, by_p[filled])
+        _add_right(A[1], functions, by_v[filled])
         filled += 1
     if filled > 0:
         _subtract_batch(left, by_p, by_position[plate])

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
+from ancf_reduced.contact_layout import ContactLayout
 from contracts.errors import InputError
-
-if TYPE_CHECKING:
-    from ancf_reduced.contact_grid import ContactLayout  # that module loads numba
 
 __all__ = ["TirePreset", "refined_preset", "thesis_preset"]
 

@@ -52,7 +52,7 @@ class Step(_Ridge):
 
     Attributes
     ----------
-    rise : height of the step [m]
+    rise : height of the step [m]; points deeper than this below its top are pressed by the lower ground too
     edge_radius : radius of its edge [m], at most the rise; penetration must stay below it, since deeper points are
         pushed out of the nearer face
     position, yaw : place of the step's face along s [m] and the direction of s [rad]
