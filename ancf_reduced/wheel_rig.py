@@ -20,13 +20,12 @@ from ancf_reduced.plate_assembly import dense_matrix
 from ancf_reduced.plate_contact import PlateContact
 from ancf_reduced.plate_model import PlateModel
 from ancf_reduced.plate_system import ExternalForce, HubMass, PlateSystem, build_plate_system
-from ancf_reduced.tire_mesh import Tire, build_tire
-from ancf_reduced.tire_preset import TirePreset
+from ancf_reduced.tire_mesh import Tire
 from ancf_reduced.vector_coordinates import with_held_vectors, with_reference_node
 from contracts.errors import InputError
 from contracts.terrain import Terrain
 
-__all__ = ["MARS_GRAVITY", "HubDrive", "WheelRig", "build_wheel_rig", "damped_model"]
+__all__ = ["MARS_GRAVITY", "HubDrive", "WheelRig", "damped_model", "wheel_rig"]
 
 FloatArray = NDArray[np.float64]
 
@@ -116,8 +115,8 @@ class WheelRig:
         return self.contact.patch(p, v).resultant
 
 
-def build_wheel_rig(
-    preset: TirePreset,
+def wheel_rig(
+    tire: Tire,
     terrain: Terrain,
     *,
     hub: HubMass,
@@ -126,11 +125,11 @@ def build_wheel_rig(
     gravity: float = MARS_GRAVITY,
     drive: tuple[float, float] | None = None,
 ) -> WheelRig:
-    """A wheel on the ground.
+    """A tire on the ground.
 
     Parameters
     ----------
-    preset : the tire
+    tire : from `build_tire` or `tire_on_mesh`
     terrain : ground at rest
     hub : mass on the axle
     law : contact; the preset's stiffness without damping and friction by default
@@ -140,10 +139,9 @@ def build_wheel_rig(
 
     Verified by tests/verification/test_ancf_wheel_rig.py.
     """
-    tire = build_tire(preset)
     model = damped_model(tire, damping_ratio)
     tire = replace(tire, model=model)
-    law = law or ContactLaw(stiffness=preset.contact_stiffness)
+    law = law or ContactLaw(stiffness=tire.preset.contact_stiffness)
     contact = PlateContact(grid=tire.grid, terrain=terrain.pieces(), law=law)
     external: list[ExternalForce] = [contact]
     if drive is not None:

@@ -33,7 +33,7 @@ from ancf_reduced.spectrum import stable_step  # noqa: E402
 from ancf_reduced.static_tire import solve_tire  # noqa: E402
 from ancf_reduced.tire_mesh import build_tire  # noqa: E402
 from ancf_reduced.tire_preset import thesis_preset  # noqa: E402
-from ancf_reduced.wheel_rig import build_wheel_rig  # noqa: E402
+from ancf_reduced.wheel_rig import wheel_rig  # noqa: E402
 from contracts.height_field import sampled_terrain  # noqa: E402
 from contracts.terrain import Plane, Terrain  # noqa: E402
 from contracts.terrain_ridges import HalfRound, Sinusoid  # noqa: E402
@@ -136,7 +136,7 @@ def motion_rows() -> list[dict[str, object]]:
     preset = replace(thesis_preset(), quadrature=QUADRATURE)
     for ratio in DAMPING_RATIOS:
         hub = HubMass(mass=25.0, inertia=0.1 * np.eye(3))
-        rig = build_wheel_rig(preset, Plane(), hub=hub, damping_ratio=ratio)
+        rig = wheel_rig(build_tire(preset), Plane(), hub=hub, damping_ratio=ratio)
         start = rig.start(np.array([0.0, 0.0, preset.outer_radius - 0.01]), np.zeros(3))
         step, end = stable_step(rig.system, start.z), np.array([seconds])
         spent = shortest(lambda r=rig, s=start, e=end, h=step: list(integrate_explicit(r.system, s, e, h)))  # type: ignore[misc]

@@ -21,8 +21,9 @@ from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
 from ancf_reduced.implicit_dynamics import ImplicitSettings, integrate_implicit
 from ancf_reduced.plate_system import HubMass
 from ancf_reduced.spectrum import stable_step
+from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import TirePreset
-from ancf_reduced.wheel_rig import WheelRig, build_wheel_rig
+from ancf_reduced.wheel_rig import WheelRig, wheel_rig
 from contracts.errors import ConvergenceError
 from contracts.terrain import Plane, TerrainUnion
 from contracts.terrain_ridges import HalfRound
@@ -73,8 +74,8 @@ def _rig(inputs: Mapping[str, Any]) -> WheelRig:
     preset = TirePreset(**values)
     rock = [HalfRound(radius=r, position=x) for r, x in inputs["rocks"]]
     spin = inputs["spin"]
-    return build_wheel_rig(
-        preset,
+    return wheel_rig(
+        build_tire(preset),
         TerrainUnion(parts=(Plane(), *rock)) if rock else Plane(),
         hub=HubMass(mass=inputs["hub_mass"], inertia=inputs["hub_inertia"] * np.eye(3)),
         law=ContactLaw(stiffness=preset.contact_stiffness, **inputs["law"]),

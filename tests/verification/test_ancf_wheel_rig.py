@@ -22,8 +22,9 @@ from ancf_reduced.plate_mass import flexible_mass
 from ancf_reduced.plate_system import HubMass
 from ancf_reduced.spectrum import stable_step
 from ancf_reduced.static_tire import solve_tire
+from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.wheel_rig import MARS_GRAVITY, WheelRig, build_wheel_rig, damped_model
+from ancf_reduced.wheel_rig import MARS_GRAVITY, WheelRig, damped_model, wheel_rig
 from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Plane, TerrainUnion
 from contracts.terrain_ridges import HalfRound
@@ -37,7 +38,7 @@ ROUND = 0.020
 @functools.cache
 def dropped() -> tuple[WheelRig, list[MotionState], EnergyAccount]:
     """10 mm above the ground, let go, 0.3 s."""
-    rig = build_wheel_rig(PRESET, Plane(), hub=HUB, damping_ratio=0.05)
+    rig = wheel_rig(build_tire(PRESET), Plane(), hub=HUB, damping_ratio=0.05)
     start, account = rig.start(np.array([0.0, 0.0, RADIUS + DROP]), np.zeros(3)), EnergyAccount(rig.system)
     account.watch(start)
     times = np.linspace(0.0, 0.3, 61)[1:]
@@ -54,7 +55,7 @@ def ridden(*, rock: bool = True) -> tuple[WheelRig, list[MotionState], EnergyAcc
     half_round = [HalfRound(radius=ROUND, position=0.25)] if rock else []
     law = ContactLaw(stiffness=PRESET.contact_stiffness, damping=2.0, friction=0.6, slip_velocity=0.1)
     ground = TerrainUnion(parts=(Plane(), *half_round))
-    rig = build_wheel_rig(PRESET, ground, hub=HUB, law=law, damping_ratio=0.05, drive=(SPEED / RADIUS, 20.0))
+    rig = wheel_rig(build_tire(PRESET), ground, hub=HUB, law=law, damping_ratio=0.05, drive=(SPEED / RADIUS, 20.0))
     start = rig.start(np.array([0.0, 0.0, RADIUS - 0.011]), np.array([SPEED, 0.0, 0.0]), SPEED / RADIUS)
     account = EnergyAccount(rig.system)
     account.watch(start)
@@ -117,7 +118,7 @@ def test_ride_climbs_the_half_round() -> None:
 
 
 def test_a_wheel_at_rest_carries_its_weight_at_the_static_deflection() -> None:
-    rig = build_wheel_rig(PRESET, Plane(), hub=HUB, damping_ratio=0.6)
+    rig = wheel_rig(build_tire(PRESET), Plane(), hub=HUB, damping_ratio=0.6)
     weight = (HUB.mass + flexible_mass(rig.tire.model)) * MARS_GRAVITY
     start = rig.start(np.array([0.0, 0.0, RADIUS - 0.012]), np.zeros(3))
     (end,) = integrate_implicit(

@@ -1,0 +1,34 @@
+"""The tutorials' code blocks run, one after the other, and print what their text says."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def run_blocks(name: str, capsys: pytest.CaptureFixture[str]) -> str:
+    """What the blocks of a tutorial print, run in order in the present folder."""
+    text, names = (DOCS / name).read_text(encoding="utf-8"), dict[str, object]()
+    for block in re.findall(r"```python\n(.*?)```", text, flags=re.S):
+        exec(compile(block, name, "exec"), names)
+    return capsys.readouterr().out
+
+
+def test_every_tutorial_is_run_here() -> None:
+    assert sorted(path.name for path in DOCS.glob("tutorial_*.md")) == ["tutorial_ancf_tire.md"]
+
+
+def test_ancf_tire(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """It carries load, lands on the rock with its energy accounted for, and its surfaces are written."""
+    monkeypatch.chdir(tmp_path)
+    printed = run_blocks("tutorial_ancf_tire.md", capsys)
+    print(printed)
+    loads = [float(value) for value in re.findall(r"([\d.]+) N at 20 mm", printed)]
+    assert len(loads) == 2
+    assert min(loads) > 20.0
+    assert float(re.findall(r"open by ([\d.]+) %", printed)[0]) < 1.0
+    assert (tmp_path / "leaning_tire_20mm.step").stat().st_size > 1000
