@@ -18,6 +18,7 @@ from reference_fe import contact_kernels as kernels
 from reference_fe import dolfinx_api as api
 from reference_fe.contact_facets import ContactFacets, gauss_line, local_stiffness, simpson_line
 from reference_fe.domain import Domain
+from reference_fe.friction_energy import sliding_dissipation, slip_energy
 from reference_fe.obstacles import Obstacle, Plane, smallest_gap
 from reference_fe.surface_term import SurfaceForces, TermState
 
@@ -117,10 +118,7 @@ class ObstacleContact:
         return np.asarray(smallest_gap(self.obstacle.pieces(), moved @ s, moved @ n + self.distance_at_touch))
 
     def build(self, domain: Domain, V: api.Expr, young_modulus: NDArray[np.float64] | None = None) -> ObstacleTerm:
-        """The term on a mesh and its displacement space.
-
-        young_modulus : of every own cell [Pa], 0 where rigid; needed where the stiffness is None
-        """
+        """The term on a mesh; without a stiffness it needs every own cell's Young modulus [Pa], 0 where rigid."""
         return ObstacleTerm(self, domain, V, young_modulus)
 
 
@@ -158,7 +156,7 @@ class ObstacleTerm:
         self._traction = np.zeros_like(self._out.traction)
         self._multiplier = np.zeros_like(self._out.pressure)
         self._accepted_multiplier = np.zeros_like(self._out.pressure)
-        self._resultant, self._moment = np.zeros(dim), np.zeros(3)
+        self._dissipated = np.zeros(1)
 
     def couplings(self) -> NDArray[np.int64]:
         """Nodes of each facet."""
@@ -181,7 +179,8 @@ class ObstacleTerm:
         self._last_x = x
         control = self._control - lag
         slip = x - control * self._rise - self._place
-        kernels.point_forces(x, slip, self._surface(control), self._history(), out)
+        history = kernels.ContactHistory(multiplier=self._multiplier, traction=self._traction, place=self._place)
+        kernels.point_forces(x, slip, self._surface(control), history, out)
         if lag:
             out.force[...] += lag * out.stiffness @ self._rise
         active = np.flatnonzero(out.stiffness.any(axis=(1, 2, 3)) | out.force.any(axis=(1, 2)))
@@ -202,6 +201,11 @@ class ObstacleTerm:
         arm = np.atleast_1d(moment_of(self._last_x, self._out.force))
         local = np.einsum("mq,mq...->...", self._facets.weights, arm)
         return np.atleast_1d(np.array(self._comm.allreduce(local)))
+
+    def friction_energy(self) -> tuple[float, float]:
+        """Energy dissipated by sliding up to the last accepted state, and that stored by elastic slip there [J]."""
+        stored = slip_energy(self._facets.weights, self._traction, self._stick)
+        return self._comm.allreduce(float(self._dissipated[0])), self._comm.allreduce(stored)
 
     def penetration(self) -> float:
         """Largest depth of a quadrature point in the obstacle at the last evaluation [m], >= 0."""
@@ -230,19 +234,23 @@ class ObstacleTerm:
         return True
 
     def accept(self) -> None:
-        """Commit multipliers, and traction and place for friction."""
+        """Commit multipliers, and traction, place and dissipation for friction."""
         self._accepted_multiplier[...] = self._multiplier
         self._soften()
-        self._traction[...] = self._out.traction
-        self._place[...] = self._last_x - self._control * self._rise
+        place = self._last_x - self._control * self._rise
+        if not self.symmetric:
+            tractions, slip = (self._traction, self._out.traction), place - self._place
+            self._dissipated += sliding_dissipation(self._facets.weights, tractions, slip, self._stick)
+        self._traction[...], self._place[...] = self._out.traction, place
 
     def state(self) -> TermState:
-        """Committed multipliers [Pa], traction [Pa] and places [m], as far as the method needs them."""
+        """Committed multipliers [Pa], traction [Pa], places [m], dissipation [J], where the method needs them."""
         kept = {}
         if self.description.closes_gaps:
             kept["multiplier"] = self._accepted_multiplier.copy()
         if self.description.friction > 0.0:
-            kept |= {"traction": self._traction.copy(), "place": self._place.copy()}
+            friction = {"traction": self._traction, "place": self._place, "dissipated": self._dissipated}
+            kept |= {name: values.copy() for name, values in friction.items()}
         return kept
 
     def restore(self, state: TermState) -> None:
@@ -253,6 +261,7 @@ class ObstacleTerm:
             self._soften()
         if "traction" in state:
             self._traction[...], self._place[...] = state["traction"], state["place"]
+            self._dissipated[...] = state["dissipated"]
 
     def _soften(self) -> None:
         """Begin the next increment with the penalty stiffness as given: a soft contact finds its set sooner."""
@@ -268,9 +277,6 @@ class ObstacleTerm:
         local = local_stiffness(facets, young_modulus[facets.cells])
         largest = float(self._comm.allreduce(float(local.max(initial=0.0)), op=api.MPI.MAX))
         return np.where(local > 0.0, local, largest)
-
-    def _history(self) -> kernels.ContactHistory:
-        return kernels.ContactHistory(multiplier=self._multiplier, traction=self._traction, place=self._place)
 
     def _surface(self, control: float) -> kernels.Surface:
         contact = self.description

@@ -61,8 +61,9 @@ def solve_wheel(
         moment about the hub's centre, over contact force times the distance of hub and plane at first touch),
         ``relative_residual``, ``newton_iterations``, ``spring_rim_gap_m`` (smallest distance of the springs from the
         rim's inside; negative is overlap: the contact's penetration, or more without inner contact),
-        ``stored_energy_J`` (elastic energy), ``inner_penetration_m`` (largest at any point of inner contact) and
-        ``max_von_mises_{part}_Pa``
+        ``stored_energy_J`` (elastic energy of the body), ``slip_energy_J`` (stored by elastic slip on a rough
+        obstacle), ``friction_dissipation_J`` (by sliding, so far), ``inner_penetration_m`` (largest at any point of
+        inner contact) and ``max_von_mises_{part}_Pa``
 
     Raises
     ------
@@ -106,7 +107,7 @@ class _WheelRun:
         self.overlap = FaceOverlap(self.mesh, springs, "tire_inner") if followed else None
         self.history: list[IncrementRecord] = []
         self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
-        self.rows[0]["stored_energy_J"] = self.wheel.sides * self.energy.value()
+        self.rows[0] |= self._energies()
         self.snapshots: list[FieldSnapshot] = []
 
     @property
@@ -139,10 +140,16 @@ class _WheelRun:
         if self.overlap is not None:
             row["spring_rim_gap_m"] = self.overlap.smallest_gap(displacement)
         row["inner_penetration_m"] = max((t.largest_penetration for t in self._inner_terms), default=0.0)
-        row["stored_energy_J"] = self.wheel.sides * self.energy.value()
+        row |= self._energies()
         row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
         self.rows.append(row)
         return load
+
+    def _energies(self) -> dict[str, float]:
+        """Energies of the full wheel at the last accepted state [J]."""
+        dissipated, slip = self._obstacle_term.friction_energy()
+        energies = {"stored_energy_J": self.energy.value(), "slip_energy_J": slip, "friction_dissipation_J": dissipated}
+        return {name: self.wheel.sides * value for name, value in energies.items()}
 
     def result(self, *, partial: bool) -> WheelResult:
         """Everything recorded so far."""

@@ -1,4 +1,4 @@
-"""Check that the work of the ground is found again as elastic energy.
+"""Check that the work of the ground is found again as elastic energy and as heat of friction.
 
 Verified by tests/unit/test_workbench_energy.py and tests/verification/test_fe_energy.py.
 """
@@ -18,18 +18,21 @@ from workbench.check_rules import Claim, at_most
 __all__ = ["energy_check", "energy_error", "quadrature_error"]
 
 ENERGY = "stored_energy_J"
+FRICTION = ("slip_energy_J", "friction_dissipation_J")
+"""Stored by elastic slip, dissipated by sliding; both are zero without friction."""
 
 
 def energy_error(curve: StiffnessCurve) -> float:
-    """|work - change of stored energy| / work at the curve's end [-].
+    """|work - change of stored energy - dissipation| / work at the curve's end [-].
 
-    The work of the rising ground is the integral of load over deflection, by the trapezoid rule over the points.
-    What the springs of the contact penalty store, at most half the load times the penetration, is not counted.
+    The work of the rising ground is the integral of load over deflection, by the trapezoid rule over the points; so is
+    what friction dissipates, see `reference_fe.friction_energy`. Elastic slip stores energy as the body does. What the
+    springs of the contact penalty store, at most half the load times the penetration, is not counted.
     """
     if ENERGY not in curve.columns:
         raise InputError("curve", curve.source, f"has no column {ENERGY}", "compute it again")
     work = float(np.trapezoid(curve.load, curve.deflection))
-    energy = curve.columns[ENERGY]
+    energy = np.sum([curve.columns[name] for name in (ENERGY, *FRICTION) if name in curve.columns], axis=0)
     return abs(work - float(energy[-1] - energy[0])) / work
 
 
@@ -46,12 +49,13 @@ def energy_check(curves: Sequence[StiffnessCurve], limit: float) -> Check:
     """The largest difference of work and energy of any curve; the rule's own error is named in the title."""
     loaded = [curve for curve in curves if not curve.unloaded]
     estimate = max((quadrature_error(curve) for curve in loaded), default=0.0)
+    title = "FE: work of the ground against stored and dissipated energy"
     claim = Claim(
         id="fe.energy",
-        title=f"FE: work of the ground against stored energy (the trapezoid rule errs by {100.0 * estimate:.2g} %)",
+        title=f"{title} (the trapezoid rule errs by {100.0 * estimate:.2g} %)",
         quantity="difference",
         unit="-",
         role="gate",
-        source="conservation of energy: elastic, frictionless",
+        source="conservation of energy: elastic wheel, friction on the ground",
     )
     return at_most(claim, lambda: max((energy_error(curve) for curve in loaded), default=math.nan), limit)

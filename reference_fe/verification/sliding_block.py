@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError
 from contracts.materials import Material
-from reference_fe.contact_obstacle import ObstacleContact
+from reference_fe.contact_obstacle import ObstacleContact, ObstacleTerm
 from reference_fe.domain import Domain
 from reference_fe.newton import NewtonSettings, NewtonSolver
 from reference_fe.static_problem import StaticProblem
@@ -37,6 +37,7 @@ class DraggedBlock:
     ----------
     drag : (n,) float, of the block's top [m]
     tangential, sideways, normal : (n,) float, force on the foot against the drag, across it, and off the plane [N]
+    dissipated, slip_energy : (n,) float, energy that sliding took so far, and that elastic slip holds [J]
     iterations : (n,) int, linear solves
     """
 
@@ -44,6 +45,8 @@ class DraggedBlock:
     tangential: NDArray[np.float64]
     sideways: NDArray[np.float64]
     normal: NDArray[np.float64]
+    dissipated: NDArray[np.float64]
+    slip_energy: NDArray[np.float64]
     iterations: NDArray[np.int64]
 
 
@@ -60,8 +63,9 @@ def dragged_block(friction: float = FRICTION, direction_deg: float = 0.0) -> Dra
         [Support(faces=("z1",), value=value)],
         contact=contact,
     )
-    solver, forces, iterations = NewtonSolver(problem, NewtonSettings()), [], []
+    solver, forces, energies, iterations = NewtonSolver(problem, NewtonSettings()), [], [], []
     (term,) = problem.surfaces.terms
+    assert isinstance(term, ObstacleTerm)
     for factor in _FACTORS:
         problem.set_control(factor)
         term.set_control(SINK)  # the plane stands still while the block is dragged
@@ -70,12 +74,15 @@ def dragged_block(friction: float = FRICTION, direction_deg: float = 0.0) -> Dra
             raise ConvergenceError(f"the block dragged by {factor * DRAG:g} m does not converge", [])
         problem.surfaces.accept()
         forces.append(problem.contact_force())
+        energies.append(term.friction_energy())
         iterations.append(outcome.iterations)
-    force = np.array(forces)
+    force, (dissipated, slip_energy) = np.array(forces), np.array(energies).T
     return DraggedBlock(
         drag=DRAG * np.array(_FACTORS),
         tangential=-force[:, :2] @ direction,
         sideways=force[:, 0] * direction[1] - force[:, 1] * direction[0],
         normal=force[:, 2],
+        dissipated=dissipated,
+        slip_energy=slip_energy,
         iterations=np.array(iterations),
     )

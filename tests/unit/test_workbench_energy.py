@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -35,3 +37,15 @@ def test_lost_energy_fails() -> None:
     assert energy_check([_curve(), _curve(energy=0.98)], 0.01).status == "fail"
     bare = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=np.array([0.0, 1e-3]), load=np.array([0.0, 8.0]))
     assert energy_check([bare], 0.01).status == "error"
+
+
+def test_what_friction_takes_is_part_of_the_account() -> None:
+    """A curve whose stored energy lacks 2 % passes if sliding and slip have them, and fails without either."""
+    curve = _curve(energy=0.98)
+    lacking = _curve().columns["stored_energy_J"] - curve.columns["stored_energy_J"]
+    friction = {"friction_dissipation_J": 0.75 * lacking, "slip_energy_J": 0.25 * lacking}
+    whole = replace(curve, columns={**curve.columns, **friction})
+    assert energy_error(whole) == pytest.approx(energy_error(_curve()))
+    for name in friction:
+        without = {key: values for key, values in whole.columns.items() if key != name}
+        assert energy_error(replace(whole, columns=without)) > 0.004
