@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,9 +11,9 @@ from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
 from reference_fe.dolfinx_api import fem, ufl
 from reference_fe.domain import Domain
-from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Traction
+from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Load, Traction
 
-__all__ = ["edge_load_vector", "virtual_work"]
+__all__ = ["edge_force", "edge_load_vector", "virtual_work"]
 
 
 def virtual_work(domain: Domain, load: BodyForce | EndMoment | Traction, u: api.Expr, v: api.Expr) -> api.Expr:
@@ -39,6 +41,15 @@ def virtual_work(domain: Domain, load: BodyForce | EndMoment | Traction, u: api.
     across = ufl.dot(d, d) - ufl.dot(a, d) ** 2
     turn = ufl.dot(a, ufl.cross(d, ufl.dot(ufl.grad(v), D))) / across
     return fem.Constant(mesh, load.magnitude) * turn * ds(metadata={"quadrature_degree": 6})
+
+
+def edge_force(domain: Domain, V: api.Expr, loads: Sequence[Load]) -> NDArray[np.float64]:
+    """Nodal forces of the line loads among ``loads`` at load factor 1, (n_own_dofs,) [N]; zero without any."""
+    total = np.zeros(V.dofmap.index_map.size_local * V.dofmap.index_map_bs)
+    for load in loads:
+        if isinstance(load, EdgeLoad):
+            total += edge_load_vector(domain, V, load)
+    return total
 
 
 def edge_load_vector(domain: Domain, V: api.Expr, load: EdgeLoad) -> NDArray[np.float64]:

@@ -22,16 +22,16 @@ from reference_fe import dolfinx_api as api
 from reference_fe import hyperelastic as law_of
 from reference_fe.compiled_cells import CompiledCells
 from reference_fe.contact_obstacle import ObstacleContact, ObstacleTerm
-from reference_fe.contact_patch import contact_faces, facet_samples
+from reference_fe.contact_touch import check_touch
 from reference_fe.discretisation import Discretisation, ElementFamily
 from reference_fe.dolfinx_api import fem, fem_petsc, ufl
 from reference_fe.domain import Domain
 from reference_fe.elastic_fields import cell_moduli, elastic_fields
 from reference_fe.form_cells import FormCells
 from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.loads import edge_load_vector, virtual_work
+from reference_fe.loads import edge_force, virtual_work
 from reference_fe.support_dofs import build_supports
-from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Support, Traction
+from reference_fe.supports import EdgeLoad, EndMoment, Load, Support
 from reference_fe.surface_assembly import SurfaceAssembly
 from reference_fe.surface_term import SurfaceDescription, TermState
 
@@ -59,7 +59,7 @@ class StaticProblem:
     ----------
     domain : mesh with tags
     materials : part name -> material, for every part that deforms; parts left out are rigid and must be supported
-    supports, tractions, loads : boundary conditions
+    supports, loads : boundary conditions
     contact : an obstacle that just touches the undeformed body at control parameter 0
     surfaces : further contacts, see `surface_term`
     discretisation : law, degree, quadrature
@@ -81,8 +81,7 @@ class StaticProblem:
         materials: Mapping[str, Material],
         supports: Sequence[Support],
         *,
-        tractions: Sequence[Traction] = (),
-        loads: Sequence[BodyForce | EdgeLoad | EndMoment] = (),
+        loads: Sequence[Load] = (),
         contact: ObstacleContact | None = None,
         surfaces: Sequence[SurfaceDescription] = (),
         discretisation: Discretisation | None = None,
@@ -99,9 +98,8 @@ class StaticProblem:
         self.lame, self.stretch, self.transverse_strain = fields.lame, fields.stretch, fields.transverse
         self._flexible_cells = domain.cells_of(materials)
         self.load_factor = fem.Constant(mesh, 0.0)
-        self._build_forms([*tractions, *(load for load in loads if not isinstance(load, EdgeLoad))])
-        edge_loads = [edge_load_vector(domain, self.V, load) for load in loads if isinstance(load, EdgeLoad)]
-        self._edge_force = np.sum(edge_loads, axis=0) if edge_loads else np.zeros(self.own_dofs)
+        self._build_forms(loads)
+        self._edge_force = edge_force(domain, self.V, loads)
         self.bcs, self._prescribed = build_supports(domain, self.V, supports)
         marked = [bc.dof_indices()[0] for bc in self.bcs]
         self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
@@ -126,7 +124,7 @@ class StaticProblem:
         return self.supported[self.supported < self.own_dofs]
 
     def set_control(self, control: float) -> None:
-        """Set the control parameter: load factor of supports and tractions [-], or rise of the plane [m]."""
+        """Set the control parameter: load factor of supports and loads [-], or rise of the plane [m]."""
         self.load_factor.value = control
         for prescribed in self._prescribed:
             prescribed.set_control(control)
@@ -246,7 +244,7 @@ class StaticProblem:
                 raise InputError(f"part {part}", "no material", "every part needs a material or a support", "add one")
         self.domain.part_tags(self.materials)
 
-    def _build_forms(self, loads: Sequence[BodyForce | EndMoment | Traction]) -> None:
+    def _build_forms(self, loads: Sequence[Load]) -> None:
         domain, choice, u = self.domain, self.discretisation, self.u
         v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
         residual, tangent = None, None
@@ -260,6 +258,8 @@ class StaticProblem:
             self._forms = FormCells(domain, tuple(self.materials), (u, self.du), self.lame, choice, self.stretch)
             residual, tangent = self._forms.residual, self._forms.tangent
         for load in loads:
+            if isinstance(load, EdgeLoad):
+                continue  # see `loads.edge_force`
             work = self.load_factor * virtual_work(domain, load, u, v)
             residual = _sum(residual, -work)
             if isinstance(load, EndMoment):
@@ -273,7 +273,7 @@ class StaticProblem:
         """The obstacle's surface term, with the stiffness of the cells known to it; refused unless it just touches."""
         if self.contact is None:
             return []
-        _check_touch(self.domain, self.contact, self.materials)
+        check_touch(self.domain, self.contact, self.materials)
         lam, mu = (field.x.array for field in self.lame)
         young_modulus = np.divide(mu * (3.0 * lam + 2.0 * mu), lam + mu, out=np.zeros_like(mu), where=mu > 0.0)
         return [self.contact.build(self.domain, self.V, young_modulus)]
@@ -282,19 +282,3 @@ class StaticProblem:
 def _sum(form: api.Expr, term: api.Expr) -> api.Expr:
     """A form plus a term, where the form may not exist yet."""
     return term if form is None else form + term
-
-
-def _check_touch(domain: Domain, contact: ObstacleContact, materials: Mapping[str, Material]) -> None:
-    """Refuse an obstacle that does not just touch the body at 20 C, to a thousandth of its distance and expansion."""
-    domain.face_tags(contact.faces)
-    points, _ = facet_samples(domain.tagged.points, contact_faces(domain.tagged, contact.faces))
-    gap = float(contact.gap(points, 0.0).min())
-    reach = contact.distance_at_touch - gap
-    allowed = 1e-3 + 2.0 * max(abs(material.thermal_strain) for material in materials.values())
-    if abs(gap) > allowed * max(abs(reach), abs(contact.distance_at_touch)):
-        raise InputError(
-            "contact plane at the start",
-            f"{abs(gap) * 1e3:.4g} mm {'off' if gap > 0 else 'inside'} the undeformed body",
-            "must just touch it, with its normal pointing to the body",
-            "flip the normal, or take distance_at_touch from contact_patch.distance_at_touch",
-        )

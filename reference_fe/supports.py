@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from contracts.errors import InputError
 from reference_fe.dolfinx_api import Expr
 
-__all__ = ["BodyForce", "EdgeLoad", "EndMoment", "Support", "Traction"]
+__all__ = ["BodyForce", "EdgeLoad", "EndMoment", "Load", "Support", "Traction"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,3 +126,7 @@ class EndMoment:
                 raise InputError(f"end moment {what}", vector, "must have length 1", "normalise it")
         if abs(sum(a * d for a, d in zip(self.axis, self.director, strict=True))) > 1e-9:
             raise InputError("end moment director", self.director, "must be at right angles to the axis", "turn it")
+
+
+type Load = BodyForce | EdgeLoad | EndMoment | Traction
+"""What a static problem takes as a load; all grow with the load factor."""

@@ -17,7 +17,7 @@ from contracts.materials import Material
 from contracts.published import published_table
 from reference_fe.domain import Domain
 from reference_fe.static_problem import Discretisation, StaticProblem
-from reference_fe.supports import EndMoment, Support, Traction
+from reference_fe.supports import EndMoment, Load, Support, Traction
 from reference_fe.verification.load_path import LoadPath, load_path
 from reference_fe.verification.structured_hexahedra import block_mesh
 
@@ -31,7 +31,7 @@ WIDTH, THICKNESS = 1.0, 0.1
 AREA = WIDTH * THICKNESS
 LENGTH: dict[EndLoad, float] = {"shear": 10.0, "moment": 12.0}
 """Load -> length of the strip."""
-_LOADS: dict[EndLoad, Traction | EndMoment] = {
+_LOADS: dict[EndLoad, Load] = {
     "shear": Traction(faces=("x1",), vector=(0.0, 0.0, 4.0 / AREA)),
     "moment": EndMoment(
         faces=("x1",), magnitude=50.0 * np.pi / 3.0 / AREA, axis=(0.0, -1.0, 0.0), director=(0.0, 0.0, 1.0)
@@ -82,7 +82,6 @@ def _cantilever(load: EndLoad, cells: int, discretisation: Discretisation | None
         Domain.from_tagged(block_mesh((cells, 1, 1), mapping)),
         {"body": STRIP},
         [Support(faces=("x0",))],
-        tractions=[applied] if isinstance(applied, Traction) else [],
-        loads=[applied] if isinstance(applied, EndMoment) else [],
+        loads=[applied],
         discretisation=discretisation,
     )

@@ -80,7 +80,7 @@ def uniaxial_tension(law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF, order: 
         Domain.from_tagged(distorted_cube(order)),
         {"body": STEEL},
         [Support(faces=(face,), components=(axis,)) for axis, face in enumerate(("x0", "y0", "z0"))],
-        tractions=[Traction(faces=("x1",), vector=(traction, 0.0, 0.0))],
+        loads=[Traction(faces=("x1",), vector=(traction, 0.0, 0.0))],
         discretisation=Discretisation(law=law, degree=order),
     )
     iterations = _solved(problem, NewtonSettings(relative_tolerance=1e-12))

@@ -11,7 +11,7 @@ from contracts.materials import Material
 from reference_fe.dolfinx_api import ufl
 from reference_fe.domain import Domain
 from reference_fe.static_problem import Discretisation, ElementFamily, StaticProblem
-from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Support, Traction
+from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Load, Support, Traction
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 SOFT = Material(name="soft", young_modulus=1e6, poisson_ratio=0.3, density=1.0, yield_strength=1e9, source="none")
@@ -26,16 +26,14 @@ def arc(X: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def quarter_ring(
-    loads: list[BodyForce | EdgeLoad | EndMoment],
+    loads: list[Load],
     family: ElementFamily = ElementFamily.LAGRANGE,
     supports: tuple[Support, ...] = (),
-    tractions: tuple[Traction, ...] = (),
 ) -> StaticProblem:
     problem = StaticProblem(
         Domain.from_tagged(block_mesh((8, 1, 1), arc)),
         {"body": SOFT},
         supports,
-        tractions=tractions,
         loads=loads,
         discretisation=Discretisation(family=family, mixed_integration_points=False),
     )
@@ -78,7 +76,7 @@ def test_faces_that_do_not_meet_carry_no_line_load() -> None:
 def test_a_body_force_sums_to_volume_and_a_traction_to_area(family: ElementFamily) -> None:
     weight = BodyForce(parts=("body",), field=lambda X: ufl.as_vector((0.0, 0.0, -7.0)))
     shear = Traction(faces=("x1",), vector=(0.0, 11.0, 0.0))
-    total = load_vector(quarter_ring([weight], family, tractions=(shear,))).reshape(-1, 3).sum(axis=0)
+    total = load_vector(quarter_ring([weight, shear], family)).reshape(-1, 3).sum(axis=0)
     volume = 0.5 * np.pi * RADIUS * WIDTH * THICKNESS
     np.testing.assert_allclose(total, [0.0, 11.0 * WIDTH * THICKNESS, -7.0 * volume], rtol=1e-5, atol=1e-9)
 

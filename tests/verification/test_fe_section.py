@@ -126,7 +126,7 @@ def test_uniaxial_tension_of_a_planar_block(constraint: float, factor: float) ->
         Domain.from_tagged(mesh),
         {"body": material},
         [Support(faces=("x0",), components=(0,)), Support(meetings=(("x0", "z0"),), components=(1,))],
-        tractions=[Traction(faces=("x1",), vector=(force, 0.0))],
+        loads=[Traction(faces=("x1",), vector=(force, 0.0))],
         transverse_constraint={"body": constraint},
     )
     problem.set_control(1.0)

@@ -52,7 +52,7 @@ def pressed_bars(gauss_points: int) -> tuple[StaticProblem, ConvergedState]:
         Domain.from_tagged(stacked(low, high, "lid")),
         {"body": SOFT, "lid": SOFT},
         [Support(faces=("z0",), components=(2,)), *sliding],
-        tractions=[Traction(faces=("lid_z1",), vector=(0.0, 0.0, -PRESSURE))],
+        loads=[Traction(faces=("lid_z1",), vector=(0.0, 0.0, -PRESSURE))],
         surfaces=[law],
     )
     start = problem.u.x.array.reshape(-1, 3)
@@ -104,7 +104,7 @@ def end_deflection(contact_lengths: tuple[float, ...], *, touching: bool = True)
         Domain.from_tagged(mesh),
         {"strip": STRIP},
         [Support(parts=("body",)), Support(faces=("strip_x0",))],
-        tractions=[Traction(faces=("strip_x1",), vector=(0.0, 0.0, -1.0 / THICKNESS))],
+        loads=[Traction(faces=("strip_x1",), vector=(0.0, 0.0, -1.0 / THICKNESS))],
         surfaces=[law] if touching else [],
     )
     end = (np.abs(mesh.points - [LENGTH, 0.0, 0.5 * THICKNESS]) < 1e-9).all(axis=1)
