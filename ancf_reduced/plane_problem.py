@@ -45,9 +45,9 @@ class PlaneProblem:
         return self.tire.tie.expand(x.reshape(-1, 4, 3), self.hub)
 
     def contact(self, deflection: float) -> PlateContact:
-        """The tire's contact points on the plane at R - deflection from the hub, without friction and damping."""
+        """Contact points on the plane at the zero radius - deflection from the hub, without friction and damping."""
         x, y, z = (-self.direction).tolist()
-        plane = Plane(normal=(x, y, z), offset=deflection - self.tire.preset.outer_radius)
+        plane = Plane(normal=(x, y, z), offset=deflection - self.tire.preset.zero_radius)
         law = ContactLaw(stiffness=self.tire.preset.contact_stiffness)
         return PlateContact(grid=self.tire.grid, terrain=plane.pieces(), law=law)
 

@@ -21,7 +21,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.frames import ground_direction_h
 
-__all__ = ["TireEquilibria", "solve_tire", "stiffness_curve"]
+__all__ = ["TireEquilibria", "solve_near", "solve_tire", "stiffness_curve"]
 
 FloatArray = NDArray[np.float64]
 
@@ -147,9 +147,27 @@ def solve_tire(
     return _collect(problem, phi, points, history)
 
 
+def solve_near(tire: Tire, near: TireEquilibria, controls: NewtonControls | None = None) -> TireEquilibria:
+    """Equilibria of a tire from those of one with the same mesh that differs little: no path, one Newton solve each.
+
+    Where one of them does not arrive, the whole path is followed instead (`solve_tire`, which see for what is raised).
+
+    Verified by tests/unit/test_ancf_static_tire.py.
+    """
+    controls = controls or NewtonControls()
+    problem = PlaneProblem(tire=tire, direction=ground_direction_h(near.phi))
+    points = list[PathPoint]()
+    for deflection, p in zip(near.deflection.tolist(), near.coordinates, strict=True):
+        result = problem.solve(deflection, p[tire.tie.free].ravel(), controls)
+        if not result.converged:
+            return solve_tire(tire, near.phi, near.deflection, controls)
+        points.append(PathPoint(target=deflection, x=result.x, iterations=result.iterations))
+    return _collect(problem, near.phi, points, ())
+
+
 def _check(preset: TirePreset, phi: float, targets: FloatArray) -> None:
     """Raise InputError for deflections or an orientation that cannot be solved."""
-    limit = preset.outer_radius - preset.hub_radius
+    limit = preset.zero_radius - preset.hub_radius
     if not np.isfinite(phi):
         raise InputError("orientation", f"{phi} rad", "must be finite", "give an angle such as 0.785 rad")
     if targets.ndim != 1 or not len(targets) or not np.all(np.isfinite(targets)):

@@ -105,7 +105,7 @@ def build_tire(
     shape: PlateShape = THESIS_SHAPE,
     tangent_length: Callable[[float], float] = arc_tangent_length,
 ) -> Tire:
-    """Build a tire in the wheel frame (x forward, y along the axle, z up), spokes at phi = 0, 360/n, ... deg.
+    """Build a tire in the wheel frame (x forward, y along the axle, z up), spokes at its phase + 0, 360/n, ... deg.
 
     Parameters
     ----------
@@ -115,9 +115,10 @@ def build_tire(
     Verified by tests/verification/test_ancf_tire_table.py.
     """
     angle = 2.0 * np.pi / preset.circumferential_plates
-    rim = [rim_patch(preset, i * angle, angle, tangent_length) for i in range(preset.circumferential_plates)]
+    starts = preset.phase + angle * np.arange(preset.circumferential_plates)
+    rim = [rim_patch(preset, float(start), angle, tangent_length) for start in starts]
     spokes = [
-        spoke_patch(preset, 2.0 * np.pi * i / preset.spokes, part)
+        spoke_patch(preset, preset.phase + 2.0 * np.pi * i / preset.spokes, part)
         for i in range(preset.spokes)
         for part in range(preset.plates_per_spoke)
     ]

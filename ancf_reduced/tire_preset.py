@@ -18,11 +18,13 @@ class TirePreset:
     Attributes
     ----------
     outer_radius : R, nominal radius of the outer face [m]; the rim's mid-surface has R - rim_thickness/2
+    datum_radius : distance of the hub from the ground at zero deflection [m]; R if None. A fitted R may differ from it
     hub_radius : where the spokes begin [m]; they end at the rim's mid-surface
     width : axial width [m]
     rim_thickness, spoke_thickness : t [m]
     circumferential_plates : plates around the rim, a multiple of ``spokes``
-    spokes : radial spokes; the first stands at phi = 0
+    spokes : radial spokes, evenly spaced
+    phase : where the first spoke stands [rad]; rim nodes turn with it
     plates_per_spoke : plates along each spoke; one in the thesis, which locks in bending (see `refined_preset`)
     young_modulus : E [Pa]
     poisson_ratio : nu [-]
@@ -41,12 +43,14 @@ class TirePreset:
     """
 
     outer_radius: float
+    datum_radius: float | None = None
     hub_radius: float
     width: float
     rim_thickness: float
     spoke_thickness: float
     circumferential_plates: int
     spokes: int
+    phase: float = 0.0
     plates_per_spoke: int = 1
     young_modulus: float
     poisson_ratio: float
@@ -63,6 +67,9 @@ class TirePreset:
                 raise InputError(
                     name.replace("_", " "), f"{value:g} {unit}", "must be finite and > 0", "check the unit"
                 )
+        if self.datum_radius is not None and not self.hub_radius < self.datum_radius < math.inf:
+            rule = f"must be finite and above the hub's, {1e3 * self.hub_radius:g} mm"
+            raise InputError("datum radius", f"{1e3 * self.datum_radius:g} mm", rule, "leave it out")
         if self.hub_radius >= self.rim_radius - 0.5 * self.rim_thickness:
             limit = 1e3 * (self.rim_radius - 0.5 * self.rim_thickness)
             rule = f"must be below the rim's inner radius, {limit:g} mm"
@@ -74,12 +81,19 @@ class TirePreset:
                 "must be 3 or more and a multiple of the spokes",
                 "give 4, 8, 12, ... plates for 4 spokes",
             )
+        if not math.isfinite(self.phase):
+            raise InputError("phase", f"{self.phase} rad", "must be finite", "give an angle such as 0.52 rad")
         if self.plates_per_spoke < 1:
             raise InputError("plates per spoke", self.plates_per_spoke, "must be 1 or more", "give 1 as the thesis")
         if len(self.contact_points) != 2 or min(self.contact_points) < 2:
             raise InputError("contact points", self.contact_points, "needs two counts of 2 or more", "give (10, 10)")
         if self.contact_layout not in ("edges", "centres"):
             raise InputError("contact layout", self.contact_layout, "must be edges or centres", "use edges")
+
+    @property
+    def zero_radius(self) -> float:
+        """Distance of the hub from the ground at zero deflection [m]."""
+        return self.outer_radius if self.datum_radius is None else self.datum_radius
 
     @property
     def rim_radius(self) -> float:

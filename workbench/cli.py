@@ -9,9 +9,10 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 from typer.exceptions import TyperException
 
 from contracts.errors import WorkbenchError
@@ -29,6 +30,21 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Verify the airless wheel of a Mars rover: continuum finite elements against ANCF and brush tires.",
 )
+
+
+class _ThicknessByDefault(TyperGroup):
+    """``workbench calibrate STUDY`` means ``workbench calibrate thickness STUDY``."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        if not args or (args[0] not in self.commands and args[0] != "--help"):
+            args = ["thickness", *args]
+        return super().parse_args(ctx, args)
+
+
+calibrate_app = typer.Typer(
+    cls=_ThicknessByDefault, help="Strip thickness for an initial tangent (the default), or the fit of the ANCF tire."
+)
+app.add_typer(calibrate_app, name="calibrate")
 
 StudyArgument = Annotated[Path, typer.Argument(help="Study file (TOML).", show_default=False)]
 StudyOrBuiltIn = Annotated[
@@ -107,8 +123,8 @@ def stiffness(
     raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, computing))
 
 
-@app.command()
-def calibrate(
+@calibrate_app.command("thickness")
+def calibrate_thickness(
     study: StudyOrBuiltIn = None,
     target: Annotated[
         str | None, typer.Option(help="Initial tangent, e.g. '8.25 N/mm'; that of the study's reference if left out.")
@@ -119,10 +135,30 @@ def calibrate(
     ranks: Ranks = 1,
     scheduler: Scheduler = None,
 ) -> None:
-    """Find the strip thickness for an initial tangent: section model first, confirmed by the solid one."""
+    """Find the strip thickness for an initial tangent: section model first, confirmed by the solid one. The default."""
     from workbench.command_calibrate import run_calibrate
 
     raise typer.Exit(run_calibrate(study, target, out, store, _computing(workers, ranks, scheduler)))
+
+
+@calibrate_app.command("ancf")
+def calibrate_ancf(
+    study: StudyOrBuiltIn = None,
+    tire: Annotated[
+        str | None, typer.Option(help="One tire of [[ancf_fit.tires]]; all of them if left out.", show_default=False)
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of ancf_fit.json, the curves and the study.")] = Path(
+        "build/calibration"
+    ),
+    store: Store = DEFAULT_STORE,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
+) -> None:
+    """Fit the ANCF tire to the finite element curves of every orientation."""
+    from workbench.command_calibrate_ancf import run_calibrate_ancf
+
+    raise typer.Exit(run_calibrate_ancf(study, tire, out, store, _computing(workers, ranks, scheduler)))
 
 
 @app.command()

@@ -15,6 +15,7 @@ from pydantic import Field
 from workbench.quantities import Force, Length, Stiffness
 from workbench.study_contact import PenaltyStudySection
 from workbench.study_environment import EnvironmentSection
+from workbench.study_fit import AncfFitSection
 from workbench.study_sections import (
     AncfSection,
     BrushSection,
@@ -87,6 +88,7 @@ class Study(WheelStudy):
     hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
     penalty_study : where the load is held against other contact penalties; None to leave it out
     verification : whether the finite elements' benchmarks are part of the report
+    ancf_fit : ANCF tires fitted to the FE curves; None to leave it out
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
     """
@@ -100,6 +102,7 @@ class Study(WheelStudy):
     verification: VerificationSection = VerificationSection()
     full: FullSection = FullSection()
     ancf: AncfSection
+    ancf_fit: AncfFitSection | None = None
     brush: BrushSection
     compare: CompareSection = CompareSection()
     environment: EnvironmentSection | None = None

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from contracts.errors import InputError
 from contracts.materials import Material
 from workbench.study import Study, WheelStudy
+from workbench.study_fit import FittedTireSection
 from workbench.study_sections import Section
 
 if TYPE_CHECKING:
@@ -20,7 +22,15 @@ if TYPE_CHECKING:
     from geometry.wheel import WheelDesign
     from rover_dynamics.brush_tire import BrushTireParameters
 
-__all__ = ["SectionInputError", "ancf_preset", "brush_parameters", "materials", "part_materials", "wheel_design"]
+__all__ = [
+    "SectionInputError",
+    "ancf_preset",
+    "brush_parameters",
+    "fit_start",
+    "materials",
+    "part_materials",
+    "wheel_design",
+]
 
 
 class SectionInputError(InputError):
@@ -110,6 +120,20 @@ def ancf_preset(study: Study) -> TirePreset:
 
     values = study.ancf.model_dump(exclude={"orientations", "max_deflection", "points", "thesis_preset"})
     return _in_section("ancf", lambda: TirePreset(**values))
+
+
+def fit_start(study: Study, tire: FittedTireSection) -> TirePreset:
+    """Where the fit of a tire begins: that of [ancf] with the fitted one's mesh and start.
+
+    The contact stiffness per area stays that of [ancf] unless the start says otherwise. Raises SectionInputError if
+    the numbers do not fit together.
+    """
+    own = ancf_preset(study)
+    stiffness = own.contact_stiffness * own.circumferential_plates / tire.circumferential_plates
+    changes: dict[str, Any] = {"contact_stiffness": stiffness} | tire.start.model_dump(exclude_none=True)
+    changes["datum_radius"] = own.zero_radius  # a free outer radius does not move zero deflection
+    changes |= {"spokes": tire.spokes, "circumferential_plates": tire.circumferential_plates}
+    return _in_section("ancf_fit.tires", lambda: replace(own, **changes))
 
 
 def brush_parameters(study: Study) -> BrushTireParameters:

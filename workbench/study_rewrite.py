@@ -1,4 +1,4 @@
-"""A study file with other strip thicknesses: changed line by line, so that comments and order stay.
+"""A study file with other strip thicknesses or another table: changed line by line, so that comments and order stay.
 
 Verified by tests/unit/test_workbench_calibration.py.
 """
@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-__all__ = ["rewritten_study"]
+__all__ = ["rewritten_study", "rewritten_table"]
 
 _TABLE = re.compile(r"\s*\[{1,2}\s*([^\[\]]+?)\s*\]{1,2}")
 _VALUE = re.compile(r"""^(\s*)("[^"]*"|[\w.-]+)(\s*=\s*)("[^"]*"|'[^']*'|[^\s#]+)(.*)$""", re.DOTALL)
@@ -38,6 +38,31 @@ def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder
     return "".join(out)
 
 
+def rewritten_table(text: str, table: str, values: Mapping[str, str]) -> str:
+    """The text of a study file with new values in one table.
+
+    Parameters
+    ----------
+    text : the old file
+    table : name, e.g. ``"ancf"``
+    values : key -> value as TOML text; keys that the table lacks come first in it. Comments stay, but those behind an
+        array that changes.
+    """
+    out, inside, missing = list[str](), False, dict(values)
+    place = 0
+    for line in text.splitlines(keepends=True):
+        if found := _TABLE.match(line):
+            inside = found[1] == table
+            place = len(out) + 1 if inside else place
+        key = line.partition("=")[0].strip().strip('"') if inside and "=" in line else ""
+        if key in values:
+            missing.pop(key, None)
+            array = line.partition("=")[2].lstrip().startswith("[")
+            line = f"{key} = {values[key]}\n" if array else _with_value(line, values[key])
+        out.append(line)
+    return "".join([*out[:place], *(f"{key} = {value}\n" for key, value in missing.items()), *out[place:]])
+
+
 def _changed(block: list[str], table: str, thickness: Mapping[str, float], about: tuple[str, Path]) -> Iterator[str]:
     """Lines of one table, with its own changes."""
     note, folder = about
@@ -46,7 +71,7 @@ def _changed(block: list[str], table: str, thickness: Mapping[str, float], about
         key = found[2].strip('"') if (found := _VALUE.match(line)) else ""
         if key == "thickness" and name in thickness:
             yield _with_value(line, f'"{thickness[name] * 1e3:.4f} mm"')
-        elif table == "inferred" and key == "wheel.tire.thickness":
+        elif table == "inferred" and key == "wheel.tire.thickness" and "tire" in thickness:
             yield _with_value(line, f'"{note}"')
         elif table == "compare.curves" and key == "file":
             assert found is not None

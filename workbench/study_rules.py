@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from contracts.errors import InputError
 from workbench.study import Study
-from workbench.study_models import materials, wheel_design
+from workbench.study_models import SectionInputError, fit_start, materials, wheel_design
 
 __all__ = ["BrokenRule", "broken_rules"]
 
@@ -42,8 +42,9 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
     yield from _room(
         "fe", study.fe.max_deflection, tire.outer_radius - tire.thickness - study.wheel.outer_hub.outer_radius
     )
-    yield from _room("ancf", ancf.max_deflection, ancf.outer_radius - ancf.hub_radius)
+    yield from _room("ancf", ancf.max_deflection, (ancf.datum_radius or ancf.outer_radius) - ancf.hub_radius)
     yield from _environment(study)
+    yield from _of_the_fit(study)
 
 
 def _environment(study: Study) -> Iterator[BrokenRule]:
@@ -109,6 +110,25 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
             rule=f"must contain mesh.factor = {study.mesh.factor:g}, the mesh of the curves",
             hint="the uncertainty is that of the curves' mesh",
         )
+
+
+def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
+    """Each fitted tire must begin as a possible one, within its bounds."""
+    section = study.ancf_fit
+    for tire in section.tires if section is not None else ():
+        assert section is not None
+        key = f"ancf_fit.tires {tire.name}"
+        try:
+            start = fit_start(study, tire)
+        except SectionInputError as error:
+            yield BrokenRule(key=key, value=str(error.value), rule=f"{error.what} {error.rule}", hint=error.hint)
+            continue
+        for name in tire.free:
+            low, high = getattr(section.bounds, name)
+            value = getattr(start, "rim_thickness" if name == "thickness" else name)
+            if not low <= value <= high:
+                rule = f"{name} must begin within its bounds, {low:g} to {high:g} in SI units"
+                yield BrokenRule(key=key, value=f"{value:g}", rule=rule, hint="give a start or widen the bounds")
 
 
 def _room(section: str, deflection: float, gap: float) -> Iterator[BrokenRule]:

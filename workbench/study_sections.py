@@ -210,12 +210,14 @@ class AncfSection(Section):
     """The thesis' ANCF tire: dimensions [m], material, contact grid, orientations [rad], deflections [m]."""
 
     outer_radius: Annotated[Length, Positive]
+    datum_radius: Annotated[Length, Positive] | None = None
     hub_radius: Annotated[Length, Positive]
     width: Annotated[Length, Positive]
     rim_thickness: Annotated[Length, Positive]
     spoke_thickness: Annotated[Length, Positive]
     circumferential_plates: Annotated[StrictInt, Field(ge=3, le=96)]
     spokes: Annotated[StrictInt, Field(ge=1, le=96)]
+    phase: Annotated[Angle, _between(-math.pi, math.pi, "-180 deg and 180 deg", "0 deg is usual")] = 0.0
     plates_per_spoke: Annotated[StrictInt, Field(ge=1, le=32)] = 1
     young_modulus: Modulus
     poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
@@ -267,6 +269,7 @@ class ToleranceSection(Section):
     initial_tangent: Annotated[Number, Positive] = 0.03
     initial_tangent_up_to: Annotated[Length, Positive] = 0.005
     ancf_preset: Annotated[Number, Positive] = 0.01
+    ancf_fit: Annotated[Number, Positive] = 0.03
     flexible_mass: Annotated[Number, Positive] = 0.01
     mesh_mass: Annotated[Number, Positive] = 0.001
     min_scaled_jacobian: Annotated[Number, Positive] = 0.2

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from contracts.curves import read_curve
 from contracts.records import Check
@@ -23,7 +23,7 @@ from workbench.topic import Topic
 if TYPE_CHECKING:
     from workbench.comparison import Comparison
 
-__all__ = ["MESH_STUDY"]
+__all__ = ["MESH_STUDY", "mesh_study_inputs", "mesh_study_runs", "read_mesh_study"]
 
 _NO_LIMIT = 1e6
 """Load [N] that ends no run: every mesh is solved at every deflection."""
@@ -42,21 +42,51 @@ def _tasks(study: Study) -> Sequence[Task]:
     return tasks
 
 
-def _read(study: Study, folders: Mapping[str, Path]) -> MeshStudy:
+def mesh_study_inputs(study: Study) -> dict[str, Any]:
+    """What `read_mesh_study` needs to know of a study, as JSON values."""
     section = study.mesh_study
-    orientation = degrees(section.orientation)
+    return {
+        "orientation_deg": degrees(section.orientation),
+        "deflections": list(section.deflections),
+        "factors": list(section.factors),
+        "curves_factor": study.mesh.factor,
+    }
+
+
+def mesh_study_runs(study: Study) -> tuple[str, ...]:
+    """Names of the tasks whose results `read_mesh_study` reads."""
+    inputs = mesh_study_inputs(study)
+    return tuple(_run_name(factor, inputs["curves_factor"], inputs["orientation_deg"]) for factor in inputs["factors"])
+
+
+def read_mesh_study(
+    *,
+    orientation_deg: float,
+    deflections: Sequence[float],
+    factors: Sequence[float],
+    curves_factor: float,
+    folders: Mapping[str, Path],
+) -> MeshStudy:
+    """The mesh study from the result folders of its runs."""
     runs = []
-    for factor in section.factors:
-        own = factor == study.mesh.factor
-        folder = folders[orientation_name("fe", orientation) if own else f"fe_x{factor:g}"]
-        curve = read_curve(folder / CURVE, model="fe", orientation_deg=orientation)
+    for factor in factors:
+        folder = folders[_run_name(factor, curves_factor, orientation_deg)]
+        curve = read_curve(folder / CURVE, model="fe", orientation_deg=orientation_deg)
         runs.append(MeshRun(factor=factor, curve=curve, numbers=read_result(folder)))
     return MeshStudy(
-        orientation_deg=orientation,
-        deflections=section.deflections,
+        orientation_deg=orientation_deg,
+        deflections=tuple(deflections),
         runs=sorted_runs(runs),
-        curves_factor=study.mesh.factor,
+        curves_factor=curves_factor,
     )
+
+
+def _run_name(factor: float, curves_factor: float, orientation_deg: float) -> str:
+    return orientation_name("fe", orientation_deg) if factor == curves_factor else f"fe_x{factor:g}"
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> MeshStudy:
+    return read_mesh_study(**mesh_study_inputs(study), folders=folders)
 
 
 def _checks(study: Study, found: Comparison, results: MeshStudy) -> Sequence[Check]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from workbench.study import Study
 from workbench.topic import Topic
 from workbench.topic_ancf_dynamics import ANCF_DYNAMICS
+from workbench.topic_ancf_fit import ANCF_FIT
 from workbench.topic_ancf_mesh import ANCF_MESH
 from workbench.topic_contact import CONTACT
 from workbench.topic_environment import ENVIRONMENT
@@ -26,6 +27,7 @@ TOPICS: tuple[Topic, ...] = (
     HUB,
     STRENGTH,
     ENVIRONMENT,
+    ANCF_FIT,
     ANCF_MESH,
     ANCF_DYNAMICS,
     VERIFICATION,

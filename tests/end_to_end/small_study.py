@@ -26,6 +26,7 @@ CHANGES = {
     r'\[penalty_study\][^\[]*deflection = "[^"]*"\n': "",
     r'\norientation = "(?!0)[^"]*"': '\norientation = "0 deg"',
     r"enabled = true": "enabled = false",
+    r"realisations = \d+": "realisations = 3",
     r"variants = \[[^\]]*\]": "variants = []",
     r"\[tolerances\]": "[tolerances]\nmesh_uncertainty = 0.5\nfe_energy = 0.1",
     r"initial_tangent = \S+": 'initial_tangent = 0.9\nreach_deflection = "6 mm"',

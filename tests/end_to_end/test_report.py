@@ -21,6 +21,7 @@ TASKS = {
     *("mesh_x1.5", "fe_x1.5", "mesh_x2", "fe_x2"),
     *("section_phi000", "ancf_phi000", "ancf_phi045", "brush", "ancf_plate", "ancf_surfaces", "metrics", "pictures"),
     "environment_-40C",
+    *("ancf_as_it_is", "ancf_fit_four_spokes", "ancf_fit_six_spokes"),
 }
 
 type Finished = subprocess.CompletedProcess[str]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from ancf_reduced.equilibrium import NewtonControls
-from ancf_reduced.static_tire import TireEquilibria, solve_tire, stiffness_curve
+from ancf_reduced.static_tire import TireEquilibria, solve_near, solve_tire, stiffness_curve
 from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import thesis_preset
 from contracts.errors import ConvergenceError, InputError
@@ -29,6 +31,33 @@ def test_hub_reaction_balances_the_contact_force(states: TireEquilibria) -> None
 def test_residual_falls_quadratically_at_the_end(states: TireEquilibria) -> None:
     last = states.history[-1].residuals
     assert last[-1] < 10.0 * last[-2] ** 1.5
+
+
+def test_a_phase_turns_the_tire(states: TireEquilibria) -> None:
+    turned = build_tire(replace(thesis_preset(), phase=0.25))
+    np.testing.assert_allclose(solve_tire(turned, 0.55, DEFLECTIONS).load, states.load, atol=1e-7)
+
+
+def test_deflection_counts_from_the_datum() -> None:
+    """A face 2 mm farther out with the old datum: at 8 mm the new tire is 10 mm deep by its own radius."""
+    large = replace(thesis_preset(), outer_radius=0.1445)
+    moved = solve_tire(build_tire(replace(large, datum_radius=0.1425)), 0.3, [0.008])
+    np.testing.assert_allclose(moved.load, solve_tire(build_tire(large), 0.3, [0.010]).load, atol=1e-7)
+
+
+def test_from_a_neighbour_no_path_is_needed(states: TireEquilibria) -> None:
+    other = build_tire(replace(thesis_preset(), young_modulus=290e3, rim_thickness=0.0245))
+    near, path = solve_near(other, states), solve_tire(other, 0.3, DEFLECTIONS)
+    np.testing.assert_allclose(near.load, path.load, atol=1e-6)
+    assert not near.history
+
+
+def test_a_neighbour_too_far_away_means_the_path(states: TireEquilibria) -> None:
+    """Coordinates of no equilibrium at all: Newton does not arrive from there, and the path is followed."""
+    broken = replace(states, coordinates=-5.0 * states.coordinates)
+    found = solve_near(TIRE, broken)
+    np.testing.assert_allclose(found.load, states.load, atol=1e-6)
+    assert found.history
 
 
 def test_coordinates_are_kept_at_each_deflection(states: TireEquilibria) -> None:

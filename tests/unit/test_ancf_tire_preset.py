@@ -17,6 +17,8 @@ from contracts.errors import InputError
         ({"width": float("nan")}, "width"),
         ({"contact_stiffness": -1.0}, "contact stiffness = -1 N/m"),
         ({"hub_radius": 0.118}, "hub radius = 118 mm"),
+        ({"datum_radius": 0.04}, "datum radius = 40 mm"),
+        ({"phase": float("nan")}, "phase"),
         ({"circumferential_plates": 6}, "multiple of the spokes"),
         ({"plates_per_spoke": 0}, "plates per spoke"),
         ({"contact_points": (1, 10)}, "contact points"),

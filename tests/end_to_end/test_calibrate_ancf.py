@@ -1,0 +1,72 @@
+"""``workbench calibrate ancf``, run as a user would run it, on a coarse study; and the older form beside it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.end_to_end.small_study import run, small_study_text
+from workbench.study_file import read_study
+
+
+def test_the_fitted_tire_lands_in_a_study(workspace: Path, tmp_path: Path) -> None:
+    """One orientation to 6 mm: four spokes follow it within 3 %; the study written holds the tire found."""
+    arguments = ("calibrate", "ancf", "study.toml", "--tire", "four_spokes", "--out", tmp_path / "out")
+    ended = run(*arguments, "--store", "store", folder=workspace)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert ended.stderr == ""
+    found = json.loads((tmp_path / "out" / "ancf_fit.json").read_text(encoding="utf-8"))
+    (tire,) = found["tires"]
+    assert found["kept"] == tire["name"] == "four_spokes"
+    assert abs(tire["average"]["largest"]) < 0.03 < abs(found["own"]["average"]["largest"])
+    assert tire["flexible_mass_kg"] == pytest.approx(4.44157)
+    assert {p["name"] for p in tire["parameters"]} >= {"young_modulus", "thickness", "outer_radius"}
+    old, new = read_study(workspace / "study.toml"), read_study(tmp_path / "out" / "study_fitted.toml")
+    assert new.ancf.young_modulus == pytest.approx(tire["preset"]["young_modulus"], rel=1e-5)
+    assert new.ancf.outer_radius == pytest.approx(tire["preset"]["outer_radius"], rel=1e-5)
+    assert new.ancf.datum_radius == pytest.approx(old.ancf.outer_radius)
+    assert new.ancf.orientations == old.fe.orientations
+    assert not new.ancf.thesis_preset
+    assert (new.fe, new.wheel) == (old.fe, old.wheel)
+    assert (tmp_path / "out" / "curves" / "ancf_four_spokes_phi000.csv").is_file()
+    for text in ("average: largest", "young_modulus", "study_fitted.toml"):
+        assert text in ended.stdout
+    again = run(*arguments, "--store", "store", folder=workspace)
+    assert "computed in" not in again.stdout  # every run is found in the store
+    curves = run("stiffness", tmp_path / "out" / "study_fitted.toml", "--model", "ancf", "--out", tmp_path / "c",
+                 "--store", "store", folder=workspace)  # fmt: skip
+    assert curves.returncode == 0, curves.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "old", "new", "text"),
+    [
+        (("--tire", "nine_spokes"), "", "", "none of the study's (four_spokes, six_spokes)"),
+        ((), "[ancf_fit]", "[ancf_fits]", "not a known key"),
+        ((), 'load_range = ["20 N"', 'load_range = ["240 N"', "beyond the end of the FE average"),
+    ],
+)
+def test_bad_input_ends_with_status_2(
+    workspace: Path, tmp_path: Path, arguments: tuple[str, ...], old: str, new: str, text: str
+) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(small_study_text().replace(old, new, 1) if old else small_study_text(), encoding="utf-8")
+    ended = run("calibrate", "ancf", study, *arguments, "--out", tmp_path / "o", "--store", "store", folder=workspace)
+    assert ended.returncode == 2
+    assert text in ended.stderr
+    assert "Traceback" not in ended.stderr
+    assert not (tmp_path / "o" / "ancf_fit.json").exists()
+
+
+def test_a_study_without_the_section_is_told_so(workspace: Path, tmp_path: Path) -> None:
+    text = small_study_text()
+    start, end = text.index("[ancf_fit]"), text.index("# --- The brush tire")
+    (tmp_path / "study.toml").write_text(text[:start] + text[end:], encoding="utf-8")
+    ended = run("calibrate", "ancf", tmp_path / "study.toml", "--out", tmp_path / "o", folder=workspace)
+    assert ended.returncode == 2
+    assert "[ancf_fit]" in ended.stderr
+    shown = run("calibrate", "--help")
+    assert shown.returncode == 0
+    assert all(name in shown.stdout for name in ("thickness", "ancf"))

@@ -1,0 +1,168 @@
+"""The fit of the ANCF tire in the workbench: which loads count, its tasks, its checks, what a study may ask for."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ancf_reduced.static_tire import stiffness_curve
+from ancf_reduced.tire_parameters import Parameter
+from ancf_reduced.tire_preset import thesis_preset
+from contracts.curves import StiffnessCurve, write_curve
+from contracts.errors import InputError, StudyError
+from workbench.ancf_fit import average_error, fitted_deflections, perturbed, read_fit
+from workbench.graph import report_tasks
+from workbench.graph_fit import fit_tasks
+from workbench.study import Study
+from workbench.study_file import built_in_study, read_study
+from workbench.study_models import fit_start
+from workbench.study_rewrite import rewritten_table
+from workbench.tasks_fit import evaluate, fit
+from workbench.topics import topics_of
+
+D = np.linspace(0.0, 0.03, 16)
+LINE = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=D, load=8e3 * D)
+SMALL = replace(thesis_preset(), quadrature=(3, 3, 2), contact_points=(6, 3))
+MESH_STUDY = {"orientation_deg": 0.0, "deflections": [0.01, 0.02], "factors": [1, 1.5, 2], "curves_factor": 1.0}
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    return read_study(built_in_study())
+
+
+def test_loads_are_spread_in_equal_ratios() -> None:
+    found = LINE.load_at(fitted_deflections(LINE, (20.0, 160.0), 4))
+    np.testing.assert_allclose(found, [20.0, 40.0, 80.0, 160.0])
+    assert fitted_deflections(LINE, (20.0, 999.0), 3)[-1] == pytest.approx(0.03)
+    with pytest.raises(InputError, match="beyond the end"):
+        fitted_deflections(LINE, (241.0, 999.0), 3)
+
+
+def test_the_largest_error_is_found_with_its_sign() -> None:
+    low = replace(LINE, load=LINE.load - np.where(np.arange(len(D)) == 8, 6.0, 0.0))
+    found = average_error([low, LINE], LINE, (20.0, 200.0))
+    assert found.largest == pytest.approx(-3.0 / 128.0, rel=0.02)
+    assert found.at_load == pytest.approx(128.0, rel=0.02)
+
+
+def test_curves_move_as_a_whole_by_their_uncertainty() -> None:
+    loads, uncertainty = np.full((2, 3), 100.0), np.array([0.02, 0.04, 0.0])
+    moved = np.array(perturbed(loads, uncertainty, 400))
+    relative = (moved - 100.0) / 100.0
+    np.testing.assert_allclose(relative[..., 1], 2.0 * relative[..., 0])
+    assert not relative[..., 2].any()
+    assert relative[..., 0].std() == pytest.approx(0.01, rel=0.1)
+    assert abs(np.corrcoef(relative[:, 0, 0], relative[:, 1, 0])[0, 1]) < 0.15
+    np.testing.assert_array_equal(moved, perturbed(loads, uncertainty, 400))
+
+
+def test_tasks_of_the_built_in_study(study: Study) -> None:
+    tasks = {task.name: task for task in fit_tasks(study)}
+    assert study.ancf_fit is not None
+    assert list(tasks) == ["ancf_as_it_is", *(f"ancf_fit_{tire.name}" for tire in study.ancf_fit.tires)]
+    kept = [n for n, task in tasks.items() if task.inputs.get("realisations")]
+    assert kept == [f"ancf_fit_{study.ancf_fit.kept.name}"]
+    known = {task.name for task in report_tasks(study, Path())}
+    assert all(set(task.needs) < known for task in tasks.values())
+    assert "ancf_fit" in [topic.name for topic in topics_of(study)]
+    without = study.model_copy(update={"ancf_fit": None})
+    assert fit_tasks(without) == []
+    assert "ancf_fit" not in [topic.name for topic in topics_of(without)]
+
+
+def test_the_start_keeps_the_stiffness_per_area_and_the_datum(study: Study) -> None:
+    assert study.ancf_fit is not None
+    six = study.ancf_fit.tires[1]
+    bare = fit_start(study, six.model_copy(update={"start": type(six.start)()}))
+    assert bare.contact_stiffness * 6 == pytest.approx(study.ancf.contact_stiffness * 4)
+    assert fit_start(study, six).datum_radius == study.ancf.outer_radius
+
+
+@pytest.fixture(scope="module")
+def folders(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Path]:
+    """Results as the FE tasks leave them, but from a tire 20 % stiffer than the preset."""
+    root, names = tmp_path_factory.mktemp("fe"), {"fe_phi000": 0.0, "fe_phi030": 30.0, "fe_x1.5": 0.0, "fe_x2": 0.0}
+    truth, grid = (
+        replace(SMALL, young_modulus=1.2 * SMALL.young_modulus),
+        [0.0, 0.002, *np.arange(0.004, 0.0251, 0.001).round(6).tolist()],
+    )
+    for i, (name, o) in enumerate(names.items()):
+        (root / name).mkdir()
+        curve = stiffness_curve(truth, np.radians(o), grid)
+        factor = (1.0, 1.0, 0.995, 0.994)[i]
+        write_curve(replace(curve, load=factor * curve.load), root / name / "curve.csv")
+        (root / name / "result.json").write_text(json.dumps({"cells": 1000 * (1 + i) ** 2}), encoding="utf-8")
+    return {name: root / name for name in names}
+
+
+def test_a_fit_and_its_result(folders: Mapping[str, Path], tmp_path: Path) -> None:
+    """The modulus that made the curves is found, with an interval and a spread; the mass is that of Table I."""
+    preset = asdict(SMALL) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
+    inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "points": 4}
+    inputs |= {"average_weight": 3.0, "realisations": 4, "mesh_study": MESH_STUDY}
+    fit(inputs | {"free": [["young_modulus", 1e4, 1e7]]}, folders, tmp_path, lambda fraction: None)
+    tire = read_fit("test", tmp_path)
+    (row,) = tire.numbers["parameters"]
+    assert row["value"] == pytest.approx(
+        1.2 * SMALL.young_modulus, rel=0.02
+    )  # curves are joined linearly between points
+    assert row["interval"][0] < row["value"] < row["interval"][1]
+    assert row["spread"][0] < row["value"] < row["spread"][1]
+    assert tire.numbers["refits"] == 4
+    assert tire.numbers["flexible_mass_kg"] == pytest.approx(4.44157)
+    assert abs(tire.numbers["average"]["largest"]) < 0.03
+    assert list(tire.curves) == [0.0, 30.0]
+    evaluate(inputs, folders, tmp_path, lambda fraction: None)
+    own = read_fit("own", tmp_path)
+    assert own.numbers["preset"]["young_modulus"] == SMALL.young_modulus
+    assert max(own.numbers["relative_rms"]) > 0.05
+
+
+def test_curves_too_short_for_the_range_leave_the_reason(folders: Mapping[str, Path], tmp_path: Path) -> None:
+    preset = asdict(SMALL) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
+    inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [300.0, 350.0]}
+    evaluate(inputs, folders, tmp_path, lambda fraction: None)
+    with pytest.raises(InputError, match="beyond the end of the FE average"):
+        read_fit("own", tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('free = ["young_modulus", "thickness"', 'free = ["young_modulus", "rim_thickness", "thickness"', "twice"),
+        ('free = ["young_modulus"', 'free = ["colour"', "free"),
+        ("circumferential_plates = 6\nfree", "circumferential_plates = 7\nfree", "multiple of the spokes"),
+        ('keep = "six_spokes"', 'keep = "seven_spokes"', "is none of"),
+        ('young_modulus = ["20 kPa", "50 MPa"]', 'young_modulus = ["50 MPa", "20 kPa"]', "must increase"),
+        ('young_modulus = ["20 kPa", "50 MPa"]', 'young_modulus = ["20 kPa", "30 kPa"]', "within its bounds"),
+        ('hub_radius = "30 mm", contact', 'hub_radius = "140 mm", contact', "hub radius must be below"),
+        ('load_range = ["20 N", "250 N"]', 'load_range = ["250 N", "20 N"]', "must increase"),
+        ("realisations = 20", "realisations = -1", "realisations"),
+    ],
+)
+def test_bad_sections_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
+    text = built_in_study().read_text(encoding="utf-8")
+    assert old in text
+    (tmp_path / "study.toml").write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(StudyError, match=message):
+        read_study(tmp_path / "study.toml")
+
+
+def test_a_table_is_rewritten_with_its_comments() -> None:
+    text = '[a]\nspokes = 4 # four\n\n[ancf]\nspokes = 4   # radial\nlist = ["1", "2"]\n[b]\nspokes = 4\n'
+    new = rewritten_table(text, "ancf", {"spokes": "6", "list": '["3"]', "phase": '"0.1 rad"'})
+    assert (
+        new
+        == '[a]\nspokes = 4 # four\n\n[ancf]\nphase = "0.1 rad"\nspokes = 6   # radial\nlist = ["3"]\n[b]\nspokes = 4\n'
+    )
+
+
+def test_every_parameter_has_bounds(study: Study) -> None:
+    assert study.ancf_fit is not None
+    assert set(type(study.ancf_fit.bounds).model_fields) == {p.value for p in Parameter}
