@@ -22,6 +22,9 @@ __all__ = ["MotionState", "integrate_explicit"]
 
 FloatArray = NDArray[np.float64]
 
+FOLDED = 0.1
+"""det F below which a plate counts as folded [-]."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionState:
@@ -58,7 +61,7 @@ def integrate_explicit(
     Raises
     ------
     InputError, ConvergenceError
-        For a step or times out of range; if the motion is no longer finite, which a step beyond the stable one causes.
+        For a step or times out of range; if the motion breaks down: a step beyond the stable one, plates that fold.
 
     Verified by tests/verification/test_ancf_pendulum.py and tests/unit/test_ancf_rigid_hub.py.
     """
@@ -73,17 +76,33 @@ def integrate_explicit(
         for k in range(count):
             half = v + 0.5 * h * push
             moved = z + h * half
-            correction = triads.place(moved, z)
+            try:
+                correction = triads.place(moved, z)
+            except ConvergenceError as error:
+                raise ConvergenceError(_message(system, z, time, h), [], None) from error
             z, half, time = moved + correction, half + correction / h, begun + (k + 1) * h
             push = factor.solve(system.force(z, half, time))
             v = half + 0.5 * h * push
             v += triads.stop(v, z)
             if watch is not None:
                 watch(MotionState(time=time, z=z, v=v))
-        if not np.isfinite(v).all():
-            where = f"explicit motion is no longer finite at {time:.4g} s with a step of {h:.3g} s"
-            raise ConvergenceError(f"{where}: use a step below 2 / omega_max (spectrum.stable_step)", [], None)
+        if not np.isfinite(v).all() or _smallest_ratio(system, z) <= 0.0:
+            raise ConvergenceError(_message(system, z, time, h), [], None)
         yield MotionState(time=time, z=z.copy(), v=v.copy())
+
+
+def _smallest_ratio(system: PlateSystem, z: FloatArray) -> float:
+    """Smallest det F at any integration point [-]; very small where it is not a number."""
+    return float(np.nan_to_num(system.model.volume_ratio(system.coordinates.expand(z)), nan=-1e300).min())
+
+
+def _message(system: PlateSystem, z: FloatArray, time: float, step: float) -> str:
+    """Why a motion broke down at z: plates that fold, or a step that is too long."""
+    smallest = _smallest_ratio(system, z)
+    where = f"explicit motion broke down at {time:.4g} s with a step of {step:.3g} s"
+    if smallest < FOLDED:
+        return f"{where}: plates fold (smallest det F {smallest:.2g}), beyond their material law; load them less"
+    return f"{where}: use a step below 2 / omega_max (spectrum.stable_step)"
 
 
 def _check(start: MotionState, times: FloatArray, step: float) -> None:

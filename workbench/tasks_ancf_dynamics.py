@@ -54,7 +54,7 @@ def move_wheel(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, 
     heights = np.array([rig.hub(s.z)[2] for s in states])
     numbers: dict[str, Any] = {
         "closure": account.closure() if message is None else None,
-        "energies": asdict(account.rows[-1]),
+        "energies": asdict(next(row for row in reversed(account.rows) if row.time <= states[-1].time)),
         "lowest_m": float(heights.min()),
         "largest_load_N": max(float(rig.load(s)[2]) for s in states),
         "step_s": step,
