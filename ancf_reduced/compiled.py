@@ -53,6 +53,12 @@ def vector_at(f: FloatArray, k: int, q: int) -> Vector:
 
 
 @inlined
+def put(f: FloatArray, k: int, q: int, v: Vector) -> None:
+    """Write vector k of point q to an array (n_vectors, 3, n_points)."""
+    f[k, 0, q], f[k, 1, q], f[k, 2, q] = v
+
+
+@inlined
 def symmetric_at(f: FloatArray, q: int) -> Symmetric:
     """Symmetric tensor of point q from an array (6, n_points)."""
     return f[0, q], f[1, q], f[2, q], f[3, q], f[4, q], f[5, q]

@@ -26,6 +26,7 @@ from ancf_reduced.compiled import (
     compiled,
     dot,
     inlined,
+    put,
     symmetric_at,
     vector_at,
 )
@@ -155,11 +156,6 @@ def point_forces(P: FloatArray, D: FloatArray, forces: FloatArray) -> None:
         forces[s, 2] += z
 
 
-@inlined
-def _store(P: FloatArray, k: int, q: int, v: Vector) -> None:
-    P[k, 0, q], P[k, 1, q], P[k, 2, q] = v
-
-
 @compiled
 def energy_kernel(
     p: FloatArray,
@@ -227,8 +223,8 @@ def force_kernel(
                 E = strain(a, b, c, symmetric_at(metric[j, k, 0], q))
                 S = stress(E, symmetric_at(metric[j, k, 1], q), w[j, k, q] * lame[0], w[j, k, q] * lame[1])
                 s1, s2, s3 = columns(S)
-                _store(P, 0, q, combination(s1, a, b, c))
-                _store(P, 1, q, combination(s2, a, b, c))
-                _store(P, 2, q, combination(s3, a, b, c))
+                put(P, 0, q, combination(s1, a, b, c))
+                put(P, 1, q, combination(s2, a, b, c))
+                put(P, 2, q, combination(s3, a, b, c))
             point_forces(P, D[k], forces)
         add_structure_force(forces, elements[j], frame[j], force)

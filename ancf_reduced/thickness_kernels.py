@@ -25,6 +25,7 @@ from ancf_reduced.compiled import (
     compiled,
     dot,
     inlined,
+    put,
     symmetric_at,
     vector_at,
 )
@@ -35,11 +36,6 @@ __all__ = ["relief_energy_kernel", "relief_force_kernel", "relief_tangent_kernel
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-
-
-@inlined
-def _put(f: FloatArray, k: int, q: int, v: Vector) -> None:
-    f[k, 0, q], f[k, 1, q], f[k, 2, q] = v
 
 
 @inlined
@@ -79,12 +75,12 @@ def _thickness_stress(
         doubled = dot(x1, a1) + dot(x2, a2) + dot(x3, a3) - dot(y1, b1) - dot(y2, b2) - dot(y3, b3)
         stiffness[q] = c3[2]
         tau[q] = 0.5 * doubled / c3[2] if c3[2] > 0.0 else 0.0  # zero at the points that only fill up a block
-        _put(alpha, 0, q, x1)
-        _put(alpha, 1, q, x2)
-        _put(alpha, 2, q, x3)
-        _put(beta, 0, q, combination(h1, y1, y2, y3))
-        _put(beta, 1, q, combination(h2, y1, y2, y3))
-        _put(beta, 2, q, combination(h3, y1, y2, y3))
+        put(alpha, 0, q, x1)
+        put(alpha, 1, q, x2)
+        put(alpha, 2, q, x3)
+        put(beta, 0, q, combination(h1, y1, y2, y3))
+        put(beta, 1, q, combination(h2, y1, y2, y3))
+        put(beta, 2, q, combination(h3, y1, y2, y3))
 
 
 @compiled
