@@ -22,6 +22,7 @@ __all__ = [
     "compiled",
     "dot",
     "inlined",
+    "put",
     "symmetric_at",
     "vector_at",
 ]
