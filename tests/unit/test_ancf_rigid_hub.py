@@ -17,6 +17,7 @@ from ancf_reduced.plate_system import HubMass, PlateSystem, build_plate_system, 
 from ancf_reduced.reference_node import tie_reference_node
 from ancf_reduced.rigid_triads import RigidTriads, triad_defect
 from ancf_reduced.spectrum import stable_step
+from ancf_reduced.triad_equations import TriadEquations
 from ancf_reduced.vector_coordinates import with_reference_node
 from contracts.errors import ConvergenceError, InputError
 
@@ -97,6 +98,8 @@ def test_multipliers_and_rigid_coordinates_give_the_same_motion() -> None:
     for fraction in (0.1, 0.025):
         (end,) = integrate_explicit(system, start, np.array([END]), fraction * step)
         assert triad_defect(np.array(end.z[-3:])) < 1e-12
+        turning = TriadEquations(system.coordinates).jacobian(end.z) @ end.v.ravel()
+        assert np.abs(turning).max() < 1e-10 * np.abs(end.v[-3:]).max()  # the rates keep it rigid as well
         errors.append(np.abs(end.z - expected).max())
     assert errors[1] < 1e-5
     assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.4)  # second order; the phase of fast modes adds a little
