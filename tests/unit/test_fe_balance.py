@@ -45,3 +45,18 @@ def test_lever_arms_of_the_undeformed_body_are_caught() -> None:
     term._last_x = term._facets.positions  # type: ignore[attr-defined]
     moment = term.moment()  # type: ignore[attr-defined]
     assert abs((support_moment(problem, residual) + moment)[1]) > 1e-3 * abs(moment[1])
+
+
+def test_supports_that_move_balance_at_their_new_place() -> None:
+    """A column whose head is drawn aside and up: without an obstacle its support moments add up to zero, deformed."""
+    mesh = block_mesh((1, 1, 3), lambda X: (X + np.array([1.0, -0.5, 0.0])) * [0.02, 0.02, 0.1])
+    supports = [Support(faces=("z0",)), Support(faces=("z1",), value=(0.01, 0.0, 0.005))]
+    problem = StaticProblem(Domain.from_tagged(mesh), {"body": RUBBER}, supports)
+    problem.set_control(1.0)
+    outcome = NewtonSolver(problem, NewtonSettings()).solve()
+    assert outcome.converged
+    largest = np.abs(outcome.residual).max() * 0.1
+    assert largest > 1e-4
+    assert support_moment(problem, outcome.residual) == pytest.approx(0.0, abs=1e-6 * largest)
+    problem.u.x.array[:] = 0.0  # negative control: the same forces at their old places
+    assert np.abs(support_moment(problem, outcome.residual)).max() > 1e-2 * largest
