@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from reference_fe import cell_kernels
+from reference_fe import cell_kernels, process_sums, reference_cell
 from reference_fe import dolfinx_api as api
 from reference_fe.domain import Domain
 from reference_fe.surface_assembly import SurfaceAssembly
@@ -52,7 +52,7 @@ class CompiledCells:
         out = self._force.x.array
         out[:] = 0.0
         cell_kernels.internal_force(u, self._gradients, self._weights, self._moduli, self._dofs, out)
-        return api.sum_shared(self._force)
+        return process_sums.sum_shared(self._force)
 
     def store_stress(self, u: NDArray[np.float64], du: NDArray[np.float64]) -> None:
         """Store S(E(u)) + CC : DE(u)[du] at the Gauss points."""
@@ -116,7 +116,7 @@ def _gradients(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Reference gradients (n_cells, n_points, 3, n_nodes) [1/m] and weights (n_cells, n_points) [m^3]."""
     points, weights = api.gauss_rule(gauss_points)
-    geometry = api.lagrange_gradients(domain.tagged.order, points)
+    geometry = reference_cell.lagrange_gradients(domain.tagged.order, points)
     shape = V.element.basix_element.tabulate(1, points)[1:, :, :, 0]
     positions = domain.mesh.geometry.x[api.cell_nodes(domain.mesh)[cells]]
     jacobian = np.einsum("cni,kqn->cqik", positions, geometry)

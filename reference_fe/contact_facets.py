@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe import reference_cell
 from reference_fe.domain import Domain
 
 __all__ = ["ContactFacets", "LineRule", "gauss_line", "local_stiffness", "simpson_line"]
@@ -48,12 +49,12 @@ class ContactFacets:
     @classmethod
     def of(cls, domain: Domain, V: api.Expr, faces: Iterable[str], line: LineRule) -> ContactFacets:
         """Lay out the quadrature of the named faces, the same rule along each axis of a facet."""
-        rule = api.facet_rule(V, line)
+        rule = reference_cell.facet_rule(V, line)
         cells, kind = _cells_of_facets(domain, domain.facets_of(tuple(faces)))
         order, dim = domain.tagged.order, domain.mesh.geometry.dim
         x = domain.mesh.geometry.x[api.cell_nodes(domain.mesh)[cells]][:, :, :dim]
-        shapes = np.stack([api.lagrange_shapes(order, points) for points in rule.points])
-        gradients = np.stack([api.lagrange_gradients(order, points) for points in rule.points])
+        shapes = np.stack([reference_cell.lagrange_shapes(order, points) for points in rule.points])
+        gradients = np.stack([reference_cell.lagrange_gradients(order, points) for points in rule.points])
         tangents = np.einsum("mdqn,mtd,mni->mtqi", gradients[kind], rule.edges[kind], x)
         area = _area(tangents)
         return cls(
@@ -135,5 +136,5 @@ def _widths(domain: Domain, cells: NDArray[np.int32]) -> NDArray[np.float64]:
 def _volumes(order: int, nodes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Volume (area in the plane) of cells given by their nodes (m, n, dim), (m,)."""
     points, weights = api.gauss_rule((3,) * nodes.shape[2])
-    jacobian = np.einsum("dqn,mni->mqdi", api.lagrange_gradients(order, points), nodes)
+    jacobian = np.einsum("dqn,mni->mqdi", reference_cell.lagrange_gradients(order, points), nodes)
     return np.asarray(np.abs(np.linalg.det(jacobian)) @ weights)

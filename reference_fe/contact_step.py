@@ -22,7 +22,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from reference_fe import dolfinx_api as api
+from reference_fe import process_sums
 from reference_fe.nearby_solver import NearbySolver
 from reference_fe.static_problem import StaticProblem
 
@@ -62,8 +62,8 @@ def settle_contact(
     nearby = NearbySolver(solve, CAPACITY)
     for _ in range(INNER_LIMIT):
         residual = step.residual()
-        size = api.global_norm(residual)
-        if nearby.full or not size > TOLERANCE * api.global_norm(step.force):  # found, or not a number
+        size = process_sums.global_norm(residual)
+        if nearby.full or not size > TOLERANCE * process_sums.global_norm(step.force):  # found, or not a number
             break
         direction, left = nearby.solve(-residual, step.change_of_stiffness(), LINEAR_TOLERANCE * size)
         step.advance(direction, left)
@@ -94,11 +94,11 @@ class _Step:
         """Add as much of a direction as the line search allows; ``left`` is what its linear solve left over."""
         surfaces, residual, start, balancing = self._problem.surfaces, self.residual(), self._du, self._balancing
         body = -residual - left - surfaces.product(surfaces.stiffness(), direction)
-        first, share = api.global_dot(direction, residual), 1.0
+        first, share = process_sums.global_dot(direction, residual), 1.0
         for attempt in range(SEARCHES + 1):
             self._balancing = balancing + share * body
             self._move(start + share * direction)
-            slope = api.global_dot(direction, self.residual())
+            slope = process_sums.global_dot(direction, self.residual())
             if first >= 0.0 or slope <= -SLOPE * first or attempt == SEARCHES:
                 return
             share *= max(0.1, first / (first - slope))

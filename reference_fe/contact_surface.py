@@ -10,6 +10,7 @@ from scipy.sparse import csr_array
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe import process_sums
 from reference_fe.contact_patch import facet_widths
 from reference_fe.domain import Domain
 from reference_fe.inner_contact_kernels import surface_frames
@@ -101,7 +102,7 @@ def _node_numbers(domain: Domain, V: api.Expr) -> NDArray[np.int64]:
     local[nodes] = global_nodes(V)[dofs]
     out = np.full(len(domain.tagged.points), -1, dtype=np.int64)
     out[domain.mesh.geometry.input_global_indices] = local
-    return api.largest_of_all(out)
+    return process_sums.largest_of_all(out)
 
 
 def _outward(

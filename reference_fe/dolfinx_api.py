@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import functools
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from reference_fe import triangular_product
@@ -32,17 +31,18 @@ from numpy.typing import NDArray
 from petsc4py import PETSc
 
 __all__ = [
+    "CELL",
     "COMM",
+    "JIT_OPTIONS",
     "MPI",
     "DirichletBC",
     "Expr",
-    "FacetRule",
     "Function",
     "Mesh",
     "MeshTags",
     "PETSc",
-    "PointEvaluation",
     "add_block",
+    "basix",
     "cell_matrix",
     "cell_measure",
     "cell_nodes",
@@ -50,25 +50,17 @@ __all__ = [
     "create_matrix",
     "distributed_matrix",
     "distributed_values",
+    "dolfinx",
     "facet_midpoints",
-    "facet_rule",
     "facet_tags_from_nodes",
     "fem",
     "fem_petsc",
     "flush",
     "gauss_rule",
-    "global_dot",
-    "global_norm",
-    "lagrange_gradients",
-    "lagrange_points",
-    "lagrange_shapes",
-    "largest_of_all",
     "mesh_from_arrays",
     "meshtags",
     "quadrature_space",
-    "reference_edge",
     "shared_matrix",
-    "sum_shared",
     "ufl",
     "versions",
 ]
@@ -89,7 +81,7 @@ ufl: Any = _ufl
 fem: Any = _fem
 fem_petsc: Any = _fem_petsc
 JIT_OPTIONS = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
-_CELL = {2: "quadrilateral", 3: "hexahedron"}
+CELL = {2: "quadrilateral", 3: "hexahedron"}
 _FACET = {2: "interval", 3: "quadrilateral"}
 
 
@@ -109,8 +101,8 @@ def mesh_from_arrays(points: NDArray[np.float64], cells: NDArray[np.int64]) -> M
     """
     dim = points.shape[1]
     degree = 1 if cells.shape[1] == 2**dim else 2
-    element: Any = basix.ufl.element("Lagrange", _CELL[dim], degree, shape=(dim,))
-    permutation = _gmsh_permutation(_CELL[dim], cells.shape[1])
+    element: Any = basix.ufl.element("Lagrange", CELL[dim], degree, shape=(dim,))
+    permutation = _gmsh_permutation(CELL[dim], cells.shape[1])
     if COMM.rank > 0:
         points, cells = points[:0], cells[:0]
     own = np.ascontiguousarray(cells[:, permutation])
@@ -177,97 +169,8 @@ def cell_measure(mesh: Mesh, tags: MeshTags, ids: tuple[int, ...], points_per_ax
 def quadrature_space(mesh: Mesh, points_per_axis: tuple[int, ...], shape: tuple[int, ...]) -> Any:
     """Space of values at the Gauss points of every cell."""
     points, weights = gauss_rule(points_per_axis)
-    element = basix.ufl.quadrature_element(_CELL[points.shape[1]], value_shape=shape, points=points, weights=weights)
+    element = basix.ufl.quadrature_element(CELL[points.shape[1]], value_shape=shape, points=points, weights=weights)
     return fem.functionspace(mesh, element)
-
-
-def lagrange_points(degree: int, dim: int) -> NDArray[np.float64]:
-    """Node positions of the reference quadrilateral's or hexahedron's Lagrange element, (n, dim) [-]."""
-    element = basix.create_element(basix.ElementFamily.P, basix.CellType[_CELL[dim]], degree)
-    return np.asarray(element.points)
-
-
-def lagrange_gradients(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Derivatives of the Lagrange shape functions along the reference axes, (dim, n_points, n_nodes) [-]."""
-    element = basix.create_element(basix.ElementFamily.P, basix.CellType[_CELL[points.shape[1]]], degree)
-    return np.asarray(element.tabulate(1, points))[1:, :, :, 0]
-
-
-def lagrange_shapes(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Lagrange shape functions of the reference quadrilateral or hexahedron, (n_points, n_nodes) [-]."""
-    cell = basix.CellType[_CELL[points.shape[1]]]
-    element = basix.create_element(basix.ElementFamily.P, cell, degree)
-    return np.asarray(element.tabulate(0, points))[0, :, :, 0]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class FacetRule:
-    """Gauss rule on the facets of the reference cell, one block for each facet of it.
-
-    Attributes
-    ----------
-    points : (kinds, q, dim) reference points of the cell
-    weights : (q,)
-    edges : (kinds, dim - 1, dim) reference vectors along the facet's axes
-    closure : (kinds, k) numbers of the cell's functions that live on the facet
-    shapes : (kinds, q, k) those functions at the points
-    """
-
-    points: NDArray[np.float64]
-    weights: NDArray[np.float64]
-    edges: NDArray[np.float64]
-    closure: NDArray[np.int64]
-    shapes: NDArray[np.float64]
-
-
-def facet_rule(V: Any, line: tuple[NDArray[np.float64], NDArray[np.float64]]) -> FacetRule:
-    """Tensor product of a rule on [0, 1], points and weights, on each facet, with the shape functions of V."""
-    element = V.element.basix_element
-    vertices, corners = basix.geometry(element.cell_type), basix.topology(element.cell_type)
-    dim = vertices.shape[1]
-    axes = dim - 1
-    flat = np.stack(np.meshgrid(*[line[0]] * axes, indexing="ij"), axis=-1).reshape(-1, axes)
-    weights = functools.reduce(np.multiply.outer, [line[1]] * axes).ravel()
-    first = np.array([[vertices[k] for k in facet] for facet in corners[dim - 1]])
-    edges = np.stack([first[:, 2**axis] - first[:, 0] for axis in range(dim - 1)], axis=1)
-    points = first[:, None, 0] + np.einsum("qa,fad->fqd", flat, edges)
-    closure = np.array(element.entity_closure_dofs[dim - 1])
-    tables = [element.tabulate(0, on_facet)[0, :, nodes, 0].T for on_facet, nodes in zip(points, closure, strict=True)]
-    return FacetRule(points=points, weights=weights, edges=edges, closure=closure, shapes=np.stack(tables))
-
-
-def reference_edge(local_edge: int) -> NDArray[np.float64]:
-    """End points of an edge of the reference hexahedron, (2, 3) [-]."""
-    ends = basix.topology(basix.CellType.hexahedron)[1][local_edge]
-    return np.asarray(basix.geometry(basix.CellType.hexahedron))[ends]
-
-
-def sum_shared(function: Function) -> NDArray[np.float64]:
-    """Own values of a function after the other processes' contributions have been added."""
-    function.x.scatter_reverse(dolfinx.la.InsertMode.add)
-    own = function.function_space.dofmap.index_map.size_local * function.function_space.dofmap.index_map_bs
-    return np.array(function.x.array[:own])
-
-
-def global_norm(own: NDArray[np.float64]) -> float:
-    """Euclidean norm of a vector of which each process holds its own entries."""
-    local = float(np.linalg.norm(own))
-    return local if COMM.size == 1 else float(np.sqrt(COMM.allreduce(local * local)))
-
-
-def global_dot(own: NDArray[np.float64], other: NDArray[np.float64]) -> float:
-    """Scalar product of two vectors of which each process holds its own entries."""
-    local = float(own @ other)
-    return local if COMM.size == 1 else float(COMM.allreduce(local))
-
-
-def largest_of_all[Number: (np.float64, np.int64)](local: NDArray[Number]) -> NDArray[Number]:
-    """Largest value over the processes, entry by entry."""
-    if COMM.size == 1:
-        return local
-    largest = np.empty_like(local)
-    COMM.Allreduce(np.ascontiguousarray(local), largest, op=MPI.MAX)
-    return largest
 
 
 def compile_form(expression: Expr) -> Any:
@@ -285,14 +188,18 @@ def create_matrix(
         pattern.insert(nodes, nodes)
     pattern.finalize()
     matrix: PETSc.Mat = dolfinx.cpp.la.petsc.create_matrix(COMM, pattern)
-    symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
-    matrix.setOption(symmetric, True)
+    _call_symmetric(matrix)
     size = matrix.getBlockSize()
     for nodes in couplings:  # PETSc drops room that nothing has been written to
         rows = (size * nodes[:, None] + np.arange(size)).ravel().astype(np.int32)
         add_block(matrix, rows, np.zeros((len(rows), len(rows))))
     flush(matrix)
     return matrix
+
+
+def _call_symmetric(matrix: PETSc.Mat) -> None:
+    symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
+    matrix.setOption(symmetric, True)
 
 
 def flush(matrix: PETSc.Mat) -> None:
@@ -328,8 +235,7 @@ def shared_matrix(csr: Any) -> PETSc.Mat:
     indptr: Any = np.ascontiguousarray(csr.indptr, dtype=PETSc.IntType)
     indices: Any = np.ascontiguousarray(csr.indices, dtype=PETSc.IntType)
     matrix = PETSc.Mat().createAIJWithArrays((size, size), (indptr, indices, csr.data), comm=PETSc.COMM_SELF)
-    symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
-    matrix.setOption(symmetric, True)
+    _call_symmetric(matrix)
     return matrix
 
 
@@ -358,8 +264,7 @@ def distributed_matrix(
     else:  # petsc4py of PETSc 3.22 (Debian 13)
         matrix.setUp()
         matrix.setAttr("coordinates", coordinates)
-    symmetric: Any = PETSc.Mat.Option.SYMMETRIC  # the stubs give the options the wrong type
-    matrix.setOption(symmetric, True)
+    _call_symmetric(matrix)
     return matrix
 
 
@@ -380,22 +285,3 @@ def _add_triples(matrix: Any, values: NDArray[np.float64]) -> None:
         matrix.zeroEntries()
     matrix.setValuesRCV(rows[:, None], columns[:, None], values[:, None, None], addv=PETSc.InsertMode.ADD_VALUES)
     matrix.assemble()
-
-
-class PointEvaluation:
-    """Compiled UFL expression at fixed reference points, evaluated for chosen cells.
-
-    Parameters
-    ----------
-    expression : UFL expression
-    points : (n_points, dim) reference points
-    """
-
-    def __init__(self, expression: Expr, points: NDArray[np.float64]) -> None:
-        self._compiled = fem.Expression(expression, points, jit_options=JIT_OPTIONS)
-        self._shape = (len(points), *expression.ufl_shape)
-
-    def __call__(self, mesh: Mesh, cells: NDArray[np.int32]) -> NDArray[np.float64]:
-        """Values, (n_cells, n_points, *shape)."""
-        values = np.asarray(self._compiled.eval(mesh, cells))  # 0.9 gives them flat, (n_cells, n_points * size)
-        return values.reshape(len(cells), *self._shape)

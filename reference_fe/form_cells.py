@@ -11,6 +11,7 @@ from reference_fe import hyperelastic as law_of
 from reference_fe.discretisation import Discretisation
 from reference_fe.dolfinx_api import Expr, fem, ufl
 from reference_fe.domain import Domain
+from reference_fe.point_evaluation import PointEvaluation
 
 __all__ = ["FormCells"]
 
@@ -55,8 +56,8 @@ class FormCells:
         self.tangent = domain.width * (ufl.inner(CC_dE, dE_v) + geometric) * dx
         points, _ = api.gauss_rule(choice.gauss_points)
         increment = law_of.stress_increment(choice.law, u, du, lame, stretch)
-        self._extrapolated = api.PointEvaluation(S + increment, points)
-        self._current = api.PointEvaluation(S, points)
+        self._extrapolated = PointEvaluation(S + increment, points)
+        self._current = PointEvaluation(S, points)
         self._mesh, self._cells = mesh, domain.cells_of(parts)
 
     def store_stress(self, *, extrapolate: bool) -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe import process_sums, reference_cell
 from reference_fe.dolfinx_api import fem, ufl
 from reference_fe.domain import Domain
 from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Load, Traction
@@ -73,11 +74,11 @@ def edge_load_vector(domain: Domain, V: api.Expr, load: EdgeLoad) -> NDArray[np.
     along = rule[:, 0]
     for edge in edges:
         cell, local = domain.cell_of_edge(edge)
-        start, end = api.reference_edge(local)
+        start, end = reference_cell.reference_edge(local)
         points = start + along[:, None] * (end - start)
-        gradients = api.lagrange_gradients(domain.tagged.order, points)
+        gradients = reference_cell.lagrange_gradients(domain.tagged.order, points)
         jacobian = np.einsum("kpn,k,nx->px", gradients, end - start, mesh.geometry.x[nodes_of[cell]])
         length = weights * np.linalg.norm(jacobian, axis=1)
         shape = V.element.basix_element.tabulate(0, points)[0, :, :, 0]
         nodal[V.dofmap.cell_dofs(cell)] += np.outer(length @ shape, load.vector)
-    return api.sum_shared(forces)
+    return process_sums.sum_shared(forces)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from reference_fe import dolfinx_api as api
+from reference_fe import process_sums
 
 __all__ = ["NearbySolver"]
 
@@ -58,7 +58,7 @@ class NearbySolver:
         x, left = np.zeros_like(b), b.copy()
         images, directions = list[Array](), list[Array]()
         for j in range(self._capacity):
-            size = api.global_norm(left)
+            size = process_sums.global_norm(left)
             if size <= tolerance:
                 break
             if j == len(self._w):
@@ -66,18 +66,18 @@ class NearbySolver:
                 self._z.append(self._solve(self._w[j]))
             z = self._z[j].copy()
             image = self._w[j] + change(z)
-            whole = max(1.0, api.global_norm(image))
+            whole = max(1.0, process_sums.global_norm(image))
             for other, direction in zip(images, directions, strict=True):
-                share = api.global_dot(other, image)
+                share = process_sums.global_dot(other, image)
                 image -= share * other
                 z -= share * direction
-            length = api.global_norm(image)
+            length = process_sums.global_norm(image)
             if length <= DEPENDENT * whole:
                 if j + 1 < len(self._w):
                     continue
                 break  # nor would the next direction help: K + D is singular
             image, z = image / length, z / length
-            share = api.global_dot(image, left)
+            share = process_sums.global_dot(image, left)
             x += share * z
             left -= share * image
             images.append(image)

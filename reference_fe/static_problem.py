@@ -20,6 +20,7 @@ from contracts.errors import InputError
 from contracts.materials import Material
 from reference_fe import dolfinx_api as api
 from reference_fe import hyperelastic as law_of
+from reference_fe import process_sums
 from reference_fe.compiled_cells import CompiledCells
 from reference_fe.contact_obstacle import ObstacleContact, ObstacleTerm
 from reference_fe.contact_touch import check_touch
@@ -30,6 +31,7 @@ from reference_fe.elastic_fields import cell_moduli, elastic_fields
 from reference_fe.form_cells import FormCells
 from reference_fe.hyperelastic import MaterialLaw
 from reference_fe.loads import edge_force, virtual_work
+from reference_fe.point_evaluation import PointEvaluation
 from reference_fe.support_dofs import build_supports
 from reference_fe.supports import EdgeLoad, EndMoment, Load, Support
 from reference_fe.surface_assembly import SurfaceAssembly
@@ -219,7 +221,7 @@ class StaticProblem:
         F = self._deformation_gradient(self.domain.mesh, self._flexible_cells)
         squared = np.linalg.eigvalsh(np.swapaxes(F, -1, -2) @ F)[..., 0]
         stretch = np.sqrt(np.maximum(squared, 0.0)) * np.sign(np.linalg.det(F))
-        return -float(api.largest_of_all(np.max(-stretch, keepdims=True, initial=-np.inf).ravel())[0])
+        return -float(process_sums.largest_of_all(np.max(-stretch, keepdims=True, initial=-np.inf).ravel())[0])
 
     def nodal_displacement(self) -> NDArray[np.float64]:
         """Displacement at the nodes of the tagged mesh, (n_points, dim) [m]."""
@@ -234,7 +236,7 @@ class StaticProblem:
         out = np.full_like(self.domain.tagged.points, -np.inf)
         here = np.unique(nodes[: mesh.topology.index_map(mesh.topology.dim).size_local])
         out[mesh.geometry.input_global_indices[here]] = local[here]
-        out = api.largest_of_all(out)
+        out = process_sums.largest_of_all(out)
         return np.where(np.isneginf(out), 0.0, out)  # nodes without a cell
 
     def _check_parts(self, supports: Sequence[Support]) -> None:
@@ -265,7 +267,7 @@ class StaticProblem:
             if isinstance(load, EndMoment):
                 tangent = _sum(tangent, -ufl.derivative(work, u, w))
         points, _ = api.gauss_rule(choice.gauss_points)
-        self._deformation_gradient = api.PointEvaluation(law_of.deformation_gradient(u), points)
+        self._deformation_gradient = PointEvaluation(law_of.deformation_gradient(u), points)
         self._residual_form = None if residual is None else api.compile_form(residual)
         self._tangent_form = None if tangent is None else api.compile_form(tangent)
 

@@ -7,6 +7,7 @@ import numpy as np
 from reference_fe import dolfinx_api as api
 from reference_fe.dolfinx_api import ufl
 from reference_fe.hyperelastic import stored_energy_density
+from reference_fe.point_evaluation import PointEvaluation
 from reference_fe.static_problem import StaticProblem
 
 __all__ = ["StoredEnergy"]
@@ -26,7 +27,7 @@ class StoredEnergy:
         points, self._weights = api.gauss_rule(choice.gauss_points)
         density = stored_energy_density(choice.law, problem.u, problem.lame, problem.stretch)
         volume = domain.width * abs(ufl.JacobianDeterminant(domain.mesh))
-        self._at_points = api.PointEvaluation(density * volume, points)
+        self._at_points = PointEvaluation(density * volume, points)
         self._mesh, self._cells = domain.mesh, domain.cells_of(problem.materials)
 
     def value(self) -> float:

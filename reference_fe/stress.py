@@ -6,7 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe import dolfinx_api as api
+from reference_fe import process_sums, reference_cell
 from reference_fe.hyperelastic import von_mises_cauchy
+from reference_fe.point_evaluation import PointEvaluation
 from reference_fe.static_problem import StaticProblem
 
 __all__ = ["StressRecovery"]
@@ -30,7 +32,7 @@ class StressRecovery:
         law = problem.discretisation.law
         expression = von_mises_cauchy(law, problem.u, problem.lame, problem.stretch, problem.transverse_strain)
         points, self._to_nodes = _stations(domain.tagged.order, domain.dim, problem.discretisation.gauss_points[0])
-        self._at_stations = api.PointEvaluation(expression, points)
+        self._at_stations = PointEvaluation(expression, points)
         self._rows = {part: np.searchsorted(self._cells, domain.cells_of([part])) for part in problem.materials}
 
     def cell_stations(self) -> NDArray[np.float64]:
@@ -42,7 +44,7 @@ class StressRecovery:
         """Largest von Mises stress of each deformable part at the stations [Pa]."""
         values = self.cell_stations()
         largest = np.array([values[rows].max(initial=0.0) for rows in self._rows.values()])
-        return dict(zip(self._rows, api.largest_of_all(largest).tolist(), strict=True))
+        return dict(zip(self._rows, process_sums.largest_of_all(largest).tolist(), strict=True))
 
     def nodal_von_mises(self) -> NDArray[np.float64]:
         """Stress extrapolated to and averaged at each node of the tagged mesh, (n_points,) [Pa]; 0 on rigid parts."""
@@ -57,7 +59,7 @@ class StressRecovery:
 
 def _stations(order: int, dim: int, gauss_points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Stress stations (n, dim) in the reference cell and the extrapolation from them to its nodes, (n_nodes, n)."""
-    nodes = api.lagrange_points(order, dim)
+    nodes = reference_cell.lagrange_points(order, dim)
     along = np.unique(api.gauss_rule((gauss_points,))[0][:, 0])
     across = np.unique(np.round(nodes[:, 1:], 12), axis=0)
     stations = np.array([[x, *yz] for yz in across for x in along])

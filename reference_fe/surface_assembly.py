@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe import process_sums
 from reference_fe.surface_term import SurfaceForces, SurfaceTerm, TermState
 from reference_fe.whole_body import WholeBody
 
@@ -80,7 +81,7 @@ class SurfaceAssembly:
         total[:] = 0.0
         for batch in self._batches:
             _add_forces(batch.nodes, batch.force, total)
-        force = api.sum_shared(self._forces)
+        force = process_sums.sum_shared(self._forces)
         if self.whole is not None:
             everywhere = self.whole.gathered(u)
             force += self.whole.own_force([term.evaluate(everywhere, lag) for term in self._whole_terms])
@@ -98,7 +99,7 @@ class SurfaceAssembly:
         total[:] = 0.0
         for batch in stiffness.local:
             _add_products(batch.nodes, batch.stiffness, x.array, total)
-        product = api.sum_shared(self._forces)
+        product = process_sums.sum_shared(self._forces)
         if self.whole is not None:
             product += self.whole.own_product(stiffness.whole, self.whole.gathered(x.array))
         return product

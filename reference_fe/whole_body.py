@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe import dolfinx_api as api
+from reference_fe import process_sums
 from reference_fe.surface_term import SurfaceForces
 
 __all__ = ["WholeBody", "global_nodes"]
@@ -53,7 +54,7 @@ class WholeBody:
         known = u.reshape(len(self._numbers), -1)
         whole = np.full((self._size, known.shape[1]), -np.inf)
         whole[self._numbers] = known
-        return api.largest_of_all(whole).ravel()
+        return process_sums.largest_of_all(whole).ravel()
 
     def own_force(self, batches: Sequence[SurfaceForces]) -> Array:
         """Force at this process' own unknowns [N]; keeps the stiffness of the batches' own rows for `own_stiffness`."""
