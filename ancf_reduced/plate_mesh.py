@@ -21,7 +21,7 @@ from scipy.spatial import cKDTree
 
 from contracts.errors import InputError, MeshError
 
-__all__ = ["PlateMesh", "PlatePatch", "build_plate_mesh", "flat_patch"]
+__all__ = ["PlateMesh", "PlatePatch", "build_plate_mesh", "flat_patch", "join_meshes"]
 
 FloatArray = NDArray[np.float64]
 
@@ -189,6 +189,31 @@ def build_plate_mesh(patches: Sequence[PlatePatch], tolerance: float = 1e-9) -> 
         gradients=np.array([patch.gradients for patch in patches]),
         dimensions=np.array([patch.dimensions for patch in patches]),
         parts=tuple(patch.part for patch in patches),
+    )
+
+
+def join_meshes(meshes: Sequence[PlateMesh]) -> PlateMesh:
+    """Several meshes as one, e.g. a rover's six wheels; nothing is shared between them, wherever they lie.
+
+    Nodes and plates keep their order, those of the first mesh first. `vector_coordinates.side_by_side` joins what holds
+    them in the same order.
+
+    Raises
+    ------
+    MeshError
+        If there is no mesh.
+
+    Verified by tests/verification/test_ancf_six_wheels.py.
+    """
+    if not meshes:
+        raise MeshError("joining needs one mesh or more: give at least one PlateMesh")
+    starts = np.cumsum([0, *(len(mesh.points) for mesh in meshes[:-1])])
+    return PlateMesh(
+        points=np.concatenate([mesh.points for mesh in meshes]),
+        elements=np.concatenate([mesh.elements + start for mesh, start in zip(meshes, starts, strict=True)]),
+        gradients=np.concatenate([mesh.gradients for mesh in meshes]),
+        dimensions=np.concatenate([mesh.dimensions for mesh in meshes]),
+        parts=tuple(part for mesh in meshes for part in mesh.parts),
     )
 
 

@@ -23,17 +23,19 @@ from numpy.typing import NDArray
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
+from ancf_reduced.contact_grid import build_contact_grid  # noqa: E402
 from ancf_reduced.contact_law import ContactLaw  # noqa: E402
-from ancf_reduced.explicit_dynamics import integrate_explicit  # noqa: E402
+from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit  # noqa: E402
 from ancf_reduced.plate_contact import PlateContact  # noqa: E402
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch  # noqa: E402
+from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch, join_meshes  # noqa: E402
 from ancf_reduced.plate_model import PlateModel, build_plate_model  # noqa: E402
-from ancf_reduced.plate_system import HubMass  # noqa: E402
+from ancf_reduced.plate_system import HubMass, PlateSystem, build_plate_system  # noqa: E402
 from ancf_reduced.spectrum import stable_step  # noqa: E402
 from ancf_reduced.static_tire import solve_tire  # noqa: E402
-from ancf_reduced.tire_mesh import build_tire  # noqa: E402
+from ancf_reduced.tire_mesh import RIM, Tire, build_tire  # noqa: E402
 from ancf_reduced.tire_preset import thesis_preset  # noqa: E402
-from ancf_reduced.wheel_rig import wheel_rig  # noqa: E402
+from ancf_reduced.vector_coordinates import side_by_side, with_reference_node  # noqa: E402
+from ancf_reduced.wheel_rig import MARS_GRAVITY, wheel_rig  # noqa: E402
 from contracts.height_field import sampled_terrain  # noqa: E402
 from contracts.terrain import Plane, Terrain  # noqa: E402
 from contracts.terrain_ridges import HalfRound, Sinusoid  # noqa: E402
@@ -64,7 +66,7 @@ TANGENT_FLOPS_POINT = 2 * (81 * 7 + 48 * 9 * 2 + (16 * 17 // 2) * 9 * 2)
 
 def main() -> None:
     """Measure, print, write."""
-    rows = [*tire_rows(), *contact_rows(), curves_row(), *motion_rows(), *mesh_rows()]
+    rows = [*tire_rows(), *contact_rows(), curves_row(), *motion_rows(), *six_wheels_rows(), *mesh_rows()]
     OUT.parent.mkdir(parents=True, exist_ok=True)
     OUT.write_text(json.dumps({"schema": 1, "name": "ancf_tire", "rows": rows}, indent=1) + "\n", encoding="utf-8")
     for r in rows:
@@ -147,6 +149,52 @@ def motion_rows() -> list[dict[str, object]]:
             row(case, f"faster than real time (target {TARGETS['real time']:g})", "-", 1e6 * seconds / spent),
         ]
     return rows
+
+
+def six_wheels_rows() -> list[dict[str, object]]:
+    """Six of these wheels as one mesh against one: all forces on the system, and one explicit step."""
+    tire, seconds = build_tire(replace(thesis_preset(), quadrature=QUADRATURE)), 0.05
+    times_us, steps_us = [], []
+    for wheels in (1, 6):
+        system, start = wheels_on_the_ground(tire, wheels)
+        step, end = stable_step(system, start.z), np.array([seconds])
+        times_us.append(shortest(lambda s=system, b=start: s.force(b.z, b.v)))  # type: ignore[misc]
+        spent = shortest(lambda s=system, b=start, e=end, h=step: list(integrate_explicit(s, b, e, h)))  # type: ignore[misc]
+        steps_us.append(spent * step / seconds)
+    case = "six wheels, one mesh"
+    return [
+        row(case, "all forces", "us", times_us[1]),
+        row(case, "all forces, over those of one wheel", "-", times_us[1] / times_us[0]),
+        row(case, "one step", "us", steps_us[1]),
+        row(case, "one step, over that of one wheel", "-", steps_us[1] / steps_us[0]),
+    ]
+
+
+def wheels_on_the_ground(tire: Tire, wheels: int) -> tuple[PlateSystem, MotionState]:
+    """Wheels of 25 kg in one mesh, 10 mm deep in level ground, half a metre apart."""
+    mesh = join_meshes([tire.mesh] * wheels)
+    preset = tire.preset
+    model = build_plate_model(
+        mesh,
+        young_modulus=preset.young_modulus,
+        poisson_ratio=preset.poisson_ratio,
+        density=preset.density,
+        quadrature=preset.quadrature,
+    )
+    grid = build_contact_grid(mesh, mesh.plates_of(RIM), preset.contact_points, preset.contact_layout)
+    contact = PlateContact(grid=grid, terrain=Plane().pieces(), law=ContactLaw(stiffness=preset.contact_stiffness))
+    system = build_plate_system(
+        model,
+        side_by_side([with_reference_node(tire.tie)] * wheels),
+        gravity=np.array([0.0, 0.0, -MARS_GRAVITY]),
+        hubs=(HubMass(mass=25.0, inertia=0.1 * np.eye(3)),) * wheels,
+        external=(contact,),
+    )
+    z = system.reference()
+    rows = system.coordinates.position_rows.reshape(wheels, -1)
+    for k in range(wheels):
+        z[rows[k]] += [0.5 * k, 0.0, preset.outer_radius - 0.01]
+    return system, MotionState(time=0.0, z=z, v=np.zeros_like(z))
 
 
 def mesh_rows() -> list[dict[str, object]]:
