@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,9 +9,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.csv_table import CsvTable, TableRule, read_table, table_text
 from contracts.errors import InputError
 
 __all__ = ["StiffnessCurve", "average_curve", "read_curve", "write_curve"]
+
+_RULE = TableRule(
+    what="curve file", first=("deflection_m", "load_N"), units="give deflection in metres and load in newtons"
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,16 +129,10 @@ def average_curve(curves: Sequence[StiffnessCurve], step: float = 0.5e-3) -> Sti
 def write_curve(curve: StiffnessCurve, path: Path) -> None:
     """Write ``deflection_m,load_N`` and the further columns as CSV with a source line (comment)."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    names = ["deflection_m", "load_N", *curve.columns]
-    table = np.column_stack([curve.deflection, curve.load, *curve.columns.values()])
-    with path.open("w", newline="", encoding="utf-8") as stream:
-        if curve.source:
-            stream.write(f"# source: {' '.join(curve.source.split())}\n")
-        if curve.partial:
-            stream.write("# partial: True\n")
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(names)
-        writer.writerows([[f"{value:.12g}" for value in row] for row in table])
+    names = ("deflection_m", "load_N", *curve.columns)
+    values = np.column_stack([curve.deflection, curve.load, *curve.columns.values()])
+    table = CsvTable(names=names, values=values, source=curve.source, partial=curve.partial)
+    path.write_text(table_text(table), encoding="utf-8", newline="")
 
 
 def read_curve(path: Path, model: str | None = None, orientation_deg: float | None = None) -> StiffnessCurve:
@@ -146,43 +144,16 @@ def read_curve(path: Path, model: str | None = None, orientation_deg: float | No
         If the file is missing, empty, without these two columns, holds text where a number belongs, or has rows
         that do not match its header.
     """
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError("curve file", path, f"cannot be read ({type(error).__name__})", "check the path") from error
-    comments = [line[1:].strip() for line in lines if line.startswith("#")]
-    partial = "partial: True" in comments
-    names, table = _table([line for line in lines if line.strip() and not line.startswith("#")], path, partial)
-    source = next((c.removeprefix("source:").strip() for c in comments if c.startswith("source:")), "")
+    table = read_table(path, _RULE)
     try:
         return StiffnessCurve(
             model=model or path.stem,
             orientation_deg=orientation_deg,
-            deflection=table[:, 0],
-            load=table[:, 1],
-            columns={name: table[:, 2 + i] for i, name in enumerate(names[2:])},
-            source=source,
-            partial=partial,
+            deflection=table.values[:, 0],
+            load=table.values[:, 1],
+            columns={name: table.values[:, 2 + i] for i, name in enumerate(table.names[2:])},
+            source=table.source,
+            partial=table.partial,
         )
     except InputError as error:
         raise InputError("curve file", path, f"{error.what} {error.rule}", error.hint) from error
-
-
-def _table(lines: list[str], path: Path, partial: bool) -> tuple[list[str], NDArray[np.float64]]:
-    """Header names and the (n, n_columns) numbers below them; raises InputError where they do not fit together.
-
-    Two rows or more; one is enough for a partial curve.
-    """
-    try:
-        rows = list(csv.reader(lines))
-        names = [name.strip() for name in rows[0]] if rows else []
-        table = np.array([[float(value) for value in row] for row in rows[1:]], dtype=np.float64)
-    except (ValueError, csv.Error) as error:
-        raise InputError("curve file", path, f"has a bad row ({error})", "every cell must be a number") from error
-    if len(rows) < 3 - partial or names[:2] != ["deflection_m", "load_N"]:
-        rule = "must have a header deflection_m,load_N and two or more rows"
-        raise InputError("curve file", path, rule, "give deflection in metres and load in newtons")
-    if table.shape[1] != len(names):
-        rule = f"has {table.shape[1]} values a row under {len(names)} headers"
-        raise InputError("curve file", path, rule, "give every column a header and every row all columns")
-    return names, table

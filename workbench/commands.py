@@ -64,7 +64,8 @@ def run_report(study_path: Path | None, out: Path, store: Path, computing: Compu
     curves = [*found.fe.by_orientation.values(), found.fe.average]
     curves += [*found.ancf.by_orientation.values(), found.ancf.average, found.brush]
     curves += [curve for topic in topics_of(study) for curve in topic.curves(study, found.topics[topic.name])]
-    publish(out, texts, curves, _field_files(entries))
+    series = [one for topic in topics_of(study) for one in topic.series(study, found.topics[topic.name])]
+    publish(out, texts, curves, _field_files(entries), series)
     _print_checks(found.checks)
     console.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)
     _complain_of_early_ends(path, origin["partial"])

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
+from contracts.series import TimeSeries
 from workbench.figures_plotly import empty_figure, figure_html
 from workbench.palette import INK, MODEL_COLOURS
 
 __all__ = ["motion_figure"]
 
 
-def motion_figure(name: str, series: NDArray[np.float64], radius: float) -> str:
+def motion_figure(name: str, series: TimeSeries, radius: float) -> str:
     """Height of the hub over the nominal radius [mm] and load of the ground [N] against time.
 
-    series : (n, 5), columns time_s, hub_x_m, hub_z_m, load_x_N, load_z_N
+    series : with the columns hub_z_m and load_z_N
     """
     figure = empty_figure("time [s]", "vertical load [N]")
-    time, height, load = series[:, 0], 1e3 * (series[:, 2] - radius), series[:, 4]
+    time, height, load = series.time, 1e3 * (series["hub_z_m"] - radius), series["load_z_N"]
     line = {"color": MODEL_COLOURS["ancf"], "width": 2.5}
     figure.add_scatter(x=time, y=load, name="load", mode="lines", line=line, hovertemplate="%{y:.0f} N")
     figure.add_scatter(

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -16,7 +16,9 @@ from xml.etree import ElementTree
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import InputError
 from contracts.records import Check, Timing
+from contracts.series import TimeSeries, write_series
 from workbench.comparison import overall_status
+from workbench.series import SERIES_FOLDER, is_ours, series_files
 
 __all__ = ["check_folder", "check_targets", "copy_files", "curve_file", "junit", "publish", "summary", "to_json"]
 
@@ -70,6 +72,7 @@ def publish(
     texts: Mapping[str, str],
     curves: Sequence[StiffnessCurve] = (),
     fields: Mapping[str, Path] | None = None,
+    series: Sequence[TimeSeries] = (),
 ) -> None:
     """Write everything beside ``out`` first, then move it in; our files of an earlier run that are gone are removed.
 
@@ -79,14 +82,18 @@ def publish(
     texts : file name -> content; the last one is moved last and so marks a complete set
     curves : written to ``out/curves``
     fields : file name -> file to copy to ``out/fields``
+    series : written to ``out/series``
 
     Raises
     ------
     InputError
-        If a folder stands where a file belongs, or a file where a folder belongs; nothing was moved then.
+        If a folder stands where a file belongs, or a file where a folder belongs, or two series have one name; nothing
+        was moved then.
     """
+    named = series_files(series)
     out.mkdir(parents=True, exist_ok=True)
     names = [*texts, *(f"curves/{curve_file(curve)}" for curve in curves), *(f"fields/{name}" for name in fields or {})]
+    names += [f"{SERIES_FOLDER}/{name}" for name in named]
     check_targets(out, names if fields is None else [*names, "fields/.vtu"])
     _sweep(out)
     fresh = out / f".new-{os.getpid()}"
@@ -95,14 +102,18 @@ def publish(
         (fresh / "fields").mkdir()
         for curve in curves:
             write_curve(curve, fresh / "curves" / curve_file(curve))
+        for name, one in named.items():
+            write_series(one, fresh / SERIES_FOLDER / name)
         for name, path in (fields or {}).items():
             shutil.copyfile(path, fresh / "fields" / name)
         for name, text in texts.items():
             (fresh / name).write_text(text, encoding="utf-8")
         if curves:
-            _replace_files(fresh / "curves", out / "curves", ".csv")
+            _replace_files(fresh / "curves", out / "curves", _is_curve_or_field)
+        if named:
+            _replace_files(fresh / SERIES_FOLDER, out / SERIES_FOLDER, is_ours)
         if fields is not None:
-            _replace_files(fresh / "fields", out / "fields", ".vtu")
+            _replace_files(fresh / "fields", out / "fields", _is_curve_or_field)
         for name in texts:
             (fresh / name).replace(out / name)
     finally:
@@ -116,14 +127,18 @@ def _sweep(out: Path) -> None:
             shutil.rmtree(left, ignore_errors=True)
 
 
-def _replace_files(fresh: Path, target: Path, suffix: str) -> None:
+def _is_curve_or_field(name: str) -> bool:
+    return name.startswith(("fe_", "section_", "ancf_", "brush_")) and name.endswith((".csv", ".vtu"))
+
+
+def _replace_files(fresh: Path, target: Path, is_ours: Callable[[str], bool]) -> None:
     """Move files in, then remove those of ours that the new set does not have."""
     target.mkdir(exist_ok=True)
     names = {path.name for path in fresh.iterdir()}
     for path in fresh.iterdir():
         path.replace(target / path.name)
-    for old in target.glob(f"*{suffix}"):
-        if old.name.startswith(("fe_", "section_", "ancf_", "brush_")) and old.name not in names:
+    for old in target.iterdir():
+        if is_ours(old.name) and old.name not in names:
             old.unlink()
 
 

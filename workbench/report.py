@@ -20,6 +20,7 @@ from workbench.comparison import Comparison, overall_status
 from workbench.figures_plotly import ancf_figure, fe_figure, models_figure, plotly_script, stress_figure
 from workbench.number_format import displayed, displayed_reference
 from workbench.palette import PART_COLOURS
+from workbench.series import series_links
 from workbench.study import Study
 from workbench.topics import topics_of
 
@@ -75,6 +76,7 @@ def render(content: PageContent) -> str:
         "provenance": content.provenance,
         "metrics": _metric_rows(found),
         "agreements": found.agreements,
+        "series": series_links([s for t in topics_of(study) for s in t.series(study, found.topics[t.name])]),
         "colours": PART_COLOURS,
     }
     texts = {section.name: _section_text(environment, section, values, lacking) for section in values["sections"]}

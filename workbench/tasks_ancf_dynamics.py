@@ -5,8 +5,6 @@ Verified by tests/unit/test_workbench_ancf_dynamics.py.
 
 from __future__ import annotations
 
-import csv
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -25,6 +23,7 @@ from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import TirePreset
 from ancf_reduced.wheel_rig import WheelRig, wheel_rig
 from contracts.errors import ConvergenceError
+from contracts.series import TimeSeries, write_series
 from contracts.terrain import Plane, TerrainUnion
 from contracts.terrain_ridges import HalfRound
 from workbench.result_files import write_result
@@ -50,7 +49,7 @@ def move_wheel(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, 
             progress(state.time / inputs["end"])
     except ConvergenceError as error:
         message = str(error)
-    _write_series(out / "series.csv", rig, states)
+    write_series(_series(inputs, rig, states, partial=message is not None), out / "series.csv")
     heights = np.array([rig.hub(s.z)[2] for s in states])
     numbers: dict[str, Any] = {
         "closure": account.closure() if message is None else None,
@@ -96,12 +95,16 @@ def _by_implicit(
     return {"implicit_difference_m": float(np.abs(heights - explicit).max()), "implicit_steps": len(steps)}
 
 
-def _write_series(path: Path, rig: WheelRig, states: Sequence[MotionState]) -> None:
-    """Hub and load against time; units in the header."""
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["time_s", "hub_x_m", "hub_z_m", "load_x_N", "load_z_N"])
-        for state in states:
-            hub, load = rig.hub(state.z), rig.load(state)
-            row = [state.time, hub[0], hub[2], load[0], load[2]]
-            writer.writerow([f"{value:.9g}" if math.isfinite(value) else "" for value in row])
+def _series(inputs: Mapping[str, Any], rig: WheelRig, states: Sequence[MotionState], *, partial: bool) -> TimeSeries:
+    """Hub and load against time."""
+    hub, load = (np.array([of(state) for state in states]) for of in (lambda s: rig.hub(s.z), rig.load))
+    spacing = 1e3 * inputs["end"] / inputs["points"]
+    return TimeSeries(
+        scenario="motion",
+        tire="ancf",
+        time=np.array([state.time for state in states]),
+        columns={"hub_x_m": hub[:, 0], "hub_z_m": hub[:, 2], "load_x_N": load[:, 0], "load_z_N": load[:, 2]},
+        source=f"ANCF tire with {inputs['hub_mass']:g} kg on its hub, Mars gravity; x forward, z up from the ground, "
+        f"load of the ground on the wheel; explicit integration, a sample every {spacing:g} ms",
+        partial=partial,
+    )

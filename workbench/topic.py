@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from contracts.curves import StiffnessCurve
 from contracts.records import Check
+from contracts.series import TimeSeries
 from workbench.study import Study
 from workbench.task import Task
 
@@ -33,6 +34,10 @@ def _no_curves(study: Study, results: Any) -> Sequence[StiffnessCurve]:
     return ()
 
 
+def _no_series(study: Study, results: Any) -> Sequence[TimeSeries]:
+    return ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Topic:
     """One topic of the report.
@@ -46,6 +51,8 @@ class Topic:
     checks : study, the comparison of the models, the topic's results -> checks
     figures : study, the topic's results -> HTML of each figure by name; the template sees them as ``figures``
     curves : study, the topic's results -> curves to publish as CSV beside the models'
+    series : study, the topic's results -> time series to publish as CSV; the section links them by
+        ``series_link(name)`` of the macros
     applies : False leaves the topic out of this study's graph and report
     """
 
@@ -56,4 +63,5 @@ class Topic:
     checks: Callable[[Study, Comparison, Any], Sequence[Check]]
     figures: Callable[[Study, Any], Mapping[str, str]] = _no_figures
     curves: Callable[[Study, Any], Sequence[StiffnessCurve]] = _no_curves
+    series: Callable[[Study, Any], Sequence[TimeSeries]] = _no_series
     applies: Callable[[Study], bool] = _always

@@ -10,10 +10,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from contracts.records import Check
+from contracts.series import TimeSeries, read_series
 from workbench.check_rules import Claim, at_most
 from workbench.graph_fe import FILES
 from workbench.result_files import read_result
@@ -38,12 +36,12 @@ CLOSURE, AGREEMENT = 0.01, 0.02
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AncfMotion:
-    """One motion: what was asked, what was found, and its time series (n, 5) as in the CSV file."""
+    """One motion: what was asked, what was found, and its time series."""
 
     name: str
     title: str
     numbers: Mapping[str, Any]
-    series: NDArray[np.float64]
+    series: TimeSeries
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,6 +64,10 @@ _TITLES = {
     "drop_share": f"the same with {ROVER_SHARE:g} kg, the rover's share",
     "ride": f"ride over a half-round of {1e3 * ROCK:g} mm at {SPEED:g} m/s, {HUB_MASS:g} kg on the hub",
 }
+
+
+_SCENARIOS = {"drop": "drop", "drop_share": "drop_share", "ride": "half_round"}
+"""Motion -> its scenario's name in ``series/{scenario}_{tire}.csv``."""
 
 
 def _tasks(study: Study) -> Sequence[Task]:
@@ -104,7 +106,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> AncfMotions:
     motions = []
     for name, title in _TITLES.items():
         folder = folders[f"ancf_{name}"]
-        series = np.loadtxt(folder / "series.csv", delimiter=",", skiprows=1, ndmin=2)
+        series = read_series(folder / "series.csv", _SCENARIOS[name], "ancf")
         motions.append(AncfMotion(name=name, title=title, numbers=read_result(folder), series=series))
     return AncfMotions(radius=ancf_preset(study).outer_radius, motions=tuple(motions))
 
@@ -144,6 +146,16 @@ def _figures(study: Study, results: AncfMotions) -> Mapping[str, str]:
     return {motion.name: motion_figure(motion.name, motion.series, results.radius) for motion in results.motions}
 
 
+def _series(study: Study, results: AncfMotions) -> Sequence[TimeSeries]:
+    return [motion.series for motion in results.motions]
+
+
 ANCF_DYNAMICS = Topic(
-    name="ancf_dynamics", title="ANCF wheel in motion", tasks=_tasks, read=_read, checks=_checks, figures=_figures
+    name="ancf_dynamics",
+    title="ANCF wheel in motion",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    figures=_figures,
+    series=_series,
 )

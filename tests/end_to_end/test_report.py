@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import html
 import json
 import re
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 
 from contracts.curves import read_curve
+from contracts.series import read_series
 from tests.end_to_end.small_study import run, small_study_text
 
 TASKS = {
@@ -78,6 +80,24 @@ def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished
     fe = read_curve(folder / "fe_phi000.csv")
     assert fe.load[-1] > 10.0
     assert fe.deflection[-1] == pytest.approx(0.006)
+
+
+def test_time_series_are_csv_and_linked(first_report: Finished, workspace: Path) -> None:
+    """Named ``{scenario}_{tire}.csv``; the page holds each whole, behind a link of its section."""
+    folder = workspace / "report" / "series"
+    assert {p.name for p in folder.iterdir()} == {"drop_ancf.csv", "drop_share_ancf.csv", "half_round_ancf.csv"}
+    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    section = page[page.index('<section id="ancf_dynamics">') :].partition("</section>")[0]
+    for path in folder.iterdir():
+        text = path.read_text(encoding="utf-8")
+        source, header = text.splitlines()[:2]
+        assert source.startswith("# source: ANCF tire with ")
+        assert header == "time_s,hub_x_m,hub_z_m,load_x_N,load_z_N"
+        scenario = path.stem.removesuffix("_ancf")
+        assert np.all(np.diff(read_series(path, scenario, "ancf").time) > 0.0)
+        link = re.search(rf'href="data:text/csv;base64,([^"]+)" download="{path.name}"', section)
+        assert link, path.name
+        assert base64.b64decode(link[1]).decode("utf-8") == text
 
 
 def test_page_is_self_contained_and_shows_everything(first_report: Finished, workspace: Path) -> None:

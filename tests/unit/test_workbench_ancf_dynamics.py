@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from contracts.series import read_series
+from workbench.series import series_files
 from workbench.study_file import built_in_study, read_study
 from workbench.tasks_ancf_dynamics import move_wheel
 from workbench.topic_ancf_dynamics import ANCF_DYNAMICS, AncfMotions
@@ -28,10 +30,30 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> AncfMotions:
 
 def test_series_begin_as_asked(results: AncfMotions) -> None:
     drop, ride = results["drop"].series, results["ride"].series
-    np.testing.assert_allclose(drop[0], [0.0, 0.0, results.radius + 0.010, 0.0, 0.0], atol=1e-9)
-    assert drop[-1, 2] < drop[0, 2] - 0.015
-    assert ride[-1, 1] == pytest.approx(0.5 * 0.15, rel=0.1)
-    assert drop[:, 0] == pytest.approx(np.linspace(0.0, 0.15, 16))
+    first = {name: float(values[0]) for name, values in drop.columns.items()}
+    assert first == pytest.approx(
+        {"hub_x_m": 0.0, "hub_z_m": results.radius + 0.010, "load_x_N": 0.0, "load_z_N": 0.0}, abs=1e-9
+    )
+    assert drop["hub_z_m"][-1] < drop["hub_z_m"][0] - 0.015
+    assert ride["hub_x_m"][-1] == pytest.approx(0.5 * 0.15, rel=0.1)
+    assert drop.time == pytest.approx(np.linspace(0.0, 0.15, 16))
+
+
+def test_series_are_published_by_scenario_and_tire(results: AncfMotions) -> None:
+    published = series_files(ANCF_DYNAMICS.series(read_study(built_in_study()), results))
+    assert list(published) == ["drop_ancf.csv", "drop_share_ancf.csv", "half_round_ancf.csv"]
+    assert "25 kg on its hub" in published["drop_ancf.csv"].source
+    assert "48.8 kg on its hub" in published["drop_share_ancf.csv"].source
+    assert not published["drop_ancf.csv"].partial
+
+
+def test_a_motion_that_stops_is_marked_partial(tmp_path: Path) -> None:
+    """A hub far too heavy for the tire folds it: what was reached is kept and marked."""
+    task = next(t for t in ANCF_DYNAMICS.tasks(read_study(built_in_study())) if t.name == "ancf_drop_share")
+    move_wheel(task.inputs | {"hub_mass": 300.0, "end": 0.4, "points": 40}, {}, tmp_path, lambda fraction: None)
+    series = read_series(tmp_path / "series.csv", "drop_share", "ancf")
+    assert series.partial
+    assert 5 < len(series.time) < 41
 
 
 def test_energy_closes_and_integrators_agree(results: AncfMotions) -> None:

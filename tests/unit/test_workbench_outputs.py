@@ -12,6 +12,7 @@ import pytest
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check, Timing
+from contracts.series import TimeSeries
 from workbench.number_format import displayed, displayed_reference
 from workbench.outputs import check_folder, curve_file, junit, publish, summary, to_json
 from workbench.report import verdict
@@ -95,6 +96,23 @@ def test_publish_replaces_ours_and_leaves_the_rest(tmp_path: Path) -> None:
     assert (out / "report.html").read_text(encoding="utf-8") == "two"
     assert sorted(p.name for p in (out / "curves").iterdir()) == ["digitised.csv", "fe_phi000.csv"]
     assert sorted(p.name for p in out.iterdir()) == ["curves", "fields", "notes.txt", "report.html"]
+
+
+def _series(scenario: str, tire: str = "ancf") -> TimeSeries:
+    return TimeSeries(
+        scenario=scenario, tire=tire, time=np.array([0.0, 0.1]), columns={"hub_z_m": np.array([1.0, 2.0])}
+    )
+
+
+def test_series_are_published_and_replaced(tmp_path: Path) -> None:
+    """Those of an earlier run go, other people's files stay; two of one name are refused before anything is written."""
+    publish(tmp_path, {"report.html": "one"}, series=[_series("drop"), _series("drop", "brush")])
+    (tmp_path / "series" / "measured.csv").write_text("mine", encoding="utf-8")
+    publish(tmp_path, {"report.html": "two"}, series=[_series("ride")])
+    assert sorted(p.name for p in (tmp_path / "series").iterdir()) == ["measured.csv", "ride_ancf.csv"]
+    with pytest.raises(InputError, match=r"drop_ancf\.csv"):
+        publish(tmp_path / "new", {"report.html": "three"}, series=[_series("drop"), _series("drop")])
+    assert not (tmp_path / "new").exists()
 
 
 def test_a_publish_that_fails_leaves_the_earlier_set(tmp_path: Path) -> None:

@@ -1,0 +1,99 @@
+"""Tables of numbers as CSV: comment lines with ``#``, a header of names with units, rows.
+
+Two comments mean something: ``# source:`` says where the numbers come from, ``# partial: True`` that a run ended before
+its target. Verified by tests/unit/test_curves_csv.py and tests/unit/test_series.py.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+
+__all__ = ["CsvTable", "TableRule", "read_table", "table_text"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CsvTable:
+    """What a file says.
+
+    Attributes
+    ----------
+    names : of the columns, with their units
+    values : (n, n_columns) float
+    source : where the numbers come from, one line; empty if not said
+    partial : whether the run ended before its target
+    """
+
+    names: tuple[str, ...]
+    values: NDArray[np.float64]
+    source: str
+    partial: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableRule:
+    """What a kind of file must have: ``what`` it is called, its ``first`` names, words on ``units`` for the hint."""
+
+    what: str
+    first: tuple[str, ...]
+    units: str
+
+
+def table_text(table: CsvTable) -> str:
+    """The file's text; numbers with 12 digits."""
+    stream = io.StringIO()
+    if table.source:
+        stream.write(f"# source: {' '.join(table.source.split())}\n")
+    if table.partial:
+        stream.write("# partial: True\n")
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(table.names)
+    writer.writerows([[f"{value:.12g}" for value in row] for row in table.values])
+    return stream.getvalue()
+
+
+def read_table(path: Path, rule: TableRule) -> CsvTable:
+    """Read a file; byte order marks, blank lines and spaces in the header are no errors.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, empty, without the first names, holds text where a number belongs, or has rows that do
+        not match its header. Two rows or more; one is enough for a partial run.
+    """
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(rule.what, path, f"cannot be read ({type(error).__name__})", "check the path") from error
+    comments = [line[1:].strip() for line in lines if line.startswith("#")]
+    partial = "partial: True" in comments
+    names, values = _numbers([line for line in lines if line.strip() and not line.startswith("#")], path, rule, partial)
+    source = next((c.removeprefix("source:").strip() for c in comments if c.startswith("source:")), "")
+    return CsvTable(names=names, values=values, source=source, partial=partial)
+
+
+def _numbers(
+    lines: Sequence[str], path: Path, rule: TableRule, partial: bool
+) -> tuple[tuple[str, ...], NDArray[np.float64]]:
+    """Header names and the (n, n_columns) numbers below them; raises InputError where they do not fit together."""
+    try:
+        rows = list(csv.reader(lines))
+        names = tuple(name.strip() for name in rows[0]) if rows else ()
+        values = np.array([[float(value) for value in row] for row in rows[1:]], dtype=np.float64)
+    except (ValueError, csv.Error) as error:
+        raise InputError(rule.what, path, f"has a bad row ({error})", "every cell must be a number") from error
+    if len(rows) < 3 - partial or names[: len(rule.first)] != rule.first:
+        wanted = f"must have a header {','.join(rule.first)} and two or more rows"
+        raise InputError(rule.what, path, wanted, rule.units)
+    if values.shape[1] != len(names):
+        wrong = f"has {values.shape[1]} values a row under {len(names)} headers"
+        raise InputError(rule.what, path, wrong, "give every column a header and every row all columns")
+    return names, values
