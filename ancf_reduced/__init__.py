@@ -10,4 +10,5 @@ vector_coordinates, plate_system, mass_factor, linearisation, spectrum: equation
 explicit_dynamics, implicit_dynamics (rigid_triads, triad_equations), energy_account: their integration.
 tire_preset, tire_mesh, plane_problem, static_tire, tire_surfaces, wheel_rig: the airless tire, a client of the above.
 tire_parameters, load_sensitivity, curve_fit, fit_statistics: its parameters from measured or computed curves.
+verification: benchmarks with known answers.
 """

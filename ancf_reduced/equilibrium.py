@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,6 @@ __all__ = ["NewtonControls", "NewtonResult", "PathPoint", "follow_path", "newton
 
 FloatArray = NDArray[np.float64]
 System = Callable[[FloatArray], tuple[FloatArray, float]]
-Tangent = Callable[[FloatArray], FloatArray]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,15 +85,22 @@ class PathPoint:
     iterations: int
 
 
-def newton_solve(system: System, tangent: Tangent, start: FloatArray, controls: NewtonControls) -> NewtonResult:
+def newton_solve(
+    system: System,
+    tangent: Callable[[FloatArray], Any],
+    start: FloatArray,
+    controls: NewtonControls,
+    solve: Callable[[Any, FloatArray], FloatArray] = np.linalg.solve,
+) -> NewtonResult:
     """Solve residual(x) = 0 by full Newton steps.
 
     Parameters
     ----------
     system : x (n,) -> residual (n,) and the force scale it is held against, in the residual's unit
-    tangent : x (n,) -> d residual / d x, (n, n)
+    tangent : x (n,) -> d residual / d x, (n, n), full or sparse
     start : (n,) first iterate
     controls : tolerance and iteration limit
+    solve : matrix and right-hand side -> solution; ``scipy.sparse.linalg.spsolve`` for a sparse tangent
 
     Returns
     -------
@@ -110,7 +117,7 @@ def newton_solve(system: System, tangent: Tangent, start: FloatArray, controls: 
         if converged or not np.isfinite(residuals[-1]) or len(residuals) > controls.max_iterations:
             return NewtonResult(x=x, residuals=tuple(residuals), converged=converged)
         try:
-            x = x - np.linalg.solve(tangent(x), residual)
+            x = x - solve(tangent(x), residual)
         except np.linalg.LinAlgError:
             return NewtonResult(x=x, residuals=tuple(residuals), converged=False)
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.sparse import csc_array
+from scipy.sparse.linalg import spsolve
 
 from ancf_reduced.equilibrium import NewtonControls, NewtonResult, follow_path, newton_solve
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
@@ -22,6 +24,16 @@ def test_newton_converges_quadratically() -> None:
     errors = np.array(result.residuals[1:-1])
     orders = np.log(errors[2:] / errors[1:-1]) / np.log(errors[1:-1] / errors[:-2])
     assert orders[-1] == pytest.approx(2.0, abs=0.2)
+
+
+def test_sparse_tangent_gives_the_same_iterates() -> None:
+    cubes = np.array([8.0, 27.0])
+    full = newton_solve(lambda x: (x**3 - cubes, 1.0), lambda x: 3.0 * np.diag(x**2), np.ones(2), CONTROLS)
+    sparse = newton_solve(
+        lambda x: (x**3 - cubes, 1.0), lambda x: csc_array(3.0 * np.diag(x**2)), np.ones(2), CONTROLS, solve=spsolve
+    )
+    assert sparse.converged
+    assert sparse.residuals == pytest.approx(full.residuals, abs=1e-12)
 
 
 def test_singular_tangent_overflow_and_iteration_limit_are_not_converged() -> None:
