@@ -20,7 +20,7 @@ from workbench.preset_table import COLUMNS, preset_table
 from workbench.results import ModelCurves, UserCurve
 from workbench.study_sections import ToleranceSection
 
-__all__ = ["agreement_checks", "ancf_checks", "plate_checks", "preset_error", "surfaces_check", "user_checks"]
+__all__ = ["agreement_checks", "ancf_checks", "preset_error", "surfaces_check", "user_checks"]
 
 _PRESET_SOURCE = "two independent codes computed for this project, which agree (workbench/data/ancf_thesis_preset.csv)"
 _PLATE_SOURCE = "exact quadrature of thesis eq. 2.13; Project Chrono's reference matrices to 1e-11"
@@ -79,25 +79,6 @@ def ancf_checks(ancf: ModelCurves, tolerances: ToleranceSection) -> list[Check]:
     return [
         *checks,
         near(mass, lambda: float(first["flexible_mass_kg"]), _THESIS_WHEEL_MASS, tolerances.flexible_mass),
-    ]
-
-
-def plate_checks(errors: Mapping[str, float], tolerances: ToleranceSection) -> list[Check]:
-    """One ANCF plate against exact mass, gravity and elastic force."""
-    return [
-        at_most(
-            Claim(
-                id=f"ancf.plate_{name}",
-                title=f"ANCF plate element: {name.replace('_', ' ')} against exact reference",
-                quantity="largest difference / largest entry",
-                unit="-",
-                role="gate",
-                source=_PLATE_SOURCE,
-            ),
-            partial(float, error),
-            tolerances.plate_element,
-        )
-        for name, error in errors.items()
     ]
 
 

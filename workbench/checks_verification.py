@@ -1,18 +1,16 @@
-"""What the benchmarks measured against what is known; tolerances are those of tests/verification.
+"""What the finite elements' benchmarks measured against what is known; tolerances are those of tests/verification.
 
 Verified by tests/unit/test_workbench_verification.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from workbench.check_rules import at_most
-from workbench.verification_lines import Benchmark, Line, Numbers, Rules
+from workbench.verification_lines import Benchmark, Line, Numbers, Reader, Rules
 
-__all__ = ["BENCHMARKS", "benchmark_lines"]
+__all__ = ["BENCHMARKS"]
 
 
 def _patch(numbers: Numbers) -> Benchmark:
@@ -122,7 +120,7 @@ def _sliding_block(numbers: Numbers) -> Benchmark:
     return rules.benchmark(numbers, lines, rules.caught("friction 1 % smaller", numbers, 0.005))
 
 
-BENCHMARKS = {
+BENCHMARKS: dict[str, Reader] = {
     "patch": _patch,
     "manufactured": _manufactured,
     "end_shear": _end_shear,
@@ -134,8 +132,3 @@ BENCHMARKS = {
     "sliding_block": _sliding_block,
 }
 """Name -> what its numbers say, in the order of the report."""
-
-
-def benchmark_lines(results: Mapping[str, Numbers]) -> tuple[Benchmark, ...]:
-    """Every benchmark from its task's result by name."""
-    return tuple(read(results[name]) for name, read in BENCHMARKS.items())

@@ -21,7 +21,7 @@ from workbench.checks_fe import (
     yield_check,
 )
 from workbench.checks_limits import circumferential_tangent_check, overlap_checks
-from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, surfaces_check, user_checks
+from workbench.checks_models import agreement_checks, ancf_checks, surfaces_check, user_checks
 from workbench.full_study import rotational_period
 from workbench.graph import degrees
 from workbench.graph_surfaces import SURFACES
@@ -109,7 +109,6 @@ def _checks(study: Study, found: Comparison, folders: Mapping[str, Path]) -> lis
     checks += [*solver_checks(fe, found.mesh_study.runs, tol), reach_check(fe, tol)]
     checks.append(energy_check(list(fe.by_orientation.values()), tol.fe_energy))
     checks += mesh_checks(found.mesh, found.mesh_whole, tol)
-    checks += plate_checks(read_result(folders["ancf_plate"]), tol)
     checks.append(surfaces_check(read_result(folders[SURFACES])["read_back_m"], tol))
     checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
     checks += noted(agreement_checks(found.metrics, tol), found.agreements)

@@ -48,7 +48,7 @@ def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
     fe = tuple(degrees(o) for o in study.fe.orientations)
     ancf = tuple(degrees(o) for o in study.ancf.orientations)
     tasks = [*mesh_tasks(study), *_fe_tasks(study, fe)]
-    tasks += [*_ancf_tasks(study, ancf), _brush_task(study), _plate_task(), report_surfaces_task(study)]
+    tasks += [*_ancf_tasks(study, ancf), _brush_task(study), report_surfaces_task(study)]
     tasks += [task for topic in topics_of(study) for task in topic.tasks(study)]
     curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi"))]
     tasks.append(_metrics_task(study, (*curves, "brush"), curve_folder))
@@ -119,15 +119,6 @@ def _brush_task(study: Study) -> Task:
     end = max(study.fe.max_deflection, study.ancf.max_deflection)
     inputs = {"parameters": asdict(brush_parameters(study)), "max_deflection": end}
     return Task(name="brush", function="workbench.tasks_brush:solve", inputs=inputs, **_BRUSH)
-
-
-def _plate_task() -> Task:
-    return Task(
-        name="ancf_plate",
-        function="workbench.tasks_ancf:verify_plate",
-        inputs={},
-        **_ANCF,
-    )
 
 
 def _metrics_task(study: Study, curves: Sequence[str], curve_folder: Path) -> Task:

@@ -87,7 +87,7 @@ class Study(WheelStudy):
     full : what `workbench report --full` takes instead of the study's orientations and mesh
     hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
     penalty_study : where the load is held against other contact penalties; None to leave it out
-    verification : whether the finite elements' benchmarks are part of the report
+    verification : whether the benchmarks of finite elements and plates are part of the report
     ancf_fit : ANCF tires fitted to the FE curves; None to leave it out
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them

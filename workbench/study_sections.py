@@ -201,7 +201,7 @@ class FullSection(Section):
 
 
 class VerificationSection(Section):
-    """Whether the report runs the finite elements' benchmarks, which do not depend on the study."""
+    """Whether the report runs the benchmarks of finite elements and plates, which do not depend on the study."""
 
     enabled: StrictBool = True
 
@@ -280,7 +280,6 @@ class ToleranceSection(Section):
     fe_energy: Annotated[Number, Positive] = 0.01
     mesh_uncertainty: Annotated[Number, Positive] = 0.05
     hub_compliance: Annotated[Number, Positive] = 0.01
-    plate_element: Annotated[Number, Positive] = 1e-10
     surface_distance: Annotated[Length, Positive] = 1e-9
     section_agreement: Annotated[Number, Positive] = 0.05
     model_agreement: Annotated[Number, Positive] = 0.10

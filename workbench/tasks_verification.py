@@ -1,4 +1,4 @@
-"""Tasks of the verification: benchmarks with known answers, each with a damaged copy of itself as negative control.
+"""Tasks of the finite elements' verification: benchmarks with known answers, each with a damaged copy as control.
 
 They depend on the solver alone, not on the study, so that every study shares their stored results. Meshes are the
 smallest on which tests/verification show the tolerances met. Verified by tests/end_to_end/test_verification.py.
@@ -6,8 +6,7 @@ smallest on which tests/verification show the tolerances met. Verified by tests/
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +19,10 @@ from reference_fe.verification.cantilever import THICKNESS, EndLoad, cantilever_
 from reference_fe.verification.hemisphere import TWENTY_NODES, hemisphere_path, hemisphere_table
 from reference_fe.verification.load_path import LoadPath, relative_error
 from reference_fe.verification.manufactured_solution import Convergence, convergence, with_shear_modulus
-from workbench.result_files import write_result
+from workbench.benchmark_runs import Numbers, Runs, run_with_control
 from workbench.task import Progress
 
 __all__ = ["run_benchmark"]
-
-type Numbers = dict[str, Any]
 
 _TENTHS = tuple(round(0.1 * k, 10) for k in range(1, 11))
 _COARSE = {1: (4, 6, 9), 2: (3, 4, 6)}
@@ -33,13 +30,7 @@ _COARSE = {1: (4, 6, 9), 2: (3, 4, 6)}
 
 def run_benchmark(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """Run ``inputs["benchmark"]`` and its negative control: ``result.json`` with what was measured."""
-    run, control = _BENCHMARKS[inputs["benchmark"]]
-    start = time.perf_counter()
-    numbers = run()
-    solve_s = time.perf_counter() - start
-    progress(0.5)
-    write_result(out, {"solve_s": solve_s, **numbers, "damaged": control()})
-    return 0
+    return run_with_control(_BENCHMARKS, inputs["benchmark"], out, progress)
 
 
 def _patch() -> Numbers:
@@ -176,7 +167,7 @@ def _path(path: LoadPath, table: np.ndarray) -> Numbers:
     }
 
 
-_BENCHMARKS: Mapping[str, tuple[Callable[[], Numbers], Callable[[], float]]] = {
+_BENCHMARKS: Runs = {
     "patch": (_patch, lambda: float(patch.zero_energy_modes((2, 2, 2)))),
     "manufactured": (_manufactured, _manufactured_damaged),
     "end_shear": (lambda: _cantilever("shear"), lambda: _cantilever_damaged("shear")),
@@ -187,4 +178,3 @@ _BENCHMARKS: Mapping[str, tuple[Callable[[], Numbers], Callable[[], float]]] = {
     "hertz": (_hertz, _hertz_damaged),
     "sliding_block": (_block, _block_damaged),
 }
-"""Name -> the run, and what its check measures on a damaged copy."""

@@ -1,4 +1,4 @@
-"""Topic: the finite elements on benchmarks with known answers, solved by the same calls as the wheel.
+"""Topic: finite elements and ANCF plates on benchmarks with known answers, solved by the same calls as the wheel.
 
 Verified by tests/unit/test_workbench_verification.py and tests/end_to_end/test_verification.py.
 """
@@ -11,45 +11,67 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contracts.records import Check
-from workbench.checks_verification import BENCHMARKS, benchmark_lines
-from workbench.graph_fe import FE
+from workbench.checks_verification import BENCHMARKS
+from workbench.checks_verification_ancf import ANCF_BENCHMARKS
+from workbench.graph_fe import FE, FILES, Origin
 from workbench.result_files import read_result
 from workbench.study import Study
 from workbench.task import Task
 from workbench.topic import Topic
-from workbench.verification_lines import Benchmark
+from workbench.verification_lines import Benchmark, Reader, benchmark_lines
 
 if TYPE_CHECKING:
     from workbench.comparison import Comparison
 
-__all__ = ["VERIFICATION", "Verification"]
+__all__ = ["VERIFICATION", "ModelVerification", "Verification"]
+
+_RUNS = "workbench.benchmark_runs"
+_FE = Origin(sources=(*FE["sources"], _RUNS), libraries=FE["libraries"])
+_ANCF = Origin(sources=(*FILES, "geometry", "ancf_reduced", _RUNS), libraries=("numpy", "numba", "scipy"))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelVerification:
+    """Benchmarks of one model in the order of the page, and the numbers of each task for the figures."""
+
+    benchmarks: tuple[Benchmark, ...]
+    numbers: Mapping[str, Mapping[str, Any]]
+
+    @property
+    def mesh_studies(self) -> dict[str, Mapping[str, float]]:
+        """Title of each benchmark with several meshes -> mesh -> error [-]."""
+        titles = {b.name: b.title for b in self.benchmarks}
+        return {titles[name]: numbers["meshes"] for name, numbers in self.numbers.items() if "meshes" in numbers}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verification:
-    """Benchmarks in the order of the page, and the numbers of each task for the figures."""
+    """Both models."""
 
-    benchmarks: tuple[Benchmark, ...]
-    numbers: Mapping[str, Mapping[str, Any]]
+    fe: ModelVerification
+    ancf: ModelVerification
+
+    @property
+    def benchmarks(self) -> tuple[Benchmark, ...]:
+        """All of them, in the order of the page."""
+        return (*self.fe.benchmarks, *self.ancf.benchmarks)
 
     @property
     def failed(self) -> list[Check]:
         """Checks that did not pass, those of the negative controls included."""
         return [check for b in self.benchmarks for check in b.checks if check.status != "pass"]
 
-    @property
-    def mesh_studies(self) -> dict[str, Mapping[str, float]]:
-        """Title of each shell benchmark -> mesh -> difference at full load [-]."""
-        titles = {b.name: b.title for b in self.benchmarks}
-        return {titles[name]: numbers["meshes"] for name, numbers in self.numbers.items() if "meshes" in numbers}
-
 
 def _tasks(study: Study) -> Sequence[Task]:
-    function = "workbench.tasks_verification:run_benchmark"
     return [
-        Task(name=_task_name(name), function=function, inputs={"benchmark": name}, cost=5.0, **FE)
-        for name in BENCHMARKS
+        *(_task(name, "workbench.tasks_verification", 5.0, _FE) for name in BENCHMARKS),
+        *(_task(name, "workbench.tasks_verification_ancf", 2.0, _ANCF) for name in ANCF_BENCHMARKS),
     ]
+
+
+def _task(benchmark: str, module: str, cost: float, origin: Origin) -> Task:
+    inputs = {"benchmark": benchmark}
+    return Task(name=_task_name(benchmark), function=f"{module}:run_benchmark", inputs=inputs, cost=cost, **origin)
 
 
 def _task_name(benchmark: str) -> str:
@@ -57,8 +79,11 @@ def _task_name(benchmark: str) -> str:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> Verification:
-    numbers = {name: read_result(folders[_task_name(name)]) for name in BENCHMARKS}
-    return Verification(benchmarks=benchmark_lines(numbers), numbers=numbers)
+    def of(readers: Mapping[str, Reader]) -> ModelVerification:
+        numbers = {name: read_result(folders[_task_name(name)]) for name in readers}
+        return ModelVerification(benchmarks=benchmark_lines(readers, numbers), numbers=numbers)
+
+    return Verification(fe=of(BENCHMARKS), ancf=of(ANCF_BENCHMARKS))
 
 
 def _checks(study: Study, found: Comparison, results: Verification) -> Sequence[Check]:
@@ -67,8 +92,9 @@ def _checks(study: Study, found: Comparison, results: Verification) -> Sequence[
 
 def _figures(study: Study, results: Verification) -> Mapping[str, str]:
     from workbench.figures_verification import verification_figures
+    from workbench.figures_verification_ancf import ancf_verification_figures
 
-    return verification_figures(results.numbers)
+    return verification_figures(results.fe.numbers) | ancf_verification_figures(results.ancf.numbers)
 
 
 def _applies(study: Study) -> bool:

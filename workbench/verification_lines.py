@@ -5,7 +5,7 @@ Verified by tests/unit/test_workbench_verification.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +13,7 @@ from contracts.records import Check
 from workbench.check_rules import Claim, at_least, at_most, near, within
 from workbench.number_format import displayed
 
-__all__ = ["Benchmark", "Line", "Numbers", "Rules"]
+__all__ = ["Benchmark", "Line", "Numbers", "Reader", "Rules", "benchmark_lines"]
 
 type Numbers = Mapping[str, Any]
 """Result of one benchmark's task."""
@@ -77,7 +77,7 @@ class Benchmark:
     lines : its numbers
     control : the damaged copy, which passes if the damage shows
     sound : what the control's check measures on the sound run
-    iterations, solve_s : Newton iterations and wall time [s] of the sound run
+    iterations, solve_s : Newton iterations (None where there are none) and wall time [s] of the sound run
     """
 
     name: str
@@ -86,7 +86,7 @@ class Benchmark:
     lines: tuple[Line, ...]
     control: Line
     sound: float
-    iterations: int
+    iterations: int | None
     solve_s: float
 
     @property
@@ -118,9 +118,15 @@ class Rules:
         """A value with an upper limit."""
         return Line(what=what, check=at_most(self.claim(key, what, quantity, unit), lambda: value, limit))
 
-    def caught(self, damage: str, numbers: Numbers, limit: float, quantity: str = "difference") -> Line:
+    def order_at_least(self, key: str, what: str, value: float, limit: float) -> Line:
+        """An observed order, of which only a lower limit is known."""
+        return Line(what=what, check=at_least(self.claim(key, what, "order", "-"), lambda: value, limit))
+
+    def caught(
+        self, damage: str, numbers: Numbers, limit: float, quantity: str = "difference", unit: str = "-"
+    ) -> Line:
         """The negative control: the damaged copy must lie off by this much at least."""
-        claim = self.claim("control", f"negative control, {damage}", quantity, "-")
+        claim = self.claim("control", f"negative control, {damage}", quantity, unit)
         return Line(what=damage, check=at_least(claim, lambda: float(numbers["damaged"]), limit))
 
     def benchmark(
@@ -134,7 +140,7 @@ class Rules:
             lines=tuple(lines),
             control=control,
             sound=abs(lines[0].difference or 0.0) if sound is None else sound,
-            iterations=numbers["iterations"],
+            iterations=numbers.get("iterations"),
             solve_s=numbers["solve_s"],
         )
 
@@ -148,3 +154,12 @@ class Rules:
             role="gate",
             source=self.source,
         )
+
+
+type Reader = Callable[[Numbers], Benchmark]
+"""What a benchmark's numbers say."""
+
+
+def benchmark_lines(readers: Mapping[str, Reader], results: Mapping[str, Numbers]) -> tuple[Benchmark, ...]:
+    """Every benchmark from its task's result by name."""
+    return tuple(read(results[name]) for name, read in readers.items())

@@ -11,6 +11,9 @@ import pytest
 
 from tests.end_to_end.small_study import run, small_study_text
 from workbench.checks_verification import BENCHMARKS
+from workbench.checks_verification_ancf import ANCF_BENCHMARKS
+
+NAMES = [*BENCHMARKS, *ANCF_BENCHMARKS]
 
 type Finished = subprocess.CompletedProcess[str]
 
@@ -22,15 +25,22 @@ def test_benchmarks_are_solved_and_shown(first_report: Finished, workspace: Path
     (workspace / "verified.toml").write_text(text, encoding="utf-8")
     finished = run("report", "verified.toml", "--out", "verified", "--store", "store", folder=workspace)
     assert finished.returncode == 0, finished.stdout + finished.stderr
-    assert f"{len(BENCHMARKS)} tasks computed" in finished.stdout
+    assert f"{len(NAMES)} tasks computed" in finished.stdout
     summary = json.loads((workspace / "verified" / "summary.json").read_text(encoding="utf-8"))
     checks = {c["id"]: c for c in summary["checks"] if c["id"].startswith("verify.")}
     assert {c["status"] for c in checks.values()} == {"pass"}
-    assert {f"verify.{name}_control" for name in BENCHMARKS} <= set(checks)
+    assert {f"verify.{name}_control" for name in NAMES} <= set(checks)
     assert checks["verify.ring_iterations"]["value"] <= 60
+    assert checks["verify.ancf_pendulum_path"]["value"] < 1e-5
+    assert checks["verify.ancf_end_moment_order"]["value"] > 2.5
     page = html.unescape((workspace / "verified" / "report.html").read_text(encoding="utf-8"))
-    for wanted in ('<section id="verification">', "every damaged copy below is caught", "ring 1 % thicker"):
+    for wanted in (
+        '<section id="verification">',
+        "every damaged copy below is caught",
+        "ring 1 % thicker",
+        "one sign of thesis eq. 2.13",
+    ):
         assert wanted in page
     assert "16 x 32 of 27 nodes" in page
-    assert page.count("✓ caught") == len(BENCHMARKS)
+    assert page.count("✓ caught") == len(NAMES)
     assert '<section id="verification">' not in (workspace / "report" / "report.html").read_text(encoding="utf-8")

@@ -19,7 +19,7 @@ from workbench.checks_fe import (
     spread_checks,
     yield_check,
 )
-from workbench.checks_models import agreement_checks, ancf_checks, plate_checks, preset_error, user_checks
+from workbench.checks_models import agreement_checks, ancf_checks, preset_error, user_checks
 from workbench.comparison import exit_status, overall_status
 from workbench.mesh_study import MeshRun
 from workbench.preset_table import preset_table
@@ -164,11 +164,6 @@ def test_ancf_preset_without_its_orientations_cannot_be_evaluated() -> None:
         numbers=ancf.numbers,
     )
     assert _by_id(ancf_checks(one, TOLERANCES))["ancf.preset_phi045"].status == "error"
-
-
-def test_plate_checks() -> None:
-    checks = plate_checks({"mass": 1e-15, "elastic_force": 1e-9}, TOLERANCES)
-    assert [c.status for c in checks] == ["pass", "fail"]
 
 
 def test_agreement_and_user_checks_are_findings() -> None:

@@ -38,7 +38,7 @@ def test_report_has_every_task_and_needs_come_first(study: Study) -> None:
     tasks = report_tasks(study, HERE)
     names = [t.name for t in tasks]
     orientations = [f"fe_phi{o:03d}" for o in (0, 15, 30, 45, 60)] + ["ancf_phi000", "ancf_phi045"]
-    others = {"mesh", "mesh_whole", "brush", "ancf_plate", "ancf_surfaces", "metrics", "pictures"}
+    others = {"mesh", "mesh_whole", "brush", "ancf_surfaces", "metrics", "pictures"}
     topics = {task.name for topic in TOPICS for task in topic.tasks(study)}
     assert set(names) == {*orientations, *others, *topics}
     assert len(names) == len(set(names))
@@ -77,7 +77,7 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
     assert _new_keys(before, tolerance) == set()
     mesh = report_tasks(_changed(study, "mesh", element_size=7e-3), HERE)
     verified = {task.name for task in VERIFICATION.tasks(study)}
-    kept = {"ancf_phi000", "ancf_phi045", "brush", "ancf_plate", "ancf_surfaces"} | refined | verified
+    kept = {"ancf_phi000", "ancf_phi045", "brush", "ancf_surfaces"} | refined | verified
     assert kept == set(task_keys(before)) - _new_keys(before, mesh)
 
 

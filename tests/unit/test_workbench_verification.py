@@ -9,12 +9,13 @@ from typing import Any
 
 import pytest
 
-from workbench.checks_verification import BENCHMARKS, benchmark_lines
+from workbench.checks_verification import BENCHMARKS
 from workbench.figures_verification import verification_figures
 from workbench.study import Study
 from workbench.study_file import built_in_study, read_study
 from workbench.study_sections import VerificationSection
-from workbench.topic_verification import VERIFICATION, Verification
+from workbench.topic_verification import VERIFICATION, ModelVerification, Verification
+from workbench.verification_lines import benchmark_lines
 
 type Results = dict[str, dict[str, Any]]
 
@@ -72,13 +73,14 @@ def test_the_runs_do_not_depend_on_the_study(study: Study) -> None:
 
 
 def test_good_numbers_pass_and_carry_their_source() -> None:
-    benchmarks = benchmark_lines(measured())
+    benchmarks = benchmark_lines(BENCHMARKS, measured())
     checks = [check for benchmark in benchmarks for check in benchmark.checks]
     assert {check.status for check in checks} == {"pass"}
     assert {check.role for check in checks} == {"gate"}
     assert len({check.id for check in checks}) == len(checks)
     assert all(check.id.startswith("verify.") and check.source for check in checks)
-    assert Verification(benchmarks=benchmarks, numbers={}).failed == []
+    model = ModelVerification(benchmarks=benchmarks, numbers={})
+    assert Verification(fe=model, ancf=model).failed == []
     ring = next(b for b in benchmarks if b.title == "Ring between plates")
     assert ring.lines[0].difference == pytest.approx(8.98 / 8.97 - 1.0)
     assert ring.lines[0].shown(ring.lines[0].expected) == "8.97"
@@ -126,12 +128,14 @@ def test_a_number_that_is_off_fails_its_line_alone(damage: Callable[[Results], N
     """A control fails where the damage would not be seen."""
     results = measured()
     damage(results)
-    failed = [c.id for benchmark in benchmark_lines(results) for c in benchmark.checks if c.status != "pass"]
+    failed = [
+        c.id for benchmark in benchmark_lines(BENCHMARKS, results) for c in benchmark.checks if c.status != "pass"
+    ]
     assert failed == [check]
 
 
 def test_mesh_studies_are_those_of_the_shells() -> None:
-    found = Verification(benchmarks=benchmark_lines(measured()), numbers=measured())
+    found = ModelVerification(benchmarks=benchmark_lines(BENCHMARKS, measured()), numbers=measured())
     assert list(found.mesh_studies) == [
         "Cantilever, end shear force",
         "Cantilever rolled to a circle",
