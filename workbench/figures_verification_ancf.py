@@ -70,5 +70,5 @@ def _convergence(numbers: Mapping[str, Mapping[str, Any]]) -> Any:
         add_line(figure, plates, errors, label, colour)
         add_points(figure, plates, errors, label, colour, "circle")
         figure.data[-1].showlegend = False
-    add_line(figure, [12, 48], [0.8, 0.8 / 4.0**4], "slope 4", INK, "dash")
+    add_line(figure, [12, 48], [3.0, 3.0 / 4.0**4], "slope 4", INK, "dash")
     return figure

@@ -40,10 +40,7 @@ def _pendulum() -> Numbers:
         "time_s": fine.time.tolist(),
         "corner_m": fine.corner.tolist(),
         "published_m": fine.published.tolist(),
-        "distance_m": {
-            name: np.linalg.norm(found.corner - found.published, axis=1).tolist()
-            for name, found in (("1/2", coarse), ("1/8", fine))
-        },
+        "distance_m": {"1/2": coarse.distance.tolist(), "1/8": fine.distance.tolist()},
         "error_m": fine.error,
         "energy_spread": fine.energy_spread,
         "energy_order": float(np.log(coarse.energy_spread / fine.energy_spread) / np.log(_LONG_STEP / _STEP)),

@@ -48,9 +48,14 @@ class PendulumFall:
     step: float
 
     @property
+    def distance(self) -> FloatArray:
+        """(n,) float: of the corner from the published path [m]."""
+        return np.linalg.norm(self.corner - self.published, axis=1)
+
+    @property
     def error(self) -> float:
-        """Largest distance of a coordinate from the published path [m]."""
-        return float(np.abs(self.corner - self.published).max())
+        """Largest distance of the corner from the published path [m]."""
+        return float(self.distance.max())
 
 
 def pendulum_fall(quadrature: tuple[int, int, int] = (5, 5, 3), fraction: float = 0.125) -> PendulumFall:
