@@ -21,7 +21,7 @@ from contracts.errors import InputError
 
 __all__ = ["HalfRoundRock", "Obstacle", "Plane", "StepEdge", "piece_gap", "smallest_gap", "touch_level"]
 
-_HALF_PLANE, _CORNER, _DISC = 0.0, 1.0, 2.0
+_HALF_PLANE, _CORNER, _HALF_ROUND = 0.0, 1.0, 2.0
 
 
 class Obstacle(Protocol):
@@ -94,9 +94,9 @@ class HalfRoundRock:
         _positive("rock radius", self.radius)
 
     def pieces(self) -> NDArray[np.float64]:
-        """Disc and ground."""
-        disc = [_DISC, self.position, -self.radius, self.radius]
-        return np.array([disc, [_HALF_PLANE, 0.0, -self.radius, 0.0]])
+        """Half-round and ground."""
+        crown = [_HALF_ROUND, self.position, -self.radius, self.radius]
+        return np.array([crown, [_HALF_PLANE, 0.0, -self.radius, 0.0]])
 
 
 @numba.njit(cache=True)
@@ -105,7 +105,8 @@ def piece_gap(piece: NDArray[np.float64], s: float, z: float) -> tuple[float, fl
 
     Parameters
     ----------
-    piece : (4,) kind, s0, z0, r: half plane z < z0; corner s > s0, z < z0 with edge radius r; disc about (s0, z0)
+    piece : (4,) kind, s0, z0, r: half plane z < z0; corner s > s0, z < z0 with edge radius r; half-round
+        about (s0, z0), with upright sides below
     s, z : the point [m]
 
     Returns
@@ -124,6 +125,8 @@ def piece_gap(piece: NDArray[np.float64], s: float, z: float) -> tuple[float, fl
         x, y = x - r, y + r
         if x >= 0.0 or y <= 0.0:  # over the top, before the face, or inside
             return (y - r, 0.0, 1.0, 0.0) if y >= -x else (-x - r, -1.0, 0.0, 0.0)
+    elif y < 0.0:  # below the axis of a half-round: its upright sides
+        return abs(x) - r, math.copysign(1.0, x), 0.0, 0.0
     distance = max(math.hypot(x, y), 1e-300)
     return distance - r, x / distance, y / distance, 1.0 / distance
 

@@ -18,6 +18,7 @@ POINTS = [
     (0.0105, -0.0005),
     (0.04, -0.001),
     (-0.03, 0.01),
+    (-0.03, -0.022),
 ]
 
 
@@ -46,6 +47,13 @@ def test_distances_that_are_known() -> None:
     )
     s, z = np.array([-0.005, 0.025, 0.1]), np.array([0.001, -0.02 + 0.001, 0.0])
     np.testing.assert_allclose(smallest_gap(ROCK.pieces(), s, z), [0.001, 0.001, 0.02], atol=1e-4)
+
+
+def test_the_sides_below_the_axis_are_upright() -> None:
+    """A point that slid in beside the rock's foot is pushed out sideways, not down into the ground."""
+    gap, n_s, n_z, curvature = piece_gap(ROCK.pieces()[0], 0.0147, -0.024)
+    assert gap == pytest.approx(-0.0003)
+    assert (n_s, n_z, curvature) == (1.0, 0.0, 0.0)
 
 
 def test_both_sides_of_a_reentrant_corner_press() -> None:
