@@ -7,7 +7,8 @@ reference_node, equilibrium: what ties and balances it.
 contact_layout, contact_grid, contact_law, plate_contact: what touches the ground (loops: contact_search,
 contact_kernels, terrain_kernels).
 vector_coordinates, plate_system, mass_factor, linearisation, spectrum: equations of motion of any network.
-explicit_dynamics, implicit_dynamics (rigid_triads, triad_equations), energy_account: their integration.
+explicit_dynamics (implicit_damping), implicit_dynamics, energy_account: their integration (rigid_triads,
+triad_equations).
 tire_preset, tire_mesh, plane_problem, static_tire, tire_surfaces, wheel_rig: the airless tire, a client of the above.
 tire_parameters, load_sensitivity, curve_fit, fit_statistics: its parameters from measured or computed curves.
 verification: benchmarks with known answers.

@@ -65,7 +65,7 @@ class EnergyAccount:
         system = self.system
         p, p_dot = system.coordinates.expand(state.z), system.coordinates.expand_rates(state.v)
         contact, rates = 0.0, np.zeros(4)
-        if any(system.model.viscosity):
+        if system.is_damped:
             rates[0] = np.sum(system.model.damping_force(p, p_dot) * p_dot)
         for external in system.external:
             if isinstance(external, PlateContact):

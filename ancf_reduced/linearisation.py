@@ -14,7 +14,7 @@ from scipy.sparse.linalg import splu
 from ancf_reduced.plate_assembly import dense_matrix, sparse_matrix
 from ancf_reduced.plate_system import PlateSystem
 
-__all__ = ["Linearisation", "Matrix"]
+__all__ = ["Linearisation", "Matrix", "constrained"]
 
 FloatArray = NDArray[np.float64]
 type Matrix = FloatArray | csc_array
@@ -24,30 +24,55 @@ _SMALL = 250
 """Up to so many vectors matrices are full."""
 
 
+def constrained(matrix: Matrix, G: FloatArray) -> Matrix:
+    """[matrix G^T; G 0] with the constraints' Jacobian G (m, 3 n)."""
+    m = len(G)
+    if isinstance(matrix, np.ndarray):
+        return np.block([[matrix, G.T], [G, np.zeros((m, m))]])
+    if not m:
+        return matrix
+    below = csc_array(G)
+    blocks: list[list[csc_array | None]] = [[matrix, csc_array(below.T)], [below, None]]
+    return csc_array(block_array(blocks))
+
+
 class Linearisation:
     """Matrices of one system, and solves with them.
 
     Attributes
     ----------
     mass : (3 n, 3 n) matrix of the inertia
+    is_small : whether matrices are full
     """
 
     def __init__(self, system: PlateSystem) -> None:
-        self.system, self._small = system, system.coordinates.n_vectors <= _SMALL
-        self._map = system.coordinates.map.toarray() if self._small else kron(system.coordinates.map, eye_array(3))
+        self.system, self.is_small = system, system.coordinates.n_vectors <= _SMALL
+        self._map = system.coordinates.map.toarray() if self.is_small else kron(system.coordinates.map, eye_array(3))
         mass = kron(system.mass, eye_array(3))
-        self.mass: Matrix = mass.toarray() if self._small else csc_array(mass)
+        self.mass: Matrix = mass.toarray() if self.is_small else csc_array(mass)
 
     def elastic(self, z: FloatArray) -> Matrix:
         """Derivative of the elastic force by z."""
         return self._reduced(self.system.model.elastic_tangents(self.system.coordinates.expand(z)))
+
+    def damping(self, z: FloatArray, v: FloatArray, time: float = 0.0) -> Matrix:
+        """Minus the derivative of `PlateSystem.force` by v."""
+        system = self.system
+        p, p_dot = system.coordinates.expand(z), system.coordinates.expand_rates(v)
+        blocks = np.zeros((len(system.model.mesh.elements), 48, 48))
+        if system.is_damped:
+            blocks += system.model.damping_matrices(p)
+        for external in system.external:
+            if external.depends_on_rates:
+                blocks += external.tangents(p, p_dot, time)[1]
+        return self._reduced(blocks)
 
     def stiffness_and_damping(self, z: FloatArray, v: FloatArray, time: float) -> tuple[Matrix, Matrix]:
         """Minus the derivatives of `PlateSystem.force` by z and by v."""
         system = self.system
         p, p_dot = system.coordinates.expand(z), system.coordinates.expand_rates(v)
         stiffness, damping = system.model.elastic_tangents(p), np.zeros((len(system.model.mesh.elements), 48, 48))
-        if any(system.model.viscosity):
+        if system.is_damped:
             by_position, by_rate = system.model.damping_tangents(p, p_dot)
             stiffness += by_position
             damping += by_rate
@@ -59,25 +84,20 @@ class Linearisation:
 
     def solve(self, matrix: Matrix, constraints: FloatArray, right: FloatArray) -> FloatArray:
         """Solution of [matrix G^T; G 0] x = right with the constraints' Jacobian G (m, 3 n)."""
-        m = len(constraints)
-        if isinstance(matrix, np.ndarray):
-            whole = np.block([[matrix, constraints.T], [constraints, np.zeros((m, m))]])
+        whole = constrained(matrix, constraints)
+        if isinstance(whole, np.ndarray):
             return np.asarray(lu_solve(lu_factor(whole, check_finite=False), right, check_finite=False))
-        if m:
-            below = csc_array(constraints)
-            blocks: list[list[csc_array | None]] = [[matrix, csc_array(below.T)], [below, None]]
-            matrix = csc_array(block_array(blocks))
-        return np.asarray(splu(matrix).solve(right))
+        return np.asarray(splu(whole).solve(right))
 
     def like_mass(self, matrix: FloatArray) -> Matrix:
         """A matrix (n, n) that is the same for each direction, as (3 n, 3 n)."""
-        if self._small:
+        if self.is_small:
             return np.asarray(np.kron(matrix, np.eye(3)), dtype=np.float64)
         return csc_array(kron(csc_array(matrix), eye_array(3)))
 
     def _reduced(self, blocks: FloatArray) -> Matrix:
         mesh = self.system.model.mesh
-        if not self._small:
+        if not self.is_small:
             return csc_array(self._map.T @ sparse_matrix(mesh, blocks) @ self._map)
         B, n = self._map, self.system.coordinates.n_vectors
         rows = 4 * len(mesh.points)

@@ -151,6 +151,11 @@ class PlateContact:
         tables = tuple(self.grid.tables), tuple(self.terrain), tuple(self.law.numbers)
         object.__setattr__(self, "constants", (*tables, self.normal is ContactNormal.SURFACE))
 
+    @property
+    def depends_on_rates(self) -> bool:
+        """Whether there is damping or friction."""
+        return self.law.damping > 0.0 or self.law.friction > 0.0
+
     def force(self, p: FloatArray, v: FloatArray, time: float = 0.0, out: FloatArray | None = None) -> FloatArray:
         """Generalised force of the ground on the mesh.
 

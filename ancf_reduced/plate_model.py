@@ -147,10 +147,16 @@ class PlateModel:
     def damping_tangents(self, coordinates: FloatArray, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Derivatives of the damping force by the coordinates and by the rates, (n_plates, 48, 48) float each."""
         elements, D, c = self.mesh.elements, self.tables.gradient, self.tables.gauss_weight
-        by_position, by_rate = np.empty((2, len(elements), 48, 48))
+        by_position = np.empty((len(elements), 48, 48))
         damping.damping_position_kernel(coordinates, rates, elements, self.frame, D, c, self.viscosity, by_position)
-        damping.damping_velocity_kernel(coordinates, elements, self.frame, D, c, self.viscosity, by_rate)
-        return by_position, by_rate
+        return by_position, self.damping_matrices(coordinates)
+
+    def damping_matrices(self, coordinates: FloatArray) -> FloatArray:
+        """Derivative C of the damping force C(p) p' by the rates, (n_plates, 48, 48) float, symmetric."""
+        elements, D, c = self.mesh.elements, self.tables.gradient, self.tables.gauss_weight
+        matrices = np.empty((len(elements), 48, 48))
+        damping.damping_velocity_kernel(coordinates, elements, self.frame, D, c, self.viscosity, matrices)
+        return matrices
 
     def volume_ratio(self, coordinates: FloatArray) -> FloatArray:
         """det F at the integration points, (n_plates, n_points) float [-]; <= 0 where a plate is inverted."""

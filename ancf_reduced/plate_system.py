@@ -30,6 +30,10 @@ FloatArray = NDArray[np.float64]
 class ExternalForce(Protocol):
     """Forces on a mesh of plates that depend on its motion: contact, drive."""
 
+    @property
+    def depends_on_rates(self) -> bool:
+        """Whether the force depends on the rates, or on the coordinates alone."""
+
     def force(self, p: FloatArray, v: FloatArray, time: float) -> FloatArray:
         """Generalised force (n_nodes, 4, 3) on the mesh at coordinates p and rates v (n_nodes, 4, 3), time [s]."""
 
@@ -94,13 +98,30 @@ class PlateSystem:
 
     def force(self, z: FloatArray, v: FloatArray, time: float = 0.0) -> FloatArray:
         """All applied minus all internal generalised forces, (n_vectors, 3): M z'' where nothing is constrained."""
-        p, p_dot = self.coordinates.expand(z), self.coordinates.expand_rates(v)
-        total = -self.model.elastic_force(p)
-        if any(self.model.viscosity):
-            total -= self.model.damping_force(p, p_dot)
+        p = self.coordinates.expand(z)
+        return self.position_force(p) + self.rate_force(p, v, time)
+
+    def position_force(self, p: FloatArray) -> FloatArray:
+        """The part of `force` that does not know rates, (n_vectors, 3), from structure coordinates (n_nodes, 4, 3)."""
+        return self.dead_load - self.coordinates.reduce(self.model.elastic_force(p))
+
+    def rate_force(self, p: FloatArray, v: FloatArray, time: float) -> FloatArray:
+        """The rest of `force`, (n_vectors, 3)."""
+        p_dot = self.coordinates.expand_rates(v)
+        total = -self.model.damping_force(p, p_dot) if self.is_damped else np.zeros_like(p)
         for external in self.external:
             total += external.force(p, p_dot, time)
-        return self.coordinates.reduce(total) + self.dead_load
+        return self.coordinates.reduce(total)
+
+    @property
+    def is_damped(self) -> bool:
+        """Whether the plates have a viscosity."""
+        return any(self.model.viscosity)
+
+    @property
+    def depends_on_rates(self) -> bool:
+        """Whether any force depends on the rates."""
+        return self.is_damped or any(external.depends_on_rates for external in self.external)
 
     def elastic_energy(self, z: FloatArray) -> float:
         """Strain energy [J]."""

@@ -7,7 +7,7 @@ wheel's mid-plane. World frame: x forward, y left (axle), z up; the wheel stands
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,6 @@ from scipy.linalg import eigh
 from ancf_reduced.contact_law import ContactLaw
 from ancf_reduced.explicit_dynamics import MotionState
 from ancf_reduced.linearisation import Linearisation
-from ancf_reduced.plate_assembly import dense_matrix
 from ancf_reduced.plate_contact import PlateContact
 from ancf_reduced.plate_model import PlateModel
 from ancf_reduced.plate_system import ExternalForce, HubMass, PlateSystem, build_plate_system
@@ -35,10 +34,11 @@ MARS_GRAVITY = 3.721
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HubDrive:
-    """Torque about the axle that holds the speed of rotation: gain times (wanted - actual), gain in N m s.
+    """Torque about the axle that holds the speed of rotation: gain times (wanted - actual).
 
     An external force of `plate_system`. The torque tau acts on the hub's gradients as tau x a_i / 2, handed to the tied
-    nodes by forces of least norm whose sum at the reference node is just that.
+    nodes by forces of least norm whose sum at the reference node is just that: by the transpose of the pseudo-inverse
+    B^+ that finds the reference node's vectors from theirs.
 
     Attributes
     ----------
@@ -50,29 +50,34 @@ class HubDrive:
     tire: Tire
     speed: float
     gain: float
+    _to_gradients: FloatArray = field(init=False, repr=False)
 
-    def _spread(self) -> FloatArray:
-        """Least-norm forces (n_tied 4, 3) on tied vectors that add up to unit forces on the gradients."""
-        B = self.tire.tie.map.reshape(-1, 4)
-        return np.asarray(np.linalg.pinv(B)[1:].T)
+    def __post_init__(self) -> None:
+        """Rows of B^+ (3, 4 n_tied) for the gradients."""
+        inverse = np.linalg.pinv(self.tire.tie.map.reshape(-1, 4))
+        object.__setattr__(self, "_to_gradients", np.ascontiguousarray(inverse[1:]))
 
-    def _hub(self, p: FloatArray) -> FloatArray:
-        """Reference node's vectors (4, 3) from the tied nodes."""
-        B = self.tire.tie.map.reshape(-1, 4)
-        return np.asarray(np.linalg.pinv(B) @ p[self.tire.tie.tied].reshape(-1, 3))
+    @property
+    def depends_on_rates(self) -> bool:
+        """Always."""
+        return True
+
+    def _gradients(self, p: FloatArray) -> FloatArray:
+        """Gradients of the reference node (3, 3), rows, from the tied nodes; from rates their rates."""
+        return np.asarray(self._to_gradients @ p[self.tire.tie.tied].reshape(-1, 3))
 
     def torque(self, p: FloatArray, v: FloatArray) -> float:
         """About the axle, on the wheel [N m]."""
-        a, a_dot = self._hub(p)[1:], self._hub(v)[1:]
-        spin = 0.5 * np.cross(a, a_dot).sum(axis=0)
-        return float(self.gain * (self.speed - spin[1]))
+        a, a_dot = self._gradients(p), self._gradients(v)
+        spin = 0.5 * float(np.sum(a[:, 2] * a_dot[:, 0] - a[:, 0] * a_dot[:, 2]))
+        return self.gain * (self.speed - spin)
 
     def force(self, p: FloatArray, v: FloatArray, time: float) -> FloatArray:
         """Generalised force (n_nodes, 4, 3) on the mesh."""
-        tau = np.array([0.0, self.torque(p, v), 0.0])
-        on_gradients = 0.5 * np.cross(tau, self._hub(p)[1:])
+        a, half = self._gradients(p), 0.5 * self.torque(p, v)
+        on_gradients = half * np.column_stack([a[:, 2], np.zeros(3), -a[:, 0]])  # tau x a / 2
         force = np.zeros_like(p)
-        force[self.tire.tie.tied] = (self._spread() @ on_gradients).reshape(-1, 4, 3)
+        force[self.tire.tie.tied] = (self._to_gradients.T @ on_gradients).reshape(-1, 4, 3)
         return force
 
     def tangents(self, p: FloatArray, v: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
@@ -175,10 +180,8 @@ def damped_model(tire: Tire, ratio: float) -> PlateModel:
     unit = replace(tire.model, viscosity=(0.0, 1.0))
     system = build_plate_system(unit, with_held_vectors(tire.mesh, held))
     z = system.reference()
-    matrices, p = Linearisation(system), system.coordinates.expand(z)
+    matrices = Linearisation(system)
     K, M = np.asarray(matrices.elastic(z)), np.asarray(matrices.mass)
     square, mode = eigh(K, M, subset_by_index=(0, 0))
-    _, by_rate = unit.damping_tangents(p, np.zeros_like(p))
-    shape = system.coordinates.expand_rates(mode[:, 0].reshape(-1, 3)).ravel()
-    damping = float(shape @ dense_matrix(tire.mesh, by_rate) @ shape)
+    damping = float(mode[:, 0] @ (matrices.damping(z, 0.0 * z) @ mode[:, 0]))
     return replace(tire.model, viscosity=(0.0, 2.0 * ratio * math.sqrt(float(square[0])) / damping))
