@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from ancf_reduced.equilibrium import NewtonControls, PathPoint, follow_path
 from ancf_reduced.plane_problem import PlaneProblem
-from ancf_reduced.tire_mesh import Tire, build_tire
+from ancf_reduced.tire_mesh import RIM, SPOKE, Tire, build_tire
 from ancf_reduced.tire_preset import TirePreset
 from contracts.curves import StiffnessCurve
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.frames import ground_direction_h
 
-__all__ = ["TireEquilibria", "solve_near", "solve_tire", "stiffness_curve"]
+__all__ = ["TireEquilibria", "solve_near", "solve_tire", "stiffness_curve", "tire_curve"]
 
 FloatArray = NDArray[np.float64]
 
@@ -202,17 +202,23 @@ def stiffness_curve(
 
     Verified by tests/verification/test_ancf_tire_table.py.
     """
-    states = solve_tire(build_tire(preset), phi, deflections, controls)
-    return states.curve(source=_describe(preset))
+    return tire_curve(build_tire(preset), phi, deflections, controls)
 
 
-def _describe(preset: TirePreset) -> str:
+def tire_curve(
+    tire: Tire, phi: float, deflections: FloatArray | Sequence[float], controls: NewtonControls | None = None
+) -> StiffnessCurve:
+    """Stiffness curve of a tire that is built already, on whatever plates; see `stiffness_curve`."""
+    return solve_tire(tire, phi, deflections, controls).curve(source=_describe(tire))
+
+
+def _describe(tire: Tire) -> str:
     """The line printed with the curve: which mesh, contact grid and penalty."""
+    preset, parts = tire.preset, tire.mesh.parts
     n, m = preset.contact_points
     layout = "edges included, at i/(n-1)" if preset.contact_layout == "edges" else "cell centres, at (i+1/2)/n"
     return (
-        f"ANCF tire, {preset.circumferential_plates} circumferential + "
-        f"{preset.spokes * preset.plates_per_spoke} radial plates, contact grid "
+        f"ANCF tire, {parts.count(RIM)} circumferential + {parts.count(SPOKE)} radial plates, contact grid "
         f"{n} x {m} per plate ({layout}), k = {preset.contact_stiffness:g} N/m per point; hub drop from the nominal "
         f"radius; penetration = load-weighted mean"
     )

@@ -13,13 +13,12 @@ from ancf_reduced.plate_mesh import PlateMesh, PlatePatch, build_plate_mesh
 from ancf_reduced.plate_model import PlateModel, build_plate_model
 from ancf_reduced.reference_node import ReferenceNodeTie, tie_reference_node
 from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape
-from ancf_reduced.tire_preset import TirePreset
+from ancf_reduced.tire_preset import HUB_REACH, RIM, SPOKE, TirePreset
 from contracts.frames import ground_direction_h
 
 __all__ = ["RIM", "SPOKE", "Tire", "arc_tangent_length", "build_tire", "rim_patch", "spoke_patch", "tire_on_mesh"]
 
 FloatArray = NDArray[np.float64]
-RIM, SPOKE = "rim", "spoke"
 
 
 def arc_tangent_length(angle: float) -> float:
@@ -142,7 +141,7 @@ def tire_on_mesh(preset: TirePreset, mesh: PlateMesh, shape: PlateShape = THESIS
 
     Verified by tests/verification/test_ancf_spline_tire.py.
     """
-    hub_nodes = np.flatnonzero(np.hypot(mesh.points[:, 0], mesh.points[:, 2]) <= preset.hub_radius + 1e-9)
+    hub_nodes = np.flatnonzero(np.hypot(mesh.points[:, 0], mesh.points[:, 2]) <= preset.hub_radius + HUB_REACH)
     grid = build_contact_grid(mesh, mesh.plates_of(RIM), preset.contact_points, preset.contact_layout, shape)
     model = build_plate_model(
         mesh,

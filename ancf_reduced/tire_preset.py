@@ -8,7 +8,12 @@ from dataclasses import dataclass, replace
 from ancf_reduced.contact_layout import ContactLayout
 from contracts.errors import InputError
 
-__all__ = ["TirePreset", "refined_preset", "thesis_preset"]
+__all__ = ["HUB_REACH", "RIM", "SPOKE", "TirePreset", "refined_preset", "thesis_preset"]
+
+RIM, SPOKE = "rim", "spoke"
+"""Names of a tire's parts."""
+HUB_REACH = 1e-6
+"""How far beyond the hub radius a node still belongs to the hub [m]: files round."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -43,12 +43,15 @@ def read_surfaces_step(path: Path) -> tuple[SplineSurface, ...]:
     Raises
     ------
     InputError
-        If the file is not STEP or holds no face; for faces that are trimmed or lie on other surfaces, rational ones
-        among them; for parts moved by their assembly; for other units.
+        If the file cannot be read, is not STEP or holds no face; for faces that are trimmed or lie on other surfaces,
+        rational ones among them; for parts moved by their assembly; for other units.
 
     Verified by tests/unit/test_geometry_step_surfaces.py and tests/verification/test_ancf_spline_step.py.
     """
-    text = path.read_text(encoding="utf-8", errors="replace")
+    try:
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise InputError("STEP file", path, f"cannot be read ({error.strerror})", "check the path") from error
     if not text.lstrip().startswith("ISO-10303-21"):
         raise InputError("STEP file", path, "does not begin with ISO-10303-21", "export it as STEP, AP203 or AP214")
     text = re.sub(r"/\*.*?\*/", "", text.partition("DATA;")[2], flags=re.DOTALL)

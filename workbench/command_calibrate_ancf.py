@@ -14,6 +14,7 @@ from rich.table import Table
 
 from contracts.errors import InputError
 from workbench.ancf_fit import FittedTire, read_fit
+from workbench.ancf_tire import preset_from
 from workbench.errors import RunError
 from workbench.graph import report_tasks
 from workbench.graph_fit import AS_IT_IS, fit_name, fit_tasks
@@ -27,7 +28,6 @@ from workbench.study_file import built_in_study, read_study
 from workbench.study_models import ancf_preset
 from workbench.study_rewrite import rewritten_study, rewritten_table
 from workbench.task import Task
-from workbench.tasks_fit import preset_from
 
 __all__ = ["run_calibrate_ancf"]
 
@@ -57,7 +57,8 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     summary = {"schema": 1, "study": study.name, "kept": kept.name, "own": dict(own.numbers)}
     summary["tires"] = [{"name": t.name, **t.numbers} for t in tires]
     curves = [curve for t in tires for curve in (*t.curves.values(), t.average)]
-    publish(out, {name: rewritten_table(text, "ancf", _values(kept)), "ancf_fit.json": to_json(summary)}, curves)
+    text = rewritten_table(text, "ancf", _values(kept), without=["surfaces"])
+    publish(out, {name: text, "ancf_fit.json": to_json(summary)}, curves)
     _check_rewritten(out / name, kept)
     _print([own, *tires], kept)
     console.print(f"study: {out / name}", highlight=False, markup=False, soft_wrap=True)
@@ -102,7 +103,10 @@ def _values(tire: FittedTire) -> dict[str, str]:
 
 def _check_rewritten(path: Path, tire: FittedTire) -> None:
     """Make sure that the study written says what was found, however the old one was laid out."""
-    found, wanted = ancf_preset(read_study(path)), preset_from(tire.numbers["preset"])
+    study = read_study(path)
+    if study.ancf.surfaces is not None:
+        raise RunError(f"{path}: [ancf] surfaces could not be taken out of this file; remove it by hand")
+    found, wanted = ancf_preset(study), preset_from(tire.numbers["preset"])
     for name in (*_LENGTHS, *_UNITS, *_COUNTS):
         value, goal = getattr(found, name), getattr(wanted, name)
         if abs(value - goal) > 1e-5 * abs(goal):

@@ -23,7 +23,7 @@ from workbench.graph_section import section_tasks
 from workbench.graph_surfaces import report_surfaces_task
 from workbench.preset_table import preset_table
 from workbench.study import Study
-from workbench.study_models import ancf_preset, brush_parameters, wheel_design
+from workbench.study_models import ancf_tire, brush_parameters, wheel_design
 from workbench.task import Task
 from workbench.topics import topics_of
 
@@ -33,7 +33,7 @@ type Model = str
 """``"fe"``, ``"section"``, ``"ancf"`` or ``"brush"``."""
 
 
-_ANCF = Origin(sources=(*FILES, "ancf_reduced"), libraries=("numpy", "numba"))
+_ANCF = Origin(sources=(*FILES, "ancf_reduced", "workbench.ancf_tire"), libraries=("numpy", "numba"))
 _BRUSH = Origin(sources=("contracts", "rover_dynamics.brush_tire"), libraries=("numpy",))
 _METRICS = Origin(
     sources=(*FILES, "workbench.metrics", "workbench.results"), libraries=("numpy", "objective-rating-metrics")
@@ -95,12 +95,12 @@ def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
     ancf = study.ancf
     grid = np.linspace(0.0, ancf.max_deflection, ancf.points + 1).round(12).tolist()
     points = sorted({*grid, *_table_deflections(study)})
-    preset = asdict(ancf_preset(study))
+    tire = ancf_tire(study)
     return [
         Task(
             name=orientation_name("ancf", orientation),
             function="workbench.tasks_ancf:solve_orientation",
-            inputs={"preset": preset, "orientation_deg": orientation, "deflections": points},
+            inputs=tire | {"orientation_deg": orientation, "deflections": points},
             cost=10.0,
             **_ANCF,
         )

@@ -8,7 +8,7 @@ from dataclasses import asdict
 from workbench.graph_fe import FILES, Origin, degrees, orientation_name
 from workbench.study import Study
 from workbench.study_fit import FittedTireSection
-from workbench.study_models import ancf_preset, fit_start
+from workbench.study_models import ancf_tire, fit_start
 from workbench.task import Task
 from workbench.topic_mesh_study import mesh_study_inputs, mesh_study_runs
 
@@ -21,6 +21,7 @@ _FIT = Origin(
         *FILES,
         "ancf_reduced",
         "workbench.ancf_fit",
+        "workbench.ancf_tire",
         "workbench.graph_fe",
         "workbench.grid_convergence",
         "workbench.mesh_study",
@@ -44,7 +45,7 @@ def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) ->
     orientations = [degrees(o) for o in study.fe.orientations]
     common = {"orientations_deg": orientations, "load_range": list(section.load_range)}
     needs = tuple(orientation_name("fe", o) for o in orientations)
-    own = {"preset": asdict(ancf_preset(study))} | common
+    own = ancf_tire(study) | common
     tasks = [Task(name=AS_IT_IS, function="workbench.tasks_fit:evaluate", inputs=own, needs=needs, cost=5.0, **_FIT)]
     for tire in section.tires if tires is None else tires:
         realisations = section.realisations if tire == section.kept else 0

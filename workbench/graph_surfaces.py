@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 
 from workbench.graph_fe import FILES, degrees
 from workbench.study import Study
-from workbench.study_models import ancf_preset
+from workbench.study_models import ancf_tire
 from workbench.task import Task
 
 __all__ = ["SURFACES", "report_surfaces_task", "surfaces_task"]
@@ -23,13 +22,9 @@ def surfaces_task(study: Study, orientation_deg: float, deflections: Sequence[fl
     return Task(
         name=SURFACES,
         function="workbench.tasks_ancf_surfaces:write_surfaces",
-        inputs={
-            "preset": asdict(ancf_preset(study)),
-            "orientation_deg": orientation_deg,
-            "deflections": list(deflections),
-        },
+        inputs=ancf_tire(study) | {"orientation_deg": orientation_deg, "deflections": list(deflections)},
         cost=3.0,
-        sources=(*FILES, "ancf_reduced", "geometry", "workbench.tasks_ancf_surfaces"),
+        sources=(*FILES, "ancf_reduced", "geometry", "workbench.ancf_tire"),
         libraries=("gmsh", "numpy", "numba", "scipy"),
     )
 

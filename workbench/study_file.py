@@ -16,7 +16,7 @@ from pydantic import ValidationError
 from contracts.curves import read_curve
 from contracts.errors import InputError, StudyError
 from workbench.study import Study
-from workbench.study_models import SectionInputError, ancf_preset, brush_parameters, wheel_design
+from workbench.study_models import SectionInputError, ancf_mesh, ancf_preset, brush_parameters, wheel_design
 from workbench.study_rules import broken_rules
 
 __all__ = ["built_in_study", "read_study"]
@@ -43,13 +43,14 @@ def read_study(path: Path) -> Study:
     ------
     StudyError
         For the first defect found: unreadable file, TOML syntax, unknown or missing key, wrong type, unit or range,
-        parts that do not fit together, a user curve that cannot be read.
+        parts that do not fit together, a user curve or an ANCF tire's surfaces that cannot be used.
     """
     table = _read_table(path)
     try:
         study = Study.model_validate(table)
     except ValidationError as error:
         raise _study_error(path, error) from error
+    study = _with_surfaces_from(study, path.parent)
     try:
         wheel_design(study)
         ancf_preset(study)
@@ -59,6 +60,7 @@ def read_study(path: Path) -> Study:
         raise StudyError(path, key, error.value, f"{error.what} {error.rule}", error.hint) from error
     for broken in broken_rules(study):
         raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
+    _check_surfaces(path, study, table)
     _check_curves(path, study)
     return study
 
@@ -155,6 +157,23 @@ def _field_names(key: str, part: str, field: str, value: Any) -> list[tuple[str,
     """Ways geometry names a field of a part: ``outer hub radius`` is ``outer_hub.outer_radius``."""
     names = {f"{part} {field}", f"{part} {field.removesuffix('s')}", f"{part} {field.removeprefix('outer_')}"}
     return [(f"{key}.{field}", name) for name in sorted(names)]
+
+
+def _with_surfaces_from(study: Study, folder: Path) -> Study:
+    """The study with the whole path of its ANCF tire's surfaces."""
+    if study.ancf.surfaces is None:
+        return study
+    surfaces = str((folder / study.ancf.surfaces).absolute())
+    return study.model_copy(update={"ancf": study.ancf.model_copy(update={"surfaces": surfaces})})
+
+
+def _check_surfaces(path: Path, study: Study, table: Mapping[str, Any]) -> None:
+    """Make the ANCF tire's plates once, so that a bad file is found before anything runs."""
+    try:
+        ancf_mesh(study)
+    except SectionInputError as error:
+        found = "" if error.what == "STEP file" else f"{error.what} = {error.value}: "
+        raise StudyError(path, error.section, table["ancf"]["surfaces"], f"{found}{error.rule}", error.hint) from error
 
 
 def _check_curves(path: Path, study: Study) -> None:

@@ -9,22 +9,27 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contracts.errors import InputError
 from contracts.materials import Material
+from workbench.ancf_tire import tire_values
 from workbench.study import Study, WheelStudy
 from workbench.study_fit import FittedTireSection
 from workbench.study_sections import Section
 
 if TYPE_CHECKING:
+    from ancf_reduced.plate_mesh import PlateMesh
     from ancf_reduced.tire_preset import TirePreset
     from geometry.wheel import WheelDesign
     from rover_dynamics.brush_tire import BrushTireParameters
 
 __all__ = [
     "SectionInputError",
+    "ancf_mesh",
     "ancf_preset",
+    "ancf_tire",
     "brush_parameters",
     "fit_start",
     "materials",
@@ -118,8 +123,31 @@ def ancf_preset(study: Study) -> TirePreset:
     """Parameters of the ANCF tire; raises SectionInputError if they do not fit together."""
     from ancf_reduced.tire_preset import TirePreset
 
-    values = study.ancf.model_dump(exclude={"orientations", "max_deflection", "points", "thesis_preset"})
-    return _in_section("ancf", lambda: TirePreset(**values))
+    exclude = {"orientations", "max_deflection", "points", "thesis_preset", "surfaces"}
+    return _in_section("ancf", lambda: TirePreset(**study.ancf.model_dump(exclude=exclude)))
+
+
+def ancf_mesh(study: Study) -> PlateMesh | None:
+    """Plates of the ANCF tire on the surfaces of [ancf]; None if it has none and is built from its numbers.
+
+    Raises
+    ------
+    SectionInputError
+        Of the section ``ancf.surfaces``, for a file or surfaces that make no tire of [ancf].
+    """
+    path = study.ancf.surfaces
+    if path is None:
+        return None
+    from ancf_reduced.surface_tire import surface_mesh
+    from geometry.step_surfaces import read_surfaces_step
+
+    preset = ancf_preset(study)
+    return _in_section("ancf.surfaces", lambda: surface_mesh(read_surfaces_step(Path(path)), preset))
+
+
+def ancf_tire(study: Study) -> dict[str, Any]:
+    """The ANCF tire as inputs of a task, see ``workbench.ancf_tire``."""
+    return tire_values(ancf_preset(study), ancf_mesh(study))
 
 
 def fit_start(study: Study, tire: FittedTireSection) -> TirePreset:

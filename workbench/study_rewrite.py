@@ -6,10 +6,13 @@ Verified by tests/unit/test_workbench_calibration.py.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 __all__ = ["rewritten_study", "rewritten_table"]
+
+_FILES = (("compare.curves", "file"), ("ancf", "surfaces"))
+"""Table and key of paths relative to the study."""
 
 _TABLE = re.compile(r"\s*\[{1,2}\s*([^\[\]]+?)\s*\]{1,2}")
 _VALUE = re.compile(r"""^(\s*)("[^"]*"|[\w.-]+)(\s*=\s*)("[^"]*"|'[^']*'|[^\s#]+)(.*)$""", re.DOTALL)
@@ -23,7 +26,7 @@ def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder
     text : the old file
     thickness : of ``"tire"`` and of each spring set by its name [m]
     note : one line, put first as a comment and as the reason of an inferred tire thickness
-    folder : where the old file lies; the user's curves are named from there
+    folder : where the old file lies; the user's curves and surfaces are named from there
     """
     lines, table, blocks = text.splitlines(keepends=True), "", list[list[str]]()
     for line in lines:
@@ -38,7 +41,7 @@ def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder
     return "".join(out)
 
 
-def rewritten_table(text: str, table: str, values: Mapping[str, str]) -> str:
+def rewritten_table(text: str, table: str, values: Mapping[str, str], without: Sequence[str] = ()) -> str:
     """The text of a study file with new values in one table.
 
     Parameters
@@ -47,6 +50,7 @@ def rewritten_table(text: str, table: str, values: Mapping[str, str]) -> str:
     table : name, e.g. ``"ancf"``
     values : key -> value as TOML text; keys that the table lacks come first in it. Comments stay, but those behind an
         array that changes.
+    without : keys to leave out, with their comments
     """
     out, inside, missing = list[str](), False, dict(values)
     place = 0
@@ -55,6 +59,8 @@ def rewritten_table(text: str, table: str, values: Mapping[str, str]) -> str:
             inside = found[1] == table
             place = len(out) + 1 if inside else place
         key = line.partition("=")[0].strip().strip('"') if inside and "=" in line else ""
+        if key in without:
+            continue
         if key in values:
             missing.pop(key, None)
             array = line.partition("=")[2].lstrip().startswith("[")
@@ -73,7 +79,7 @@ def _changed(block: list[str], table: str, thickness: Mapping[str, float], about
             yield _with_value(line, f'"{thickness[name] * 1e3:.4f} mm"')
         elif table == "inferred" and key == "wheel.tire.thickness" and "tire" in thickness:
             yield _with_value(line, f'"{note}"')
-        elif table == "compare.curves" and key == "file":
+        elif (table, key) in _FILES:
             assert found is not None
             yield _with_value(line, f'"{(folder / found[4].strip(chr(34))).resolve()}"')
         else:

@@ -231,6 +231,15 @@ class AncfSection(Section):
     points: Annotated[StrictInt, Field(ge=2, le=500)]
     thesis_preset: StrictBool = False
     """True states that these are the thesis' numbers: the curve is then held against its known table."""
+    surfaces: Annotated[str, Field(min_length=1)] | None = None
+    """STEP file of the mid-surfaces of rim and spokes, in place of cylinder and planes; relative to the study file."""
+
+    @model_validator(mode="after")
+    def _phase_is_the_file_s(self) -> AncfSection:
+        if self.surfaces is not None and self.phase != 0.0:
+            rule = "must be 0 with surfaces, whose file says where the spokes stand"
+            raise in_key("phase", f"{math.degrees(self.phase):g} deg", rule, "turn the surfaces in the file")
+        return self
 
 
 class BrushSection(Section):

@@ -11,11 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from ancf_reduced.plate_mass import flexible_mass
-from ancf_reduced.static_tire import stiffness_curve
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import TirePreset
+from ancf_reduced.static_tire import tire_curve
 from ancf_reduced.tire_surfaces import outer_face_error
 from contracts.curves import write_curve
+from workbench.ancf_tire import tire_from
 from workbench.result_files import write_result
 from workbench.task import Progress
 
@@ -24,11 +23,9 @@ __all__ = ["solve_orientation"]
 
 def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """Stiffness curve of the tire at one orientation: ``curve.csv`` and ``result.json``."""
-    values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in inputs["preset"].items()}
-    preset = TirePreset(**values)
-    curve = stiffness_curve(preset, math.radians(inputs["orientation_deg"]), inputs["deflections"])
+    tire = tire_from(inputs)
+    curve = tire_curve(tire, math.radians(inputs["orientation_deg"]), inputs["deflections"])
     write_curve(curve, out / "curve.csv")
-    tire = build_tire(preset)
     mass = flexible_mass(tire.model)
     write_result(out, {"flexible_mass_kg": mass, "outer_face_error_m": outer_face_error(tire)})
     progress(1.0)

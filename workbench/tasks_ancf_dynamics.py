@@ -19,13 +19,12 @@ from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
 from ancf_reduced.implicit_dynamics import ImplicitSettings, integrate_implicit
 from ancf_reduced.plate_system import HubMass
 from ancf_reduced.spectrum import stable_step
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import TirePreset
 from ancf_reduced.wheel_rig import WheelRig, wheel_rig
 from contracts.errors import ConvergenceError
 from contracts.series import TimeSeries, write_series
 from contracts.terrain import Plane, TerrainUnion
 from contracts.terrain_ridges import HalfRound
+from workbench.ancf_tire import tire_from
 from workbench.result_files import write_result
 from workbench.task import Progress
 
@@ -69,15 +68,14 @@ def move_wheel(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, 
 
 def _rig(inputs: Mapping[str, Any]) -> WheelRig:
     """Wheel and ground of a task."""
-    values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in inputs["preset"].items()}
-    preset = TirePreset(**values)
+    tire = tire_from(inputs)
     rock = [HalfRound(radius=r, position=x) for r, x in inputs["rocks"]]
     spin = inputs["spin"]
     return wheel_rig(
-        build_tire(preset),
+        tire,
         TerrainUnion(parts=(Plane(), *rock)) if rock else Plane(),
         hub=HubMass(mass=inputs["hub_mass"], inertia=inputs["hub_inertia"] * np.eye(3)),
-        law=ContactLaw(stiffness=preset.contact_stiffness, **inputs["law"]),
+        law=ContactLaw(stiffness=tire.preset.contact_stiffness, **inputs["law"]),
         damping_ratio=inputs["damping_ratio"],
         drive=(spin, inputs["drive_gain"]) if spin else None,
     )

@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from ancf_reduced.plate_mesh import PlateMesh
 from ancf_reduced.spline_plates import FACES, plate_surfaces
 from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import TirePreset
 from ancf_reduced.tire_surfaces import surface_grid
 from geometry.surface_step import step_points, write_surfaces_step
+from workbench.ancf_tire import tire_from
 from workbench.graph_fe import orientation_name
 from workbench.result_files import write_result
 from workbench.task import Progress
@@ -32,8 +31,7 @@ _GRID = 9
 
 def write_surfaces(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """``ancf.step`` unloaded, one file for each deflection, and in ``result.json`` how far they lie off, read back."""
-    values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in inputs["preset"].items()}
-    tire, orientation = build_tire(TirePreset(**values)), inputs["orientation_deg"]
+    tire, orientation = tire_from(inputs), inputs["orientation_deg"]
     states = {"ancf": tire.mesh.reference_coordinates()}
     if inputs["deflections"]:
         solved = solve_tire(tire, math.radians(orientation), inputs["deflections"])

@@ -18,10 +18,9 @@ from numpy.typing import NDArray
 
 from ancf_reduced.curve_fit import CurveFit, LoadData, fit_curves
 from ancf_reduced.plate_mass import flexible_mass
-from ancf_reduced.static_tire import stiffness_curve
-from ancf_reduced.tire_mesh import build_tire
+from ancf_reduced.static_tire import tire_curve
+from ancf_reduced.tire_mesh import Tire, build_tire
 from ancf_reduced.tire_parameters import FreeParameter, Parameter, with_mass
-from ancf_reduced.tire_preset import TirePreset
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, InputError
 from workbench.ancf_fit import (
@@ -32,13 +31,14 @@ from workbench.ancf_fit import (
     fitted_deflections,
     perturbed,
 )
+from workbench.ancf_tire import preset_from, tire_from
 from workbench.graph_fe import orientation_name
 from workbench.result_files import FAILURE, write_result
 from workbench.results import mean_curve
 from workbench.task import Progress
 from workbench.topic_mesh_study import read_mesh_study
 
-__all__ = ["evaluate", "fit", "preset_from"]
+__all__ = ["evaluate", "fit"]
 
 FloatArray = NDArray[np.float64]
 _STEP = 1e-3
@@ -46,21 +46,15 @@ _STEP = 1e-3
 _TOLERANCE, _REFIT_TOLERANCE = 1e-5, 1e-3
 
 
-def preset_from(values: Mapping[str, Any]) -> TirePreset:
-    """The preset from a task's inputs, where tuples are lists."""
-    changed: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in values.items()}
-    return TirePreset(**changed)
-
-
 def evaluate(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """Curves of a preset at the FE's orientations and how far they lie from the FE's."""
-    preset = preset_from(inputs["preset"])
+    tire = tire_from(inputs)
     try:
-        numbers = _held_against(preset, inputs, fe_curves(needs, inputs["orientations_deg"]), out)
+        numbers = _held_against(tire, inputs, fe_curves(needs, inputs["orientations_deg"]), out)
     except (InputError, ConvergenceError) as error:
         numbers = {FAILURE: str(error)}
     write_result(out, numbers)
-    return _unknowns(preset)
+    return _unknowns(tire)
 
 
 def fit(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
@@ -70,7 +64,7 @@ def fit(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progres
     except (InputError, ConvergenceError) as error:
         numbers = {FAILURE: str(error)}
     write_result(out, numbers)
-    return _unknowns(preset_from(inputs["preset"]))
+    return _unknowns(tire_from(inputs))
 
 
 def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> dict[str, Any]:
@@ -88,13 +82,12 @@ def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
     progress(0.4)
     realisations = inputs["realisations"]
     again = _refits(found, _uncertainty(inputs, needs, deflection), realisations, progress) if realisations else []
-    preset = with_mass(found.preset, THESIS_WHEEL_MASS)
-    numbers = _held_against(preset, inputs, solid, out)
+    tire = build_tire(with_mass(found.preset, THESIS_WHEEL_MASS))
+    numbers = _held_against(tire, inputs, solid, out)
     return numbers | _statistics(found) | {"parameters": _parameters(found, again), "refits": len(again)}
 
 
-def _unknowns(preset: TirePreset) -> int:
-    tire = build_tire(preset)
+def _unknowns(tire: Tire) -> int:
     return int(tire.mesh.reference_coordinates()[tire.tie.free].size)
 
 
@@ -122,22 +115,20 @@ def _refits(found: CurveFit, uncertainty: FloatArray, realisations: int, progres
     return values
 
 
-def _held_against(
-    preset: TirePreset, inputs: Mapping[str, Any], solid: Sequence[StiffnessCurve], out: Path
-) -> dict[str, Any]:
-    """Write the preset's curves; its numbers, and its errors in percent of the load over the range of loads."""
+def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[StiffnessCurve], out: Path) -> dict[str, Any]:
+    """Write the tire's curves; its numbers, and its errors in percent of the load over the range of loads."""
     average = mean_curve(solid)
     end = float(fitted_deflections(average, inputs["load_range"], 2)[-1])
     grid = [*np.arange(0.0, end - 0.1 * _STEP, _STEP).round(9).tolist(), end]
     orientations = [o for curve in solid if (o := curve.orientation_deg) is not None]
-    curves = [stiffness_curve(preset, math.radians(o), grid) for o in orientations]
+    curves = [tire_curve(tire, math.radians(o), grid) for o in orientations]
     for curve, o in zip(curves, orientations, strict=True):
         write_curve(curve, out / f"{orientation_name('ancf', o)}.csv")
     inside = compared_deflections(average, inputs["load_range"])
     pairs = [(c.load_at(inside), s.load_at(inside)) for c, s in zip(curves, solid, strict=True)]
     return {
-        "preset": asdict(preset),
-        "flexible_mass_kg": flexible_mass(build_tire(preset).model),
+        "preset": asdict(tire.preset),
+        "flexible_mass_kg": flexible_mass(tire.model),
         "orientations_deg": orientations,
         "load_range_N": [float(average.load_at(d)) for d in (inside[0], inside[-1])],
         "relative_rms": [float(np.linalg.norm(f - s) / np.linalg.norm(s)) for f, s in pairs],

@@ -6,7 +6,7 @@ Verified by tests/unit/test_workbench_ancf_dynamics.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,7 @@ from workbench.check_rules import Claim, at_most
 from workbench.graph_fe import FILES
 from workbench.result_files import read_result
 from workbench.study import Study
-from workbench.study_models import ancf_preset
+from workbench.study_models import ancf_preset, ancf_tire
 from workbench.task import Task
 from workbench.topic import Topic
 
@@ -71,7 +71,7 @@ _SCENARIOS = {"drop": "drop", "drop_share": "drop_share", "ride": "half_round"}
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    preset = ancf_preset(study)
+    preset, tire = ancf_preset(study), ancf_tire(study)
     still = {"speed": 0.0, "spin": 0.0, "rocks": [], "law": {}, "hub": [0.0, 0.0, preset.outer_radius + DROP]}
     spin = SPEED / preset.outer_radius
     law = {"damping": 2.0, "friction": 0.6, "slip_velocity": 0.1}
@@ -83,8 +83,8 @@ def _tasks(study: Study) -> Sequence[Task]:
         | {"hub": [0.0, 0.0, preset.outer_radius - 0.012], "hub_mass": HUB_MASS}
         | {"end": 1.0, "points": 200, "implicit": False},
     }
-    common = {
-        "preset": asdict(preset) | {"quadrature": (4, 4, 2)},
+    common = tire | {
+        "preset": tire["preset"] | {"quadrature": (4, 4, 2)},
         "hub_inertia": 0.1,
         "damping_ratio": DAMPING_RATIO,
         "drive_gain": 20.0,
@@ -94,7 +94,7 @@ def _tasks(study: Study) -> Sequence[Task]:
             name=f"ancf_{name}",
             function="workbench.tasks_ancf_dynamics:move_wheel",
             inputs=common | motion,
-            sources=(*FILES, "ancf_reduced", "contracts"),
+            sources=(*FILES, "ancf_reduced", "workbench.ancf_tire"),
             libraries=("numpy", "numba", "scipy"),
             cost=5.0,
         )

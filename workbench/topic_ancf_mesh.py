@@ -120,4 +120,9 @@ def _checks(study: Study, found: Comparison, results: AncfMeshStudy) -> Sequence
     return [at_most(claim, lambda: results.largest_excess, study.tolerances.model_agreement)]
 
 
-ANCF_MESH = Topic(name="ancf_mesh", title="ANCF mesh", tasks=_tasks, read=_read, checks=_checks)
+def _is_parametric(study: Study) -> bool:
+    """A tire drawn in a file is not refined here: its numbers alone would give another one."""
+    return study.ancf.surfaces is None
+
+
+ANCF_MESH = Topic(name="ancf_mesh", title="ANCF mesh", tasks=_tasks, read=_read, checks=_checks, applies=_is_parametric)
