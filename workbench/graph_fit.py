@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict
 
+from workbench.full_study import is_mirrored
 from workbench.graph_fe import FILES, Origin, degrees, orientation_name
 from workbench.study import Study
 from workbench.study_fit import FittedTireSection
@@ -43,7 +44,7 @@ def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) ->
     if section is None:
         return []
     orientations = [degrees(o) for o in study.fe.orientations]
-    common = {"orientations_deg": orientations, "load_range": list(section.load_range)}
+    common = {"orientations_deg": orientations, "load_range": list(section.load_range), "mirrored": is_mirrored(study)}
     needs = tuple(orientation_name("fe", o) for o in orientations)
     own = ancf_tire(study) | common
     tasks = [Task(name=AS_IT_IS, function="workbench.tasks_fit:evaluate", inputs=own, needs=needs, cost=5.0, **_FIT)]
@@ -53,6 +54,7 @@ def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) ->
         inputs = common | {
             "preset": asdict(fit_start(study, tire)),
             "free": [[name, *getattr(section.bounds, name)] for name in tire.free],
+            "phase_starts": tire.phase_starts,
             "points": section.points,
             "average_weight": section.average_weight,
             "realisations": realisations,

@@ -64,6 +64,8 @@ class FittedTireSection(Section):
     circumferential_plates: Annotated[StrictInt, Field(ge=3, le=96)]
     free: Annotated[tuple[ParameterName, ...], Field(min_length=1)]
     start: FitStartSection = FitStartSection()
+    phase_starts: Annotated[StrictInt, Field(ge=1, le=36)] = 1
+    """Searches begun from so many phases, in equal steps of the turn after which the tire repeats itself."""
 
     @model_validator(mode="after")
     def _fits_together(self) -> FittedTireSection:
@@ -72,6 +74,8 @@ class FittedTireSection(Section):
         if twice or ("thickness" in names and names & {"rim_thickness", "spoke_thickness"}):
             hint = "thickness is that of rim and spokes together"
             raise in_key("free", ", ".join(self.free), "must name nothing twice", hint)
+        if self.phase_starts > 1 and "phase" not in names:
+            raise in_key("phase_starts", self.phase_starts, "needs the phase among free", "free it, or leave this out")
         if self.circumferential_plates % self.spokes:
             rule, hint = "must be a multiple of the spokes", "give 6 or 12 plates for 6 spokes"
             raise in_key("circumferential_plates", self.circumferential_plates, rule, hint)

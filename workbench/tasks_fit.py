@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ancf_reduced.curve_fit import CurveFit, LoadData, fit_curves
+from ancf_reduced.phase_search import fit_from_phases
 from ancf_reduced.plate_mass import flexible_mass
-from ancf_reduced.static_tire import tire_curve
+from ancf_reduced.static_tire import solve_tire, tire_curve
 from ancf_reduced.tire_mesh import Tire, build_tire
 from ancf_reduced.tire_parameters import FreeParameter, Parameter, with_mass
 from contracts.curves import StiffnessCurve, write_curve
@@ -44,6 +45,8 @@ FloatArray = NDArray[np.float64]
 _STEP = 1e-3
 """Spacing of the points of the curves that are shown [m]."""
 _TOLERANCE, _REFIT_TOLERANCE = 1e-5, 1e-3
+_MIRRORED_EVERY = 20
+"""Of the deflections at which curves are compared, solved again for the mirror images."""
 
 
 def evaluate(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
@@ -78,13 +81,15 @@ def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
     weight = inputs["average_weight"]
     data = LoadData(phi=phi, deflection=deflection, load=load, scale=scale, mean_weight=weight)
     free = [FreeParameter(parameter=Parameter(name), lower=low, upper=high) for name, low, high in inputs["free"]]
-    found = fit_curves(preset_from(inputs["preset"]), free, data, _TOLERANCE)
+    search = fit_from_phases(preset_from(inputs["preset"]), free, data, inputs["phase_starts"], _TOLERANCE)
+    found = search.fit
     progress(0.4)
     realisations = inputs["realisations"]
     again = _refits(found, _uncertainty(inputs, needs, deflection), realisations, progress) if realisations else []
     tire = build_tire(with_mass(found.preset, THESIS_WHEEL_MASS))
     numbers = _held_against(tire, inputs, solid, out)
-    return numbers | _statistics(found) | {"parameters": _parameters(found, again), "refits": len(again)}
+    numbers |= _statistics(found) | {"parameters": _parameters(found, again), "refits": len(again)}
+    return numbers | {"phase_trials": [asdict(trial) for trial in search.trials]}
 
 
 def _unknowns(tire: Tire) -> int:
@@ -134,7 +139,26 @@ def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[Stiffne
         "relative_rms": [float(np.linalg.norm(f - s) / np.linalg.norm(s)) for f, s in pairs],
         "largest_N": [float(np.abs(f - s).max()) for f, s in pairs],
         "average": asdict(average_error(curves, average, inputs["load_range"])),
+        "mirrored_rms": _mirrored_rms(tire, inside, solid) if inputs["mirrored"] else None,
     }
+
+
+def _mirrored_rms(tire: Tire, deflection: FloatArray, solid: Sequence[StiffnessCurve]) -> list[float] | None:
+    """Relative rms at the mirror images of the orientations, where a wheel that is its own has the same curves.
+
+    What a free phase makes of one half of the wheel's orientations says nothing about the other. None where no
+    equilibrium is found.
+    """
+    errors = []
+    for curve in solid:
+        assert curve.orientation_deg is not None
+        try:
+            load = solve_tire(tire, -math.radians(curve.orientation_deg), deflection[::_MIRRORED_EVERY]).load
+        except ConvergenceError:
+            return None
+        wanted = curve.load_at(deflection[::_MIRRORED_EVERY])
+        errors.append(float(np.linalg.norm(load - wanted) / np.linalg.norm(wanted)))
+    return errors
 
 
 def _parameters(found: CurveFit, again: Sequence[FloatArray]) -> list[dict[str, Any]]:

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
@@ -65,6 +67,19 @@ class AncfFits:
     def periods(self) -> Mapping[str, float]:
         """Turn after which each tire repeats itself [deg]: 360 deg over its spokes."""
         return {tire.name: 360.0 / tire.numbers["preset"]["spokes"] for tire in self.all}
+
+    @property
+    def half_period(self) -> float | None:
+        """How far the FE curves at 0 and half a period differ [-]: rms over load; None where there are not both."""
+        pair = [self.fe.loaded.get(o) for o in (0.0, 0.5 * self.period)]
+        return _difference(pair[0], pair[1]) if pair[0] is not None and pair[1] is not None else None
+
+
+def _difference(one: StiffnessCurve, other: StiffnessCurve) -> float:
+    """Root mean square of the difference of two curves over that of their mean, where both have points [-]."""
+    d = np.linspace(max(one.deflection[0], other.deflection[0]), min(one.deflection[-1], other.deflection[-1]), 101)
+    a, b = one.load_at(d), other.load_at(d)
+    return float(np.linalg.norm(a - b) / np.linalg.norm(0.5 * (a + b)))
 
 
 def _tasks(study: Study) -> Sequence[Task]:

@@ -18,11 +18,13 @@ from contracts.errors import InputError, StudyError
 from workbench.ancf_fit import average_error, fitted_deflections, perturbed, read_fit
 from workbench.graph import report_tasks
 from workbench.graph_fit import fit_tasks
+from workbench.results import ModelCurves
 from workbench.study import Study
 from workbench.study_file import built_in_study, read_study
 from workbench.study_models import fit_start
 from workbench.study_rewrite import rewritten_table
 from workbench.tasks_fit import evaluate, fit
+from workbench.topic_ancf_fit import AncfFits
 from workbench.topics import topics_of
 
 D = np.linspace(0.0, 0.03, 16)
@@ -105,7 +107,7 @@ def test_a_fit_and_its_result(folders: Mapping[str, Path], tmp_path: Path) -> No
     """The modulus that made the curves is found, with an interval and a spread; the mass is that of Table I."""
     preset = asdict(SMALL) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
     inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "points": 4}
-    inputs |= {"average_weight": 3.0, "realisations": 4, "mesh_study": MESH_STUDY}
+    inputs |= {"average_weight": 3.0, "realisations": 4, "mesh_study": MESH_STUDY, "phase_starts": 1, "mirrored": True}
     fit(inputs | {"free": [["young_modulus", 1e4, 1e7]]}, folders, tmp_path, lambda fraction: None)
     tire = read_fit("test", tmp_path)
     (row,) = tire.numbers["parameters"]
@@ -122,14 +124,51 @@ def test_a_fit_and_its_result(folders: Mapping[str, Path], tmp_path: Path) -> No
     own = read_fit("own", tmp_path)
     assert own.numbers["preset"]["young_modulus"] == SMALL.young_modulus
     assert max(own.numbers["relative_rms"]) > 0.05
+    # a tire whose spokes stand on its plane of symmetry is its own mirror image
+    np.testing.assert_allclose(own.numbers["mirrored_rms"], own.numbers["relative_rms"], rtol=0.05)
+
+
+def test_a_turned_tire_is_found_by_its_mirror_image(folders: Mapping[str, Path], tmp_path: Path) -> None:
+    """Curves of spokes at 20 deg meet themselves at 0 and 30 deg; minus 30 deg is 50 deg from a spoke, not 10."""
+    inputs = {"orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "mirrored": True}
+    turned = replace(SMALL, phase=np.radians(20.0))
+    preset = asdict(turned) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
+    evaluate(inputs | {"preset": preset}, folders, tmp_path, lambda fraction: None)
+    numbers = read_fit("own", tmp_path).numbers
+    assert numbers["mirrored_rms"][0] == pytest.approx(numbers["relative_rms"][0], rel=0.05)
+    assert abs(numbers["mirrored_rms"][1] - numbers["relative_rms"][1]) > 0.05
+
+
+def test_phases_are_tried_as_the_study_asks(study: Study, folders: Mapping[str, Path], tmp_path: Path) -> None:
+    assert study.ancf_fit is not None
+    three = fit_tasks(study, [study.ancf_fit.tires[2]])[-1]
+    assert three.inputs["phase_starts"] == 6
+    assert three.inputs["mirrored"]
+    preset = asdict(SMALL) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
+    inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "points": 3}
+    inputs |= {"average_weight": 1.0, "realisations": 0, "mesh_study": None, "phase_starts": 2, "mirrored": True}
+    free = [["young_modulus", 1e4, 1e7], ["phase", -0.8, 0.8]]
+    fit(inputs | {"free": free}, folders, tmp_path, lambda fraction: None)
+    trials = read_fit("test", tmp_path).numbers["phase_trials"]
+    assert [t["start"] for t in trials] == pytest.approx([0.0, -np.pi / 4])
+    assert trials[0]["sum_of_squares"] < 0.1 * trials[1]["sum_of_squares"]
 
 
 def test_curves_too_short_for_the_range_leave_the_reason(folders: Mapping[str, Path], tmp_path: Path) -> None:
     preset = asdict(SMALL) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
-    inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [300.0, 350.0]}
+    inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [300.0, 350.0], "mirrored": False}
     evaluate(inputs, folders, tmp_path, lambda fraction: None)
     with pytest.raises(InputError, match="beyond the end of the FE average"):
         read_fit("own", tmp_path)
+
+
+def test_curves_half_a_period_apart_are_compared() -> None:
+    """8 % apart everywhere; one of them alone says nothing."""
+    ends = {0.0: LINE, 60.0: replace(LINE, orientation_deg=60.0, load=1.08 * LINE.load)}
+    fe = ModelCurves(model="fe", by_orientation=ends, average=LINE, numbers={})
+    fits = AncfFits(own=None, fitted=(), kept="", fe=fe, period=120.0)
+    assert fits.half_period == pytest.approx(0.08 / 1.04)
+    assert replace(fits, period=90.0).half_period is None
 
 
 @pytest.mark.parametrize(
@@ -144,6 +183,12 @@ def test_curves_too_short_for_the_range_leave_the_reason(folders: Mapping[str, P
         ('hub_radius = "30 mm", contact', 'hub_radius = "140 mm", contact', "hub radius must be below"),
         ('load_range = ["20 N", "250 N"]', 'load_range = ["250 N", "20 N"]', "must increase"),
         ("realisations = 20", "realisations = -1", "realisations"),
+        (
+            "phase_starts = 6",
+            'phase_starts = 6\n\n[[ancf_fit.tires]]\nname = "still"\nspokes = 3\ncircumferential_plates = 6\n'
+            'free = ["young_modulus"]\nphase_starts = 2',
+            "needs the phase among free",
+        ),
     ],
 )
 def test_bad_sections_are_refused(tmp_path: Path, old: str, new: str, message: str) -> None:

@@ -94,7 +94,7 @@ def test_every_task_of_the_study_s_own_tire_has_its_plates(exported: Path, tmp_p
     assert all("plates" in tasks[name].inputs for name in own)
     assert not [name for name in tasks if name.startswith("ancf_plates_x")]
     presets = [n for n, t in tasks.items() if "preset" in t.inputs and "plates" not in t.inputs]
-    assert sorted(presets) == ["ancf_fit_four_spokes", "ancf_fit_six_spokes"]
+    assert sorted(presets) == ["ancf_fit_four_spokes", "ancf_fit_six_spokes", "ancf_fit_three_spokes"]
 
 
 def test_a_tire_survives_as_inputs() -> None:
