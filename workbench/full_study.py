@@ -45,6 +45,9 @@ def _patterns(study: Study) -> list[tuple[int, float]]:
 def full_study(study: Study) -> Study:
     """The study with all orientations from 0 to the period, the finer mesh and its own mesh study.
 
+    The initial tangent is still that of the study's own orientations, on which its strip was chosen: the same check
+    on a finer mesh. That of the mean around the wheel is another check.
+
     Raises
     ------
     InputError
@@ -60,8 +63,10 @@ def full_study(study: Study) -> Study:
         if not any(abs(orientation - o) < _SAME for o in steps):
             rule = f"is not among 0 to {steps[-1]:g} deg by {step:g} deg"
             raise InputError("fe.orientations", f"{orientation:g} deg", rule, "choose another full.orientation_step")
+    chosen_on = study.tolerances.initial_tangent_orientations or study.fe.orientations
     return study.model_copy(
         update={
+            "tolerances": study.tolerances.model_copy(update={"initial_tangent_orientations": chosen_on}),
             "title": f"{study.title}: full study",
             "fe": study.fe.model_copy(update={"orientations": tuple(math.radians(o) for o in steps)}),
             "mesh": study.mesh.model_copy(update={"factor": full.factor}),

@@ -96,6 +96,10 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
             rule="must be one of fe.orientations",
             hint="add it there or choose one of them",
         )
+    for angle in study.tolerances.initial_tangent_orientations or ():
+        if not any(abs(angle - o) < 1e-9 for o in fe.orientations):
+            key, value = "tolerances.initial_tangent_orientations", f"{math.degrees(angle):g} deg"
+            yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
     penalty = study.penalty_study
     if penalty is not None and penalty.deflection > fe.max_deflection:
         value, rule = f"{1e3 * penalty.deflection:g} mm", "must not exceed fe.max_deflection"

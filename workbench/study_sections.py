@@ -277,6 +277,8 @@ class ToleranceSection(Section):
 
     initial_tangent: Annotated[Number, Positive] = 0.03
     initial_tangent_up_to: Annotated[Length, Positive] = 0.005
+    initial_tangent_orientations: Orientations | None = None
+    """Those of fe.orientations whose mean the slope is taken of; all of them by default."""
     ancf_preset: Annotated[Number, Positive] = 0.01
     ancf_fit: Annotated[Number, Positive] = 0.03
     flexible_mass: Annotated[Number, Positive] = 0.01

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -43,7 +44,7 @@ def _fe_curve(orientation: float, slope: float, **columns: float) -> StiffnessCu
     )
 
 
-def _fe(slopes: tuple[float, float] = (8600.0, 8000.0), residual: float = 1e-9, **columns: float) -> ModelCurves:
+def _fe(slopes: tuple[float, ...] = (8600.0, 8000.0), residual: float = 1e-9, **columns: float) -> ModelCurves:
     curves = {float(i): _fe_curve(float(i), slope, **columns) for i, slope in enumerate(slopes)}
     record = {"converged": True, "residuals": [1.0, residual], "target": 0.01, "step": 0.01}
     failed = {"converged": False, "residuals": [1.0, 0.5], "target": 0.02, "step": 0.01}
@@ -69,6 +70,17 @@ def test_band_checks_pass_on_a_curve_inside_and_fail_on_a_soft_one() -> None:
     assert soft["fe.deflection_at_160N"].status == "fail"
     assert soft["fe.deflection_at_250N"].status == "error"
     assert soft["fe.deflection_at_250N"].value is None
+
+
+def test_the_slope_may_be_that_of_some_orientations() -> None:
+    """As in the full study: two of three orientations, 8600 and 8000 N/m; a soft third one does not count."""
+    fe = _fe((8600.0, 8000.0, 5000.0))
+    named = TOLERANCES.model_copy(update={"initial_tangent_orientations": (0.0, math.radians(1.0))})
+    checks = {name: _by_id(band_checks(fe, thesis_band(), t)) for name, t in (("two", named), ("all", TOLERANCES))}
+    two, every = (checks[name]["fe.initial_tangent"] for name in ("two", "all"))
+    assert two.value == pytest.approx(8300.0, rel=0.01)
+    assert (two.status, every.status) == ("pass", "fail")
+    assert "of 0, 1 degrees alone" in two.title
 
 
 def _fine(residual: float, imbalance: float) -> MeshRun:

@@ -98,6 +98,11 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
         '\norientation = "7 deg"',
         ["mesh_study.orientation = 7 deg", "must be one of fe.orientations"],
     ),
+    "slope where nobody solves": (
+        'initial_tangent_up_to = "5 mm"',
+        'initial_tangent_orientations = ["7 deg"]',
+        ["tolerances.initial_tangent_orientations = 7 deg", "must be one of fe.orientations"],
+    ),
     "mesh study off the curve": (
         r'"20 mm", "30 mm"\]',
         '"20 mm", "70 mm"]',
