@@ -1,6 +1,6 @@
-"""Topic of the report: what a Newton iteration, an increment and an orientation cost, and what was aimed at.
+"""Topic of the report: what a Newton iteration, an increment, an orientation and an ANCF plate cost, and the aims.
 
-Times beside other codes and on two processes come from kept benchmark runs (`benchmark_record`), those of the study's
+Times beside other codes, on two processes and of the ANCF loops come from kept benchmark runs (`benchmark_record`), those of the study's
 own curves from their stored results. Verified by tests/unit/test_workbench_speed.py.
 """
 
@@ -10,18 +10,20 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from contracts.records import Check
 from workbench.benchmark_record import BenchmarkRecord, BenchmarkRow, read_record
 from workbench.check_rules import Claim, at_most
 from workbench.graph_section import without_planar_model
 from workbench.results import ModelCurves, model_curves
+from workbench.speed_aim import Aim
+from workbench.speed_ancf import ARITHMETIC, CHRONO, TIRE, ancf_aims
 from workbench.study import Study
 from workbench.task import Task
 from workbench.topic import Topic
 
-__all__ = ["SPEED", "Aim", "CurveCost", "SpeedResults"]
+__all__ = ["SPEED", "CurveCost", "SpeedResults"]
 
 ITERATION, ITERATIONS, WHOLE, MEMORY = (
     "time per Newton iteration",
@@ -33,24 +35,6 @@ EQUAL_ACCURACY = "half-cylinder-equal-accuracy against CalculiX"
 SAME_ELEMENT = tuple(f"half-cylinder-{n} against CalculiX" for n in (40, 120, 220))
 RANKS = "wall time of a Newton iteration"
 CURVE_ITERATIONS, CURVE_POINTS, PLANAR_SECONDS = 80.0, 20, 5.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Aim:
-    """One aim: what was wanted (at least ``limit``, more than it, or at most it), and what was found."""
-
-    title: str
-    found: float
-    limit: float
-    unit: str = "times"
-    rule: Literal["at least", "more than", "at most"] = "at least"
-
-    @property
-    def met(self) -> bool:
-        """Whether the number found lies on the right side of the limit."""
-        if self.rule == "at most":
-            return self.found <= self.limit
-        return self.found >= self.limit if self.rule == "at least" else self.found > self.limit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,6 +61,7 @@ class SpeedResults:
 
     wheel: BenchmarkRecord
     ranks: BenchmarkRecord
+    ancf: BenchmarkRecord
     curves: tuple[CurveCost, ...]
 
     @property
@@ -96,7 +81,17 @@ class SpeedResults:
             Aim(title=fewer, found=self._least(calculix, ITERATIONS), limit=1.0, rule="more than"),
             Aim(title="Faster on two processes than on one", found=_ratio(self.ranks, RANKS), limit=1.6),
         ]
-        return [*aims, *self.own_aims]
+        return [*aims, *ancf_aims(self.ancf), *self.own_aims]
+
+    @property
+    def chrono(self) -> Mapping[str, float]:
+        """Project Chrono's plate, for scale."""
+        return CHRONO
+
+    @property
+    def over_arithmetic(self) -> Mapping[str, float]:
+        """Force and tangent: time over that of their floating point operations alone [-]."""
+        return {name: self.ancf.row(TIRE, metric).ours for name, metric in ARITHMETIC.items()}
 
     @property
     def dearest(self) -> float:
@@ -153,7 +148,9 @@ def _read(study: Study, folders: Mapping[str, Path]) -> SpeedResults:
     costs = _costs("fe", model_curves("fe", folders))
     if without_planar_model(study) is None:
         costs += _costs("section", model_curves("section", folders))
-    return SpeedResults(wheel=read_record("fe_wheel"), ranks=read_record("fe_ranks"), curves=tuple(costs))
+    return SpeedResults(
+        wheel=read_record("fe_wheel"), ranks=read_record("fe_ranks"), ancf=read_record("ancf_tire"), curves=tuple(costs)
+    )
 
 
 def _checks(study: Study, found: object, results: SpeedResults) -> Sequence[Check]:

@@ -19,20 +19,27 @@ from contracts.errors import InputError
 from workbench.benchmark_record import read_record
 from workbench.number_format import displayed
 from workbench.results import ModelCurves
-from workbench.topic_speed import RANKS, SPEED, Aim, CurveCost, SpeedResults, _costs
+from workbench.speed_aim import Aim
+from workbench.speed_ancf import CHRONO, ancf_aims
+from workbench.topic_speed import RANKS, SPEED, CurveCost, SpeedResults, _costs
 
 SOLID = CurveCost(model="fe", orientation=15.0, dofs=40, points=18, increments=19, iterations=72, solve_s=9.0)
 
 
 def results(*curves: CurveCost) -> SpeedResults:
-    return SpeedResults(wheel=read_record("fe_wheel"), ranks=read_record("fe_ranks"), curves=curves or (SOLID,))
+    return SpeedResults(
+        wheel=read_record("fe_wheel"),
+        ranks=read_record("fe_ranks"),
+        ancf=read_record("ancf_tire"),
+        curves=curves or (SOLID,),
+    )
 
 
 def test_the_kept_runs_are_whole() -> None:
     wheel, ranks = read_record("fe_wheel"), read_record("fe_ranks")
     assert set(wheel.cases("time to 20 mm")) == {f"{c} against {p}" for c in CASES for p in ("CalculiX", "FElupe")}
     assert len(ranks.cases(RANKS)) == 1
-    for run in (wheel, ranks):
+    for run in (wheel, ranks, read_record("ancf_tire")):
         assert len(run.commit) == 40
         assert run.versions["numpy"] != "missing"
         for row in run.rows:
@@ -58,6 +65,18 @@ def test_aims_take_the_worst_number() -> None:
     assert [aim.met for aim in results().own_aims] == [True]
     calculix = [row.ratio for row in found.wheel.rows if "CalculiX" in row.case and row.metric.startswith("Newton")]
     assert found.aims[2].found == min(calculix)
+
+
+def test_aims_of_the_ancf_tire_follow_the_kept_run() -> None:
+    """Each is met where the run is far inside its limit, and missed where it is far outside."""
+    record = read_record("ancf_tire")
+    for factor, met in ((1e-3, (True, False)), (1e3, (False, True))):  # all numbers smaller, all larger
+        scaled = replace(record, rows=tuple(replace(row, ours=factor * row.ours) for row in record.rows))
+        aims = ancf_aims(scaled)
+        assert [aim.met for aim in aims] == [met[0] if aim.rule == "at most" else met[1] for aim in aims]
+    assert len(aims) == 6
+    meshes = [row for row in record.rows if row.metric == "force, a plate"]
+    assert [row.case for row in meshes] == ["8 plates", "50 plates", "400 plates", "3000 plates"]
 
 
 def test_the_check_fails_where_a_curve_took_too_many_iterations() -> None:
@@ -88,6 +107,8 @@ def test_the_section_says_met_and_missed() -> None:
     assert (text.count("✓ met"), text.count("△ missed")) == (met, len(found.aims) - met)
     assert 0 < met < len(found.aims)
     assert found.wheel.commit in text
+    assert "another machine" in text
+    assert all(f"{value:g}" in text for value in CHRONO.values())
 
 
 def test_a_run_is_kept_only_when_asked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
