@@ -8,7 +8,18 @@ from __future__ import annotations
 from workbench.benchmark_record import BenchmarkRecord
 from workbench.speed_aim import Aim
 
-__all__ = ["ARITHMETIC", "CHRONO", "DAMPING_RATIOS", "TIRE", "ancf_aims", "wheel_case"]
+__all__ = [
+    "ARITHMETIC",
+    "CHRONO",
+    "CURVES",
+    "DAMPING_RATIOS",
+    "FORCE",
+    "FORCE_AND_TANGENT",
+    "REAL_TIME",
+    "TIRE",
+    "ancf_aims",
+    "wheel_case",
+]
 
 TIRE = "8-plate tire"
 FORCE, FORCE_AND_TANGENT, CURVES = "force", "force with tangent, a plate", "36 curves of 35 loads, processor time"
@@ -17,7 +28,7 @@ REAL_TIME = "faster than real time"
 DAMPING_RATIOS = (0.0, 0.02, 0.05)
 """Of the first mode."""
 CHRONO = {"force [us]": 2.3, "force with tangent [us]": 94.0, "a step of 1 ms of an 8-plate tire [ms]": 2.6}
-"""Project Chrono's plate of the same kind, built from source on another machine; numbers of our task description."""
+"""Project Chrono's plate of the same kind, built from source on another machine; numbers of the text of our issue."""
 
 
 def wheel_case(ratio: float) -> str:

@@ -1,7 +1,7 @@
 """Topic of the report: what a Newton iteration, an increment, an orientation and an ANCF plate cost, and the aims.
 
-Times beside other codes, on two processes and of the ANCF loops come from kept benchmark runs (`benchmark_record`), those of the study's
-own curves from their stored results. Verified by tests/unit/test_workbench_speed.py.
+Times beside other codes, on two processes and of the ANCF loops come from kept benchmark runs (`benchmark_record`),
+those of the study's own curves from their stored results. Verified by tests/unit/test_workbench_speed.py.
 """
 
 from __future__ import annotations
@@ -148,9 +148,8 @@ def _read(study: Study, folders: Mapping[str, Path]) -> SpeedResults:
     costs = _costs("fe", model_curves("fe", folders))
     if without_planar_model(study) is None:
         costs += _costs("section", model_curves("section", folders))
-    return SpeedResults(
-        wheel=read_record("fe_wheel"), ranks=read_record("fe_ranks"), ancf=read_record("ancf_tire"), curves=tuple(costs)
-    )
+    wheel, ranks, ancf = (read_record(name) for name in ("fe_wheel", "fe_ranks", "ancf_tire"))
+    return SpeedResults(wheel=wheel, ranks=ranks, ancf=ancf, curves=tuple(costs))
 
 
 def _checks(study: Study, found: object, results: SpeedResults) -> Sequence[Check]:
