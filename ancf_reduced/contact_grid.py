@@ -112,10 +112,14 @@ def contact_grid(
     InputError
         For points that are not on a face.
     """
+    if xi.ndim != 2 or xi.shape[1] != 3 or share.shape != xi.shape[:1]:
+        shapes = f"points {xi.shape}, shares {share.shape}"
+        raise InputError("contact points", shapes, "need the shapes (n, 3) and (n,)", "give one share a point")
     faces = np.unique(xi[:, 2])
-    if xi.ndim != 2 or not np.all(np.isin(faces, [-0.5, 0.5])) or np.any((xi[:, :2] < 0.0) | (xi[:, :2] > 1.0)):
+    if not np.all(np.isin(faces, [-0.5, 0.5])) or not np.all((xi[:, :2] >= 0.0) & (xi[:, :2] <= 1.0)):
+        shown = f"xi, eta, zeta from {xi.min(axis=0)} to {xi.max(axis=0)}"
         rule = "must have xi, eta in 0..1 and zeta = -1/2 or +1/2"
-        raise InputError("contact points", xi.shape, rule, "place them on the faces of the plates")
+        raise InputError("contact points", shown, rule, "place them on the faces of the plates")
     elements, gradients, dimensions = mesh.elements[plates], mesh.gradients[plates], mesh.dimensions[plates]
     carriers = replace(mesh, elements=elements, gradients=gradients, dimensions=dimensions)
     frame, unit = gradients * dimensions[:, None, None, :], np.ones(3)

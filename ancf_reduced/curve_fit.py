@@ -175,7 +175,6 @@ def fit_curves(
     data : loads to be met, more than there are parameters
     tolerance : relative change of the sum of squares, or of the unknowns, at which the search ends
     max_evaluations : tires solved at most; the best one so far is returned then, marked as not settled
-
     known : an earlier fit to data at the same places; its equilibria are where Newton's method begins
 
     Raises

@@ -17,7 +17,18 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.compiled import LANES, Vector, columns, combination, compiled, dot, inlined, symmetric_at, vector_at
+from ancf_reduced.compiled import (
+    LANES,
+    Vector,
+    columns,
+    combination,
+    compiled,
+    dot,
+    inlined,
+    put,
+    symmetric_at,
+    vector_at,
+)
 from ancf_reduced.elastic_kernels import add_structure_force, base_vectors, gather, point_forces
 from ancf_reduced.tangent_kernels import SYMMETRIC, add_stiffness, mirror, to_structure
 
@@ -33,8 +44,8 @@ def _cross(a: Vector, b: Vector) -> Vector:
 
 
 @inlined
-def _put(f: FloatArray, k: int, q: int, v: Vector, factor: float) -> None:
-    f[k, 0, q], f[k, 1, q], f[k, 2, q] = factor * v[0], factor * v[1], factor * v[2]
+def _scaled(v: Vector, factor: float) -> Vector:
+    return factor * v[0], factor * v[1], factor * v[2]
 
 
 @inlined
@@ -45,9 +56,9 @@ def _dual_vectors(g: FloatArray, dual: FloatArray, volume: FloatArray, c: FloatA
         n1, n2, n3 = _cross(a2, a3), _cross(a3, a1), _cross(a1, a2)
         V = dot(a1, n1)
         factor = 1.0 / V if V != 0.0 else 0.0  # zero at the points that only fill up a block
-        _put(dual, 0, q, n1, factor)
-        _put(dual, 1, q, n2, factor)
-        _put(dual, 2, q, n3, factor)
+        put(dual, 0, q, _scaled(n1, factor))
+        put(dual, 1, q, _scaled(n2, factor))
+        put(dual, 2, q, _scaled(n3, factor))
         volume[q] = c[q] * V
 
 
@@ -79,9 +90,9 @@ def _tractions(T: FloatArray, dual: FloatArray, P: FloatArray) -> None:
     """P^k = c V sigma g^k, (3, 3, LANES)."""
     for q in range(LANES):
         t1, t2, t3 = columns(symmetric_at(T, q))
-        _put(P, 0, q, combination(vector_at(dual, 0, q), t1, t2, t3), 1.0)
-        _put(P, 1, q, combination(vector_at(dual, 1, q), t1, t2, t3), 1.0)
-        _put(P, 2, q, combination(vector_at(dual, 2, q), t1, t2, t3), 1.0)
+        put(P, 0, q, combination(vector_at(dual, 0, q), t1, t2, t3))
+        put(P, 1, q, combination(vector_at(dual, 1, q), t1, t2, t3))
+        put(P, 2, q, combination(vector_at(dual, 2, q), t1, t2, t3))
 
 
 @compiled

@@ -21,7 +21,7 @@ from ancf_reduced.plate_system import PlateSystem
 from ancf_reduced.rigid_triads import RigidTriads
 from contracts.errors import ConvergenceError, InputError
 
-__all__ = ["MotionState", "integrate_explicit"]
+__all__ = ["MotionState", "check_times", "integrate_explicit"]
 
 FloatArray = NDArray[np.float64]
 
@@ -133,5 +133,14 @@ def _message(system: PlateSystem, z: FloatArray, time: float, step: float, why: 
 def _check(start: MotionState, times: FloatArray, step: float) -> None:
     if not (math.isfinite(step) and step > 0.0):
         raise InputError("time step", f"{step:g} s", "must be finite and > 0", "take spectrum.stable_step")
-    if not len(times) or np.any(np.diff(np.concatenate([[start.time], times])) <= 0.0):
-        raise InputError("times", np.asarray(times).tolist()[:5], "must increase from the start", "sort them")
+    check_times(start, times)
+
+
+def check_times(start: MotionState, times: FloatArray) -> None:
+    """Raise InputError for wanted times that are not finite or do not increase from the start's.
+
+    Verified by tests/unit/test_ancf_implicit_dynamics.py.
+    """
+    if not len(times) or not np.all(np.diff(np.concatenate([[start.time], times])) > 0.0) or times[-1] == np.inf:
+        rule = f"must be finite and increase from the start at {start.time:g} s"
+        raise InputError("times", f"{np.asarray(times).tolist()[:5]} s", rule, "sort them")

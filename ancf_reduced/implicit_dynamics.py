@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.explicit_dynamics import MotionState
+from ancf_reduced.explicit_dynamics import MotionState, check_times
 from ancf_reduced.linearisation import Linearisation
 from ancf_reduced.plate_system import PlateSystem
 from ancf_reduced.triad_equations import TriadEquations
@@ -56,9 +56,11 @@ class ImplicitSettings:
     def __post_init__(self) -> None:
         if not 0.0 <= self.spectral_radius <= 1.0:
             raise InputError("spectral radius", self.spectral_radius, "must lie in 0..1", "0.9 is usual")
-        for name in ("tolerance", "first_step", "smallest_step", "largest_step", "newton_tolerance"):
-            if not getattr(self, name) > 0.0:
-                raise InputError(name.replace("_", " "), getattr(self, name), "must be > 0", "use the default")
+        positive = ("tolerance", "first_step", "smallest_step", "largest_step", "newton_tolerance", "newton_iterations")
+        for name in positive:
+            if not 0.0 < getattr(self, name) < math.inf:
+                rule = "must be finite and > 0"
+                raise InputError(name.replace("_", " "), getattr(self, name), rule, "use the default")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,11 +105,14 @@ def integrate_implicit(
 
     Raises
     ------
+    InputError
+        For times that are not finite or do not increase from the start.
     ConvergenceError
         If a step below the smallest one does not converge.
 
     Verified by tests/unit/test_ancf_implicit_dynamics.py.
     """
+    check_times(start, times)
     run = _Run(system, settings or ImplicitSettings())
     here, h = run.begin(start), run.settings.first_step
     for wanted in times:

@@ -7,7 +7,7 @@ plate, (n_plates, 48, 48); `plate_assembly` puts them together.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
@@ -18,7 +18,7 @@ from ancf_reduced import thickness_kernels as thickness
 from ancf_reduced.elastic_kernels import energy_kernel, force_kernel
 from ancf_reduced.plate_assembly import dense_matrix
 from ancf_reduced.plate_mesh import PlateMesh
-from ancf_reduced.plate_tables import PlateTables, plate_tables
+from ancf_reduced.plate_tables import PlateTables, in_blocks, plate_tables
 from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape
 from ancf_reduced.tangent_kernels import tangent_kernel
 from contracts.errors import InputError, MeshError
@@ -26,13 +26,18 @@ from contracts.errors import InputError, MeshError
 __all__ = ["PlateModel", "PoissonLocking", "build_plate_model"]
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+Pair = tuple[float, float]
+ElasticConstants = tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray, Pair]
+ReliefConstants = tuple[IntArray, FloatArray, tuple[FloatArray, FloatArray], FloatArray, FloatArray, FloatArray, Pair]
+ViscousConstants = tuple[IntArray, FloatArray, FloatArray, FloatArray, Pair]
 
 
 class PoissonLocking(StrEnum):
     """What is done about the thickness strain that cannot follow bending; nothing need be for nu = 0."""
 
     AS_IS = "as_is"
-    """The thesis' element: about 12 % too stiff in bending at nu = 0.3."""
+    """The thesis' element: a narrow strip is 12 % too stiff in bending at nu = 0.33."""
     RELIEVED = "relieved"
     """No normal stress through the thickness from the part of the strain that varies across it."""
 
@@ -65,6 +70,22 @@ class PlateModel:
     metric: FloatArray
     weight: FloatArray
     carry: FloatArray | None
+    _elastic: ElasticConstants = field(init=False, repr=False)
+    _relief: ReliefConstants | None = field(init=False, repr=False)
+    _viscous: ViscousConstants = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """The constant arguments of the loops."""
+        elements, frame, tables, law = (
+            self.mesh.elements,
+            self.frame,
+            self.tables,
+            (self.metric, self.weight, self.lame),
+        )
+        object.__setattr__(self, "_elastic", (elements, frame, tables.gradient, *law))
+        both = tables.gradient, tables.middle_gradient
+        object.__setattr__(self, "_relief", None if self.carry is None else (elements, frame, both, self.carry, *law))
+        object.__setattr__(self, "_viscous", (elements, frame, tables.gradient, tables.gauss_weight, self.viscosity))
 
     @property
     def volume(self) -> FloatArray:
@@ -78,13 +99,9 @@ class PlateModel:
 
     def elastic_energy(self, coordinates: FloatArray) -> float:
         """Strain energy [J] at the structure coordinates (n_nodes, 4, 3)."""
-        elements, D = self.mesh.elements, self.tables.gradient
-        energy = energy_kernel(coordinates, elements, self.frame, D, self.metric, self.weight, self.lame)
-        if self.carry is not None:
-            both = D, self.tables.middle_gradient
-            energy += thickness.relief_energy_kernel(
-                coordinates, elements, self.frame, both, self.carry, self.metric, self.weight, self.lame
-            )
+        energy = energy_kernel(coordinates, *self._elastic)
+        if self._relief is not None:
+            energy += thickness.relief_energy_kernel(coordinates, *self._relief)
         return energy
 
     def elastic_force(self, coordinates: FloatArray, out: FloatArray | None = None) -> FloatArray:
@@ -100,25 +117,17 @@ class PlateModel:
         force : (n_nodes, 4, 3) float [N, N m]
         """
         force = np.empty_like(coordinates) if out is None else out
-        elements, D = self.mesh.elements, self.tables.gradient
-        force_kernel(coordinates, elements, self.frame, D, self.metric, self.weight, self.lame, force)
-        if self.carry is not None:
-            both = D, self.tables.middle_gradient
-            thickness.relief_force_kernel(
-                coordinates, elements, self.frame, both, self.carry, self.metric, self.weight, self.lame, force
-            )
+        force_kernel(coordinates, *self._elastic, force)
+        if self._relief is not None:
+            thickness.relief_force_kernel(coordinates, *self._relief, force)
         return force
 
     def elastic_tangents(self, coordinates: FloatArray, out: FloatArray | None = None) -> FloatArray:
         """Exact tangent dQ_s/dp of each plate, (n_plates, 48, 48) float [N/m, N, N m], symmetric."""
-        elements, D = self.mesh.elements, self.tables.gradient
-        tangents = np.empty((len(elements), 48, 48)) if out is None else out
-        tangent_kernel(coordinates, elements, self.frame, D, self.metric, self.weight, self.lame, tangents)
-        if self.carry is not None:
-            both = D, self.tables.middle_gradient
-            thickness.relief_tangent_kernel(
-                coordinates, elements, self.frame, both, self.carry, self.metric, self.weight, self.lame, tangents
-            )
+        tangents = np.empty((len(self.mesh.elements), 48, 48)) if out is None else out
+        tangent_kernel(coordinates, *self._elastic, tangents)
+        if self._relief is not None:
+            thickness.relief_tangent_kernel(coordinates, *self._relief, tangents)
         return tangents
 
     def elastic_tangent(self, coordinates: FloatArray) -> FloatArray:
@@ -139,23 +148,20 @@ class PlateModel:
 
         Verified by tests/unit/test_ancf_damping.py.
         """
-        force, D, c = np.empty_like(coordinates) if out is None else out, self.tables.gradient, self.tables.gauss_weight
-        elements = self.mesh.elements
-        damping.damping_force_kernel(coordinates, rates, elements, self.frame, D, c, self.viscosity, force)
+        force = np.empty_like(coordinates) if out is None else out
+        damping.damping_force_kernel(coordinates, rates, *self._viscous, force)
         return force
 
     def damping_tangents(self, coordinates: FloatArray, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Derivatives of the damping force by the coordinates and by the rates, (n_plates, 48, 48) float each."""
-        elements, D, c = self.mesh.elements, self.tables.gradient, self.tables.gauss_weight
-        by_position = np.empty((len(elements), 48, 48))
-        damping.damping_position_kernel(coordinates, rates, elements, self.frame, D, c, self.viscosity, by_position)
+        by_position = np.empty((len(self.mesh.elements), 48, 48))
+        damping.damping_position_kernel(coordinates, rates, *self._viscous, by_position)
         return by_position, self.damping_matrices(coordinates)
 
     def damping_matrices(self, coordinates: FloatArray) -> FloatArray:
         """Derivative C of the damping force C(p) p' by the rates, (n_plates, 48, 48) float, symmetric."""
-        elements, D, c = self.mesh.elements, self.tables.gradient, self.tables.gauss_weight
-        matrices = np.empty((len(elements), 48, 48))
-        damping.damping_velocity_kernel(coordinates, elements, self.frame, D, c, self.viscosity, matrices)
+        matrices = np.empty((len(self.mesh.elements), 48, 48))
+        damping.damping_velocity_kernel(coordinates, *self._viscous, matrices)
         return matrices
 
     def volume_ratio(self, coordinates: FloatArray) -> FloatArray:
@@ -207,7 +213,7 @@ def build_plate_model(
     if poisson_locking is PoissonLocking.RELIEVED:
         middle = _base_vectors(tables, e, on_middle=True)
         H = np.swapaxes(base @ np.linalg.inv(middle), -1, -2)
-        carry = np.ascontiguousarray(np.moveaxis(tables.in_blocks(np.moveaxis(H, 1, -1)), -2, 1))
+        carry = np.ascontiguousarray(np.moveaxis(in_blocks(np.moveaxis(H, 1, -1)), -2, 1))
     lam = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio))
     return PlateModel(
         mesh=mesh,
@@ -216,8 +222,8 @@ def build_plate_model(
         density=density,
         tables=tables,
         frame=np.ascontiguousarray(frame),
-        metric=np.ascontiguousarray(np.moveaxis(tables.in_blocks(metric), -2, 1)),
-        weight=tables.in_blocks(determinant * tables.weights),
+        metric=np.ascontiguousarray(np.moveaxis(in_blocks(metric), -2, 1)),
+        weight=in_blocks(determinant * tables.weights),
         carry=carry,
     )
 

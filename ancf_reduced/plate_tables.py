@@ -43,10 +43,6 @@ class PlateTables:
     gradient: FloatArray
     middle_gradient: FloatArray
 
-    def in_blocks(self, values: FloatArray) -> FloatArray:
-        """Values (..., n_points) as (..., n_blocks, LANES), the last block filled up with zeros."""
-        return in_blocks(values)
-
     def at_points(self, blocks: FloatArray) -> FloatArray:
         """The inverse of `in_blocks`: (..., n_blocks, LANES) as (..., n_points)."""
         return blocks.reshape(*blocks.shape[:-2], -1)[..., : len(self.weights)]

@@ -38,7 +38,7 @@ def natural_frequencies(system: PlateSystem, z: FloatArray, count: int | None = 
         squares = eigh(K.toarray(), M.toarray(), eigvals_only=True, check_finite=False)
     else:
         shift = -1e-6 * K.diagonal().max() / M.diagonal().max()
-        squares = np.sort(eigsh(K, k=count, M=M, sigma=shift, return_eigenvectors=False))
+        squares = np.sort(eigsh(K, k=count, M=M, sigma=shift, v0=_start(K.shape[0]), return_eigenvectors=False))
     found = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi)
     return np.asarray(found if count is None else found[:count])
 
@@ -69,4 +69,9 @@ def _largest(system: PlateSystem, matrix: csc_array) -> float:
         return factor.force_to_cholesky((matrix @ moved).reshape(-1, 3)).ravel()
 
     operator = LinearOperator((n, n), matvec=product, dtype=np.float64)
-    return float(1.02 * eigsh(operator, k=1, which="LM", tol=1e-2, return_eigenvectors=False)[0])
+    return float(1.02 * eigsh(operator, k=1, which="LM", tol=1e-2, v0=_start(n), return_eigenvectors=False)[0])
+
+
+def _start(n: int) -> FloatArray:
+    """First vector of the Lanczos iterations: any without symmetry, the same in every run."""
+    return np.random.default_rng(0).normal(size=n)

@@ -20,12 +20,13 @@ from ancf_reduced.compiled import (
     combination,
     compiled,
     inlined,
+    put,
     symmetric_at,
     vector_at,
 )
 from ancf_reduced.elastic_kernels import base_vectors, gather, strain, stress
 
-__all__ = ["add_stiffness", "tangent_kernel", "to_structure"]
+__all__ = ["SYMMETRIC", "add_stiffness", "mirror", "tangent_kernel", "to_structure"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -124,9 +125,9 @@ def _stresses_and_normals(
         S[0, q], S[1, q], S[2, q], S[3, q], S[4, q], S[5, q] = T
         g1, g2, g3 = columns(G)
         x, y, z = combination(g1, a, b, c), combination(g2, a, b, c), combination(g3, a, b, c)
-        h[0, 0, q], h[0, 1, q], h[0, 2, q] = x
-        h[1, 0, q], h[1, 1, q], h[1, 2, q] = y
-        h[2, 0, q], h[2, 1, q], h[2, 2, q] = z
+        put(h, 0, q, x)
+        put(h, 1, q, y)
+        put(h, 2, q, z)
         B[0, q] = a[0] * x[0] + b[0] * y[0] + c[0] * z[0]
         B[1, q] = a[1] * x[1] + b[1] * y[1] + c[1] * z[1]
         B[2, q] = a[2] * x[2] + b[2] * y[2] + c[2] * z[2]

@@ -1,10 +1,10 @@
 """Speed of the ANCF plate loops: force, tangent and contact of the 8-plate tire, larger meshes, the arithmetic limit.
 
 ``make bench NAME=ancf_tire`` prints the table and writes ``build/bench/ancf_tire.json``; with ``ARGS=--record`` the run
-is kept for the report, whose aims are in ``workbench/speed_ancf.py``. Each number is the shortest of many short runs on
-one core, calls from Python included. No other code with this element is on the package registries, so there is no peer
-in the run. The arithmetic limit is the loop's own floating point operations over this core's measured rate of
-multiply-adds in vector registers.
+is kept for the report, whose aims are in ``workbench/speed_ancf.py``. Each number is the shortest of many short runs,
+processor time of one thread, calls from Python included. No other code with this element is on the package registries, so
+there is no peer in the run. The arithmetic limit is the loop's own floating point operations over this core's measured
+rate of multiply-adds in vector registers.
 """
 
 from __future__ import annotations

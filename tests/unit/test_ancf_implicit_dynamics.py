@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -105,3 +106,12 @@ def test_what_cannot_be_solved_says_so(system: PlateSystem, start: MotionState) 
         ImplicitSettings(spectral_radius=1.2)
     with pytest.raises(InputError, match="tolerance"):
         ImplicitSettings(tolerance=0.0)
+
+
+@pytest.mark.parametrize("times", [[0.2, 0.1], [0.0], [], [np.nan], [0.1, np.inf]])
+@pytest.mark.parametrize("integrate", [integrate_implicit, lambda *a: integrate_explicit(*a, 1e-5)])
+def test_times_must_increase_from_the_start(
+    system: PlateSystem, start: MotionState, times: list[float], integrate: Callable[..., Iterator[MotionState]]
+) -> None:
+    with pytest.raises(InputError, match="times"):
+        next(integrate(system, start, np.array(times)))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ancf_reduced.compiled import LANES
-from ancf_reduced.plate_tables import plate_tables
+from ancf_reduced.plate_tables import in_blocks, plate_tables
 from ancf_reduced.shape_functions import plate_shape, plate_shape_gradient
 from contracts.errors import InputError
 
@@ -27,7 +27,7 @@ def test_blocks_hold_every_point_once_and_are_filled_up_with_zeros(quadrature: t
     n_points = int(np.prod(quadrature))
     assert tables.gradient.shape == (-(-n_points // LANES), 3, 16, LANES)
     values = np.random.default_rng(1).normal(size=(2, n_points))
-    blocks = tables.in_blocks(values)
+    blocks = in_blocks(values)
     np.testing.assert_array_equal(tables.at_points(blocks), values)
     assert blocks.sum() == pytest.approx(values.sum())
     assert tables.gauss_weight.sum() == pytest.approx(1.0)
