@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ancf_reduced.explicit_dynamics import MotionState
 from ancf_reduced.plate_contact import PlateContact
 from ancf_reduced.plate_system import PlateSystem
+from contracts.errors import InputError
 
 __all__ = ["EnergyAccount", "EnergyRow"]
 
@@ -95,7 +96,16 @@ class EnergyAccount:
         )
 
     def closure(self) -> float:
-        """Spread of the total over the largest energy that changed hands [-]."""
+        """Spread of the total over the largest energy that changed hands [-]; 0 where none did.
+
+        Raises
+        ------
+        InputError
+            If no state has been shown.
+        """
+        if not self.rows:
+            raise InputError("energy account", "no states", "needs one or more", "hand its watch to the integrator")
         table = np.array([list(asdict(row).values())[1:] for row in self.rows])
         total = np.array([row.total for row in self.rows])
-        return float(np.ptp(total) / np.ptp(table, axis=0).max())
+        largest = float(np.ptp(table, axis=0).max())
+        return float(np.ptp(total)) / largest if largest > 0.0 else 0.0

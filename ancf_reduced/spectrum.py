@@ -15,6 +15,8 @@ from ancf_reduced.plate_system import PlateSystem
 __all__ = ["natural_frequencies", "stable_step", "stiffness_matrix"]
 
 FloatArray = NDArray[np.float64]
+_DENSE = 600
+"""Up to so many coordinates all eigenvalues are computed; above, the wanted ones by Lanczos iterations."""
 
 
 def stiffness_matrix(system: PlateSystem, z: FloatArray) -> csc_array:
@@ -34,7 +36,7 @@ def natural_frequencies(system: PlateSystem, z: FloatArray, count: int | None = 
     """
     K = stiffness_matrix(system, z)
     M = csc_array(kron(system.mass, np.eye(3)))
-    if count is None or K.shape[0] < 600:
+    if count is None or K.shape[0] <= _DENSE:
         squares = eigh(K.toarray(), M.toarray(), eigvals_only=True, check_finite=False)
     else:
         shift = -1e-6 * K.diagonal().max() / M.diagonal().max()
@@ -58,7 +60,7 @@ def stable_step(system: PlateSystem, z: FloatArray, safety: float = 0.8) -> floa
 def _largest(system: PlateSystem, matrix: csc_array) -> float:
     """Largest eigenvalue of a matrix relative to the mass; on large systems to 1 %, upwards."""
     n = matrix.shape[0]
-    if n < 600:
+    if n <= _DENSE:
         M = csc_array(kron(system.mass, np.eye(3))).toarray()
         top = (n - 1, n - 1)
         return float(eigh(matrix.toarray(), M, eigvals_only=True, subset_by_index=top, check_finite=False)[0])

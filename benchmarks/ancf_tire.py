@@ -2,9 +2,9 @@
 
 ``make bench NAME=ancf_tire`` prints the table and writes ``build/bench/ancf_tire.json``; with ``ARGS=--record`` the run
 is kept for the report, whose aims are in ``workbench/speed_ancf.py``. Each number is the shortest of many short runs,
-processor time of one thread, calls from Python included. No other code with this element is on the package registries, so
-there is no peer in the run. The arithmetic limit is the loop's own floating point operations over this core's measured
-rate of multiply-adds in vector registers.
+processor time of one thread, calls from Python included. No other code with this element is on the package registries,
+so there is no peer in the run. The arithmetic limit is the loop's own floating point operations over this core's
+measured rate of multiply-adds in vector registers.
 """
 
 from __future__ import annotations

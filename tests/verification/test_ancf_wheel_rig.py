@@ -120,6 +120,14 @@ def test_an_account_without_a_part_stays_open(part: str) -> None:
     assert open_account.closure() > 0.05
 
 
+def test_an_account_of_nothing() -> None:
+    """A wheel that has not moved yet is closed; without a state there is no account."""
+    rig, _, account = dropped()
+    with pytest.raises(InputError, match="energy account"):
+        EnergyAccount(rig.system).closure()
+    assert EnergyAccount(rig.system, account.rows[:1]).closure() == 0.0
+
+
 def test_ride_climbs_the_half_round() -> None:
     """Beside the same ride on level ground: nothing before the rock, lifted on it by less than its height."""
     rig, states, _ = ridden()
