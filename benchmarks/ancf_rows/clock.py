@@ -18,18 +18,22 @@ def row(case: str, metric: str, unit: str, ours: float) -> dict[str, object]:
 
 
 def shortest(call: Callable[[], object], budget_s: float = 2.0) -> float:
-    """Shortest processor time of a call in bursts of about a millisecond [us]."""
+    """Shortest processor time of a call in bursts of two milliseconds or more [us]."""
     call()
-    begun = time.process_time()
-    call()
-    burst = max(1, int(1e-3 / max(time.process_time() - begun, 1e-7)))
-    best, end = float("inf"), time.perf_counter() + budget_s
+    burst = 1
+    while (spent := _processor_seconds(call, burst)) < 2e-3:
+        burst *= 2
+    best, end = spent / burst, time.perf_counter() + budget_s
     while time.perf_counter() < end:
-        begun = time.process_time()
-        for _ in range(burst):
-            call()
-        best = min(best, (time.process_time() - begun) / burst)
+        best = min(best, _processor_seconds(call, burst) / burst)
     return 1e6 * best
+
+
+def _processor_seconds(call: Callable[[], object], burst: int) -> float:
+    begun = time.process_time()
+    for _ in range(burst):
+        call()
+    return time.process_time() - begun
 
 
 @numba.njit(fastmath=True)
