@@ -79,7 +79,7 @@ class ImplicitDamping:
         system, p, A = self._system, self._system.coordinates.expand(z), self._axes(z)
         if abs(h - self._step) > _SAME_STEP * h:
             self._invert(z, half, time, A, h)
-        force, v = system.position_force(p), half + self._triads.stop(half, z)
+        force, v = system.position_force(p, time), half + self._triads.stop(half, z)
         last, first = math.nan, math.inf
         for n in range(_CORRECTIONS):
             residual = force + system.rate_force(p, v, time) - self._mass @ ((2.0 / h) * (v - half))

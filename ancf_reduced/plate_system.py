@@ -99,18 +99,24 @@ class PlateSystem:
     def force(self, z: FloatArray, v: FloatArray, time: float = 0.0) -> FloatArray:
         """All applied minus all internal generalised forces, (n_vectors, 3): M z'' where nothing is constrained."""
         p = self.coordinates.expand(z)
-        return self.position_force(p) + self.rate_force(p, v, time)
+        force = self.position_force(p, time)
+        return force + self.rate_force(p, v, time) if self.depends_on_rates else force
 
-    def position_force(self, p: FloatArray) -> FloatArray:
+    def position_force(self, p: FloatArray, time: float) -> FloatArray:
         """The part of `force` that does not know rates, (n_vectors, 3), from structure coordinates (n_nodes, 4, 3)."""
-        return self.dead_load - self.coordinates.reduce(self.model.elastic_force(p))
+        total = -self.model.elastic_force(p)
+        for external in self.external:
+            if not external.depends_on_rates:
+                total += external.force(p, np.zeros_like(p), time)
+        return self.coordinates.reduce(total) + self.dead_load
 
     def rate_force(self, p: FloatArray, v: FloatArray, time: float) -> FloatArray:
         """The rest of `force`, (n_vectors, 3)."""
         p_dot = self.coordinates.expand_rates(v)
         total = -self.model.damping_force(p, p_dot) if self.is_damped else np.zeros_like(p)
         for external in self.external:
-            total += external.force(p, p_dot, time)
+            if external.depends_on_rates:
+                total += external.force(p, p_dot, time)
         return self.coordinates.reduce(total)
 
     @property

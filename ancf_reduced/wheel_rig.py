@@ -30,6 +30,8 @@ FloatArray = NDArray[np.float64]
 
 MARS_GRAVITY = 3.721
 """[m/s^2]; thesis section 3.1: 1187.52 N on six wheels."""
+_ABOUT_AXLE = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+"""Rows a @ this are e_y x a."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,14 +70,16 @@ class HubDrive:
 
     def torque(self, p: FloatArray, v: FloatArray) -> float:
         """About the axle, on the wheel [N m]."""
-        a, a_dot = self._gradients(p), self._gradients(v)
-        spin = 0.5 * float(np.sum(a[:, 2] * a_dot[:, 0] - a[:, 0] * a_dot[:, 2]))
-        return self.gain * (self.speed - spin)
+        return self._torque(self._gradients(p) @ _ABOUT_AXLE, v)
+
+    def _torque(self, turned: FloatArray, v: FloatArray) -> float:
+        """The same from e_y x a_i, rows; the spin is the sum of (e_y x a_i) . a_i' / 2."""
+        return self.gain * (self.speed - 0.5 * float(np.vdot(turned, self._gradients(v))))
 
     def force(self, p: FloatArray, v: FloatArray, time: float) -> FloatArray:
         """Generalised force (n_nodes, 4, 3) on the mesh."""
-        a, half = self._gradients(p), 0.5 * self.torque(p, v)
-        on_gradients = half * np.column_stack([a[:, 2], np.zeros(3), -a[:, 0]])  # tau x a / 2
+        turned = self._gradients(p) @ _ABOUT_AXLE
+        on_gradients = (0.5 * self._torque(turned, v)) * turned
         force = np.zeros_like(p)
         force[self.tire.tie.tied] = (self._to_gradients.T @ on_gradients).reshape(-1, 4, 3)
         return force
