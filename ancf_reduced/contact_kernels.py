@@ -52,11 +52,7 @@ def _add_force(f: Vector, nodes: IntArray, functions: FloatArray, force: FloatAr
 
 @compiled
 def contact_force_kernel(
-    p: FloatArray,
-    v: FloatArray,
-    constants: Constants,
-    search: bool,
-    force: FloatArray,
+    p: FloatArray, v: FloatArray, constants: Constants, search: bool, force: FloatArray
 ) -> Account:
     """Generalised force of the ground on the mesh, and where its power goes.
 

@@ -68,6 +68,13 @@ def _box(r: FloatArray) -> tuple[Vector, Vector]:
     return (x_low, y_low, z_low), (x_high, y_high, z_high)
 
 
+@inlined
+def _note(entry: FloatArray, gap: float, n: Vector, H: Symmetric) -> None:
+    """Write an entry (10,) that `touch_at` reads."""
+    entry[0], entry[1], entry[2], entry[3] = gap, n[0], n[1], n[2]
+    entry[4], entry[5], entry[6], entry[7], entry[8], entry[9] = H
+
+
 @compiled
 def find_touching(
     p: FloatArray, grid: GridTables, terrain: TerrainPieces, search: bool, where: IntArray, touch: FloatArray
@@ -109,10 +116,7 @@ def find_touching(
                 if gap < 0.0:
                     outside += is_outside(piece, terrain.knots, x, y)
                     where[count, 0], where[count, 1] = j, point
-                    touch[count, 0] = gap
-                    touch[count, 1], touch[count, 2], touch[count, 3] = n
-                    touch[count, 4], touch[count, 5], touch[count, 6] = H[0], H[1], H[2]
-                    touch[count, 7], touch[count, 8], touch[count, 9] = H[3], H[4], H[5]
+                    _note(touch[count], gap, n, H)
                     count += 1
     return count if outside == 0 else -1 - outside
 

@@ -209,23 +209,29 @@ def build_plate_model(
         raise MeshError(f"plate {j} ({mesh.parts[j]}) has det J0 <= 0 inside: too curved for its thickness")
     covariant = base @ np.swapaxes(base, -1, -2)
     metric = np.stack([_components(covariant), _components(np.linalg.inv(covariant))], axis=1)
-    carry = None
-    if poisson_locking is PoissonLocking.RELIEVED:
-        middle = _base_vectors(tables, e, on_middle=True)
-        H = np.swapaxes(base @ np.linalg.inv(middle), -1, -2)
-        carry = np.ascontiguousarray(np.moveaxis(in_blocks(np.moveaxis(H, 1, -1)), -2, 1))
-    lam = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio))
     return PlateModel(
         mesh=mesh,
-        lame=(lam, young_modulus / (2.0 * (1.0 + poisson_ratio))),
+        lame=_lame(young_modulus, poisson_ratio),
         viscosity=viscosity,
         density=density,
         tables=tables,
         frame=np.ascontiguousarray(frame),
         metric=np.ascontiguousarray(np.moveaxis(in_blocks(metric), -2, 1)),
         weight=in_blocks(determinant * tables.weights),
-        carry=carry,
+        carry=_carry(tables, base, e) if poisson_locking is PoissonLocking.RELIEVED else None,
     )
+
+
+def _lame(young_modulus: float, poisson_ratio: float) -> Pair:
+    """lambda, mu [Pa]."""
+    lam = young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio))
+    return lam, young_modulus / (2.0 * (1.0 + poisson_ratio))
+
+
+def _carry(tables: PlateTables, base: FloatArray, e: FloatArray) -> FloatArray:
+    """H of `thickness_kernels`: the base vectors at the points in those of the mid-surface."""
+    H = np.swapaxes(base @ np.linalg.inv(_base_vectors(tables, e, on_middle=True)), -1, -2)
+    return np.ascontiguousarray(np.moveaxis(in_blocks(np.moveaxis(H, 1, -1)), -2, 1))
 
 
 def _base_vectors(tables: PlateTables, e: FloatArray, *, on_middle: bool = False) -> FloatArray:

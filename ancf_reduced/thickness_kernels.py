@@ -176,6 +176,14 @@ def _carry(H: FloatArray, c: FloatArray, carried: FloatArray) -> None:
         carried[3, q], carried[4, q], carried[5, q] = dot(r2, h3), dot(r1, h3), dot(r1, h2)
 
 
+@inlined
+def _add_both(cross: FloatArray, K: FloatArray) -> None:
+    """Add a matrix and its transpose to K, (48, 48) both."""
+    for row in range(48):
+        for column in range(48):
+            K[row, column] += cross[row, column] + cross[column, row]
+
+
 @compiled
 def relief_tangent_kernel(
     p: FloatArray,
@@ -191,12 +199,8 @@ def relief_tangent_kernel(
     """Add the second derivative of the energy's change to the plates' tangents (n_plates, 48, 48)."""
     e, K, cross, half = np.empty((16, 3)), np.empty((48, 48)), np.empty((48, 48)), np.empty((48, 48))
     g, f = np.empty((3, 3, LANES)), np.empty((3, 3, LANES))
-    alpha, beta, c, carried = (
-        np.empty((3, 3, LANES)),
-        np.empty((3, 3, LANES)),
-        np.empty((6, LANES)),
-        np.empty((6, LANES)),
-    )
+    alpha, beta = np.empty((3, 3, LANES)), np.empty((3, 3, LANES))
+    c, carried = np.empty((6, LANES)), np.empty((6, LANES))
     stiffness, tau, by, A = np.empty(LANES), np.empty(LANES), np.empty(LANES), np.empty((9, 9, LANES))
     for plate in range(len(elements)):
         gather(p, elements[plate], frame[plate], e)
@@ -220,10 +224,6 @@ def relief_tangent_kernel(
             _fill(alpha, beta, by, c, A, 0.0)
             add_stiffness(A, D[0][k], D[1][k], cross, False)
         mirror(K)
-        for row in range(48):
-            for column in range(48):
-                K[row, column] += cross[row, column] + cross[column, row]
+        _add_both(cross, K)
         to_structure(K, frame[plate], half)
-        for row in range(48):
-            for column in range(48):
-                tangent[plate, row, column] += K[row, column]
+        tangent[plate] += K
