@@ -48,7 +48,7 @@ def gravity_force(model: PlateModel, acceleration: FloatArray) -> FloatArray:
     Parameters
     ----------
     model : plates with density
-    acceleration : (3,) float [m/s^2], e.g. (0, 0, -3.721)
+    acceleration : (3,) float [m/s^2], e.g. (0, 0, -3.711)
 
     Returns
     -------

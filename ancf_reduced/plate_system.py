@@ -159,7 +159,7 @@ def build_plate_system(
     Parameters
     ----------
     model, coordinates : plates, and what holds them
-    gravity : (3,) float [m/s^2], e.g. (0, 0, -3.721)
+    gravity : (3,) float [m/s^2], e.g. (0, 0, -3.711)
     hubs : for each triad of the coordinates its rigid hub, None for a massless one; empty for none at all
     external : contact, drive and the like
 

@@ -28,7 +28,7 @@ __all__ = ["MARS_GRAVITY", "HubDrive", "WheelRig", "damped_model", "wheel_rig"]
 
 FloatArray = NDArray[np.float64]
 
-MARS_GRAVITY = 3.721
+MARS_GRAVITY = 3.711
 """[m/s^2]; thesis section 3.1: 1187.52 N on six wheels."""
 _ABOUT_AXLE = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
 """Rows a @ this are e_y x a."""

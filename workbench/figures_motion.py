@@ -27,5 +27,6 @@ def motion_figure(name: str, series: TimeSeries, radius: float) -> str:
         yaxis="y2",
         hovertemplate="%{y:.1f} mm",
     )
-    figure.update_layout(yaxis2={"title": "hub [mm]", "overlaying": "y", "side": "right", "showgrid": False})
+    right = {"title": "hub [mm]", "overlaying": "y", "side": "right", "showgrid": False, "zeroline": False}
+    figure.update_layout(yaxis2=right, margin_r=64)
     return figure_html(figure, f"ancf-{name}")

@@ -27,7 +27,7 @@ __all__ = ["ANCF_DYNAMICS", "AncfMotion", "AncfMotions"]
 
 HUB_MASS = 25.0
 """On the hub in drop and ride [kg]: with Mars gravity 109 N on the wheel, well within what the tire carries."""
-ROVER_SHARE = 48.8
+ROVER_SHARE = 48.9
 """The hub's part of a sixth of the rover, 197.92 N (Samarini 2020, section 3.1) less the plates' own 4.4 kg [kg]."""
 DAMPING_RATIO, DROP, SPEED, ROCK, ROCK_AT = 0.05, 0.010, 0.5, 0.020, 0.25
 CLOSURE, AGREEMENT = 0.01, 0.02

@@ -33,7 +33,7 @@ def paddle(hub: HubMass = HUB) -> PlateSystem:
     )
     model = build_plate_model(mesh, young_modulus=2e5, poisson_ratio=0.0, density=1500.0, quadrature=(3, 3, 2))
     tie = tie_reference_node(mesh, np.flatnonzero(mesh.points[:, 0] < 0.06), np.zeros(3))
-    return build_plate_system(model, with_reference_node(tie), gravity=np.array([0.0, 0.0, -3.721]), hubs=(hub,))
+    return build_plate_system(model, with_reference_node(tie), gravity=np.array([0.0, 0.0, -3.711]), hubs=(hub,))
 
 
 def rigid_start(system: PlateSystem) -> MotionState:

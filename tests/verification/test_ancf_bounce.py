@@ -26,7 +26,7 @@ from ancf_reduced.vector_coordinates import all_free
 from contracts.terrain import Plane, Terrain
 from contracts.terrain_ridges import Sinusoid
 
-GRAVITY = 3.721
+GRAVITY = 3.711
 THICKNESS = 0.02
 WAVES = Sinusoid(amplitude=0.01, wavelength=0.15, yaw=0.3, position=0.03)
 PENALTY = ContactLaw(stiffness=1000.0)

@@ -38,7 +38,7 @@ TIRES = [build_tire(replace(COARSE, phase=0.1 * k, rim_thickness=0.025 - 0.001 *
 MASSES = (15.0, 18.0, 21.0, 24.0, 27.0, 30.0)
 GROUND = TerrainUnion(parts=(Plane(), HalfRound(radius=0.02, position=0.4))).pieces()
 LAW = ContactLaw(stiffness=1000.0, damping=2.0, friction=0.6, slip_velocity=0.5)
-GRAVITY = np.array([0.0, 0.0, -3.721])
+GRAVITY = np.array([0.0, 0.0, -3.711])
 END, STEP, TOLERANCE = 0.012, 1.5e-5, 1e-12
 
 
