@@ -1,4 +1,4 @@
-"""Terrain that varies along one horizontal axis: step, half-round, sinusoid.
+"""Terrain that varies along one horizontal axis: step, crevasse, half-round, sinusoid.
 
 Each has a yaw, the angle from +x to its axis s about +z. World frame: z up.
 """
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from contracts.terrain import PieceKind, TerrainPieces, check_finite, terrain_pieces
 
-__all__ = ["HalfRound", "Sinusoid", "Step"]
+__all__ = ["Crevasse", "HalfRound", "Sinusoid", "Step"]
 
 FloatArray = NDArray[np.float64]
 
@@ -88,6 +88,58 @@ class Step(_Ridge):
         return terrain_pieces(
             self._row(PieceKind.CORNER, self.base + self.rise, self.edge_radius),
             [PieceKind.PLANE, 0.0, 0.0, 1.0, self.base],
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Crevasse(_Ridge):
+    """A trench with upright walls and rounded edges in level ground.
+
+    Attributes
+    ----------
+    width : from wall to wall along s [m]
+    depth : of its floor below the ground [m]
+    edge_radius : radius of both edges [m], at most the depth; penetration must stay below it, as for `Step`
+    position, yaw : place of its first wall along s [m] and the direction of s [rad]
+    base : height of the ground [m]
+
+    Verified by tests/unit/test_terrain.py.
+    """
+
+    width: float
+    depth: float
+    edge_radius: float
+    position: float = 0.0
+    yaw: float = 0.0
+    base: float = 0.0
+
+    def __post_init__(self) -> None:
+        _positive("crevasse width", self.width)
+        _positive("crevasse depth", self.depth)
+        _positive("crevasse edge radius", self.edge_radius)
+        check_finite("crevasse position, yaw, base", self.position, self.yaw, self.base)
+        if self.edge_radius > self.depth:
+            raise InputError("crevasse edge radius", f"{self.edge_radius:g} m", "must not exceed the depth", "lower it")
+
+    def profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Ground, a quarter circle, the floor, a quarter circle, ground."""
+        r, inside = self.edge_radius, np.maximum(-s, s - self.width)
+        t = np.clip(r - inside, 0.0, r)
+        height = np.sqrt(r * r - t * t)
+        slope = np.divide(t, height, out=np.zeros_like(t), where=(t > 0.0) & (height > 0.0))
+        solid = inside > 0.0
+        return (
+            np.where(solid, self.base - r + height, self.base - self.depth),
+            np.where(solid, np.where(s > 0.0, slope, -slope), 0.0),
+        )
+
+    def pieces(self) -> TerrainPieces:
+        """Two rounded corners and the floor."""
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        return terrain_pieces(
+            [PieceKind.CORNER, -c, -s, -self.position, self.base, self.edge_radius],
+            [PieceKind.CORNER, c, s, self.position + self.width, self.base, self.edge_radius],
+            [PieceKind.PLANE, 0.0, 0.0, 1.0, self.base - self.depth],
         )
 
 

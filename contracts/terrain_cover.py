@@ -1,0 +1,41 @@
+"""Whether a terrain reaches as far as a path: only height fields end."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from contracts.terrain import PieceKind, Terrain
+
+__all__ = ["check_covered"]
+
+
+def check_covered(terrain: Terrain, path: NDArray[np.float64], margin: float = 0.0) -> None:
+    """Refuse a path that leaves a terrain's height field.
+
+    Parameters
+    ----------
+    terrain : any
+    path : (n, 2) float [m], x and y of the places to be covered
+    margin : how far the terrain must reach beyond them [m], e.g. half the vehicle's length plus a wheel's radius
+
+    Raises
+    ------
+    InputError
+        If a place with its margin lies beside the height field; if the path is no list of finite places.
+
+    Verified by tests/unit/test_terrain_cover.py.
+    """
+    places = np.asarray(path, dtype=np.float64)
+    if places.ndim != 2 or places.shape[1] != 2 or not len(places) or not np.all(np.isfinite(places)):
+        raise InputError("path", f"shape {places.shape}", "must be (n, 2) finite numbers", "give x and y in metres")
+    pieces = terrain.pieces()
+    for row in pieces.rows[pieces.rows[:, 0] == PieceKind.HEIGHT_FIELD]:
+        low = row[1:3]
+        high = low + row[3:5] * (np.array(pieces.knots.shape) - 3)
+        beside = np.any((places < low + margin - 1e-9) | (places > high - margin + 1e-9), axis=1)
+        if beside.any():
+            x, y = places[beside][0]
+            rule = f"must lie {margin:g} m inside the terrain, x {low[0]:g}..{high[0]:g} m, y {low[1]:g}..{high[1]:g} m"
+            raise InputError("path", f"x, y = {x:g}, {y:g} m", rule, "give a larger field or another start")
