@@ -5,7 +5,7 @@ cover the share k exp(-q D) of the ground, q = 1.79 + 0.152 / k [1/m], so that t
 
     n(D) = 4 k q exp(-q D) / (pi D^2).
 
-Places are independent and uniform. A rock is the cap h = H (1 - (2 r / D)^2)^2, smooth at its foot; of overlapping rocks
+Places are independent and uniform. A rock is the cap h = H (1 - (2 r / D)^2)^2, smooth at its foot; where rocks overlap
 the higher one counts.
 """
 
@@ -93,13 +93,15 @@ class RandomRocks:
 
     def terrain(self) -> HeightField:
         """The height field."""
-        x, y = (np.arange(math.ceil(extent / self.spacing) + 1) * self.spacing for extent in self.size)
+        x, y = (
+            low + self.spacing * np.arange(math.ceil(extent / self.spacing) + 1, dtype=np.float64)
+            for low, extent in zip(self.origin, self.size, strict=True)
+        )
         heights = np.zeros((len(x), len(y)))
         for place_x, place_y, diameter in self.rocks():
             radius = 0.5 * diameter
-            i = _within(x + self.origin[0], place_x, radius)
-            j = _within(y + self.origin[1], place_y, radius)
-            off = (x[i, None] + self.origin[0] - place_x) ** 2 + (y[None, j] + self.origin[1] - place_y) ** 2
+            i, j = _within(x, place_x, radius), _within(y, place_y, radius)
+            off = (x[i, None] - place_x) ** 2 + (y[None, j] - place_y) ** 2
             cap = self.height_ratio * diameter * np.maximum(1.0 - off / radius**2, 0.0) ** 2
             heights[i, j] = np.maximum(heights[i, j], cap)
         return HeightField(heights=heights, spacing=(self.spacing, self.spacing), origin=self.origin)

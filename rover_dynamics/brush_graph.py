@@ -28,7 +28,7 @@ SINUSOID, HEIGHT_FIELD = int(PieceKind.SINUSOID), int(PieceKind.HEIGHT_FIELD)
 def graph_height(piece: FloatArray, knots: FloatArray, x: float, y: float) -> float:
     """Height [m] of a sinusoid or height field at (x, y) [m]."""
     if int(piece[0]) == SINUSOID:
-        return piece[4] + piece[5] * math.sin(piece[6] * (piece[1] * x + piece[2] * y - piece[3]))
+        return float(piece[4] + piece[5] * math.sin(piece[6] * (piece[1] * x + piece[2] * y - piece[3])))
     u, v = (x - piece[1]) / piece[3], (y - piece[2]) / piece[4]
     i, j = _cell(u, knots.shape[0]), _cell(v, knots.shape[1])
     a, b = _value_weights(u - i), _value_weights(v - j)
@@ -82,7 +82,7 @@ def _cell(u: float, knots: int) -> int:
 @compiled
 def _across(knots: FloatArray, i: int, j: int, w: Four) -> float:
     """Weighted sum of four knots of a row."""
-    return knots[i, j] * w[0] + knots[i, j + 1] * w[1] + knots[i, j + 2] * w[2] + knots[i, j + 3] * w[3]
+    return float(knots[i, j] * w[0] + knots[i, j + 1] * w[1] + knots[i, j + 2] * w[2] + knots[i, j + 3] * w[3])
 
 
 @compiled

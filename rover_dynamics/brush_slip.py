@@ -84,10 +84,8 @@ def fiala_slip(
     if limit <= 0.0:
         return 0.0, 0.0, 0.0
     x, y = abs(slip[0]), abs(slip[1])
-    if 2.0 * stiffness[0] * x <= limit:
-        forward = stiffness[0] * x
-    else:
-        forward = limit * (1.0 - limit / (4.0 * stiffness[0] * x))
+    sliding = limit * (1.0 - limit / (4.0 * max(stiffness[0] * x, 0.5 * limit)))
+    forward = stiffness[0] * x if 2.0 * stiffness[0] * x <= limit else sliding
     h = max(1.0 - stiffness[1] * y / (3.0 * limit), 0.0)
     sideways, moment = limit * (1.0 - h**3), limit * width * (1.0 - h) * h**3
     return math.copysign(forward, slip[0]), math.copysign(sideways, slip[1]), -math.copysign(moment, slip[1])

@@ -21,7 +21,7 @@ V = 0 the force derives from a potential, so that no loop of u creates energy. F
 itself: L_y = 3 mu_max N / k_t where it slides; L_x = 5 mu_max N / k_t, ten times the kappa* from which it bends, since
 F_x reaches mu N only asymptotically (there 95 %; a wheel that needs more creeps by micrometres a second).
 
-Verified by tests/verification/test_brush_standstill.py and tests/unit/test_brush_standstill.py.
+Verified by tests/verification/test_brush_standstill.py and tests/unit/test_brush_bristles.py.
 """
 
 from __future__ import annotations

@@ -96,7 +96,7 @@ class BrushTire:
 
     def initial_state(self) -> FloatArray:
         """(n_state,) float [m]: bristles undeflected."""
-        return self._wheels.initial_state()[0]
+        return np.zeros(self._wheels.n_state)
 
     def respond(self, motion: HubMotion, state: FloatArray, time: float) -> TireResponse:
         """See `contracts.tire.Tire`; the time does not matter."""

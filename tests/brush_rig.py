@@ -18,6 +18,7 @@ from rover_dynamics.brush_wheel import BrushWheels
 FloatArray = NDArray[np.float64]
 RADIUS = 0.1425
 STIFFNESS = THESIS_BRUSH.radial_stiffness
+PLANE, DEFAULT = Plane(), BrushSettings()
 
 
 def turned(camber: float = 0.0, steer: float = 0.0) -> FloatArray:
@@ -54,9 +55,9 @@ class Rig:
     mass: float = 320.0 / 6.0
     inertia: float = 0.08571
     gravity: tuple[float, float, float] = (0.0, 0.0, -3.711)
-    terrain: Terrain = Plane()
+    terrain: Terrain = PLANE
     parameters: BrushTireParameters = THESIS_BRUSH
-    settings: BrushSettings = BrushSettings()
+    settings: BrushSettings = DEFAULT
     rotation: FloatArray | None = None
     torque: Callable[[float, float], float] | None = None
     """Drive torque of time and spin [N m]; None: the spin stays as it is."""

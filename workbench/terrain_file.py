@@ -2,7 +2,7 @@
 
 NPZ: ``heights`` (n_x, n_y) float [m], ``spacing`` (2,) [m] and, if wanted, ``origin`` (2,) [m], as
 `contracts.height_field.HeightField` defines them. GeoTIFF: the first band, heights in metres on a grid in a projected
-coordinate system in metres, rows along x (east), columns along y (north); GDAL's reader (rasterio) knows its tags,
+coordinate system in metres, north up (x runs east, y north); GDAL's reader (rasterio) knows its tags,
 compressions and gaps.
 
 Verified by tests/unit/test_workbench_terrain_file.py.
@@ -15,7 +15,7 @@ import zipfile
 from pathlib import Path
 
 import numpy as np
-import rasterio
+import rasterio  # type: ignore[import-untyped]
 
 from contracts.errors import InputError
 from contracts.height_field import HeightField
@@ -51,7 +51,7 @@ def _from_npz(path: Path) -> HeightField:
     try:
         with np.load(path, allow_pickle=False) as archive:
             heights, spacing = (np.asarray(archive[name], dtype=np.float64) for name in ("heights", "spacing"))
-            origin = np.asarray(archive["origin"] if "origin" in archive else (0.0, 0.0), dtype=np.float64)
+            origin = np.asarray(archive.get("origin", (0.0, 0.0)), dtype=np.float64)
     except (KeyError, ValueError, OSError, zipfile.BadZipFile) as error:
         rule = "must be a NumPy archive with heights (n_x, n_y) and spacing (2,)"
         raise InputError("terrain file", path, rule, f"write it with numpy.savez ({error})") from error

@@ -156,11 +156,9 @@ def test_a_valley_of_a_height_field_is_the_valley_of_two_planes() -> None:
 
 
 def test_force_changes_little_by_little_where_places_of_contact_come_and_go() -> None:
-    rough = sampled_terrain(
-        TerrainUnion(parts=(Sinusoid(amplitude=0.02, wavelength=0.21), Sinusoid(amplitude=0.015, wavelength=0.13, position=0.03))),
-        np.linspace(-0.5, 0.5, 101),
-        np.linspace(-0.5, 0.5, 11),
-    )
+    long, short = Sinusoid(amplitude=0.02, wavelength=0.21), Sinusoid(amplitude=0.015, wavelength=0.13, position=0.03)
+    both = TerrainUnion(parts=(long, short))
+    rough = sampled_terrain(both, np.linspace(-0.5, 0.5, 101), np.linspace(-0.5, 0.5, 11))
     wheels, steps = BrushWheels(rough, 1), np.arange(-0.2, 0.2, 1e-4)
     force = np.array([wheels.forces(motion((x, 0.0, 0.13)), np.zeros((1, 2))).wrench[0, [0, 2]] for x in steps])
     jump = np.abs(np.diff(force, axis=0)).max()
@@ -183,7 +181,7 @@ def test_spring_force_and_moment_derive_from_the_energy(terrain: Terrain, p: Flo
     wheels = BrushWheels(terrain, 1)
     state = wheels.initial_state()
 
-    def work(a: FloatArray, b: FloatArray, turn: FloatArray | None = None, steps: int = 200) -> float:
+    def work(a: FloatArray, b: FloatArray, steps: int = 200) -> float:
         """Work of the wrench from a to b at fixed rotation."""
         t = (np.arange(steps) + 0.5) / steps
         return float(
@@ -191,7 +189,7 @@ def test_spring_force_and_moment_derive_from_the_energy(terrain: Terrain, p: Flo
         )
 
     assert wheels.forces(motion(p, rotation), state).output[0, 1] > 1.0
-    corners = [p, p + [0.01, 0.0, 0.0], p + [0.01, 0.0, 0.008], p + [0.0, 0.004, 0.008]]
+    corners = list(p + np.array([[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.01, 0.0, 0.008], [0.0, 0.004, 0.008]]))
     loop = sum(work(a, b) for a, b in zip(corners, [*corners[1:], p], strict=True))
     scale = STIFFNESS * 0.02**2
     assert abs(loop) < 2e-4 * scale

@@ -8,12 +8,13 @@ import pytest
 from contracts.errors import InputError
 from contracts.height_field import HeightField
 from contracts.terrain import PieceKind, Plane, Terrain, TerrainUnion, inclined_plane, normals
-from contracts.terrain_ridges import HalfRound, Sinusoid, Step
+from contracts.terrain_ridges import Crevasse, HalfRound, Sinusoid, Step
 
 STEP = Step(rise=0.1, edge_radius=0.02, position=0.3, yaw=np.pi / 2, base=0.05)
 SHAPES: list[Terrain] = [
     inclined_plane(0.4, 0.7, 0.1),
     STEP,
+    Crevasse(width=0.15, depth=0.4, edge_radius=0.02, position=0.1, yaw=0.3, base=0.05),
     HalfRound(radius=0.05, position=0.02, yaw=0.4),
     Sinusoid(amplitude=0.03, wavelength=0.4, position=0.1, yaw=-0.5, base=0.2),
     TerrainUnion(parts=(HalfRound(radius=0.05), HalfRound(radius=0.03, position=0.2), inclined_plane(0.1))),
@@ -78,3 +79,32 @@ def test_bad_shapes_are_refused() -> None:
     field = HeightField(heights=np.zeros((4, 4)), spacing=(1.0, 1.0))
     with pytest.raises(InputError, match="at most one height field"):
         TerrainUnion(parts=(field, field))
+
+
+TRENCH = Crevasse(width=0.15, depth=0.4, edge_radius=0.02, position=0.1, yaw=0.3, base=0.05)
+
+
+def test_crevasse_is_level_then_round_then_deep_and_the_same_from_both_sides() -> None:
+    level = Crevasse(width=0.15, depth=0.4, edge_radius=0.02, position=0.1, base=0.05)
+    x = np.array([-1.0, 0.08, 0.0901, 0.1001, 0.175, 0.2499, 0.2599, 0.27, 1.0])
+    z = level.height(x, np.zeros(9))
+    np.testing.assert_allclose(z, z[::-1], atol=1e-12)
+    np.testing.assert_allclose(z[[0, 1, 3, 4, 5]], [0.05, 0.05, -0.35, -0.35, -0.35], atol=1e-12)
+    assert 0.03 < z[2] < 0.05
+    kinds = [PieceKind(int(kind)) for kind in TRENCH.pieces().rows[:, 0]]
+    assert kinds == [PieceKind.CORNER, PieceKind.CORNER, PieceKind.PLANE]
+
+
+def test_corners_of_a_crevasse_are_its_walls() -> None:
+    first, second, floor = TRENCH.pieces().rows
+    np.testing.assert_allclose(first[1:3], -second[1:3])
+    assert (first[3], second[3], floor[4]) == (-0.1, 0.25, pytest.approx(-0.35))
+
+
+def test_bad_crevasses_are_refused() -> None:
+    with pytest.raises(InputError, match="crevasse width"):
+        Crevasse(width=0.0, depth=0.4, edge_radius=0.02)
+    with pytest.raises(InputError, match="crevasse edge radius"):
+        Crevasse(width=0.15, depth=0.01, edge_radius=0.02)
+    with pytest.raises(InputError, match="crevasse position"):
+        Crevasse(width=0.15, depth=0.4, edge_radius=0.02, position=np.inf)

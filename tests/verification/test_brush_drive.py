@@ -1,11 +1,11 @@
 """Claim: a wheel with brush tire rolls, drives, brakes and corners as its steady laws say, and creates no energy.
 
-Sources: the steady laws (verified in test_brush_steady.py), Newton's laws for a mass on a wheel, and the first-order
-response of a tire with relaxation length sigma, F = F_steady (1 - exp(-x / sigma)) for small slip (Pacejka 2012, 7.2.1).
+Sources: the steady laws (verified in test_brush_steady.py), Newton's laws for a mass on a wheel, and the response of a
+tire with relaxation length sigma to small slip, F = F_steady (1 - exp(-x / sigma)) (Pacejka 2012, section 7.2.1).
 Tolerances: steady rolling 1e-4 N of about 150 N (the regular speed of 1 mm/s against 1 m/s is in it); rolling to rest
 and braking 0.5 %, the rest being what the bristles and Fiala's approach to the friction limit do; response 2 %. No loop
-of slip at constant load may do negative work, to 1e-9 m times the load. Negative controls: slip forces of the other law,
-a wheel braked with the friction of no slip, and bristles read a quarter of a period late.
+of slip at constant load may do negative work, to 1e-9 m times the load. Negative controls: slip forces of the other
+law, a wheel braked with the friction of no slip, and bristles read a quarter of a period late.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 Source: the mission's requirement of 25 degrees; friction 0.757 > tan 25 degrees = 0.466. A sixth of the rover on Mars
 settles for 5 s, then its path over 60 s is measured; tolerance 1 mm (aimed at: 1 mm a minute), and for the brush
-1 micrometre, since nothing of its law leaks below the sliding limit. Negative control: with friction 0.45 < tan 25 degrees
-the same wheel slides, with the acceleration (sin - 0.45 cos) g.
+1 micrometre, since nothing of its law leaks below the sliding limit. Negative control: with friction 0.45 < tan 25
+degrees the same wheel slides, with the acceleration (sin - 0.45 cos) g.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Source: contracts/published/brush_tire.csv (isotropic brush with parabolic pressure, Pacejka's closed form, confirmed
 there by quadrature of the bristle model) and fiala_tire.csv. Tolerance: half a unit of the last printed digit, 5e-10 N
-and N m. Negative controls: friction that does not fall with slip, and a brush with uniform pressure, lie off by newtons.
+and N m. Negative controls: friction that does not fall with slip, and a brush with uniform pressure, are newtons off.
 """
 
 from __future__ import annotations
