@@ -4,11 +4,15 @@ In each contact, with the unit vectors n out of the ground, t = e x n / |e x n| 
 velocity v_c of the wheel at the contact, and the deflection lambda of `brush_contact` with its rate -n . v_c / q:
 
     N = max(0, k lambda + c lambda_dot w) / q,    w = ramp(lambda / d_0), or 1 for the damper as printed,
-    v = -(v_c . t, v_c . l),    V = omega r = t . (r x omega) (brush) or t . v_hub (Fiala),    r from the hub centre,
-    force on the hub  N n + F_x t + F_y l  at the contact,  M_z n,  and against the spin  -f N r tanh(omega r / v_0) e,
+    v = -(v_r . t, v_c . l),    V = omega R = t . (r_r x omega) (brush) or t . v_hub (Fiala),
+    force on the hub  N n + F_y l  at the contact r,  F_x t  at r_r,
+    moment            M_z n  and against the spin  -f N |r| tanh(omega R / v_0) e,
 
-F_x, F_y, M_z and the rate of the bristles from `brush_standstill`. The wheel is a rigid body down to the contact: the
-power of the wrench on the hub's motion is that of the spring, the damper and the slip, and nothing else.
+F_x, F_y, M_z and the rate of the bristles from `brush_standstill`; r goes from the hub centre to the contact. Rolling
+is that of the rim, which `brush_contact` takes as rigid and held elastically by the hub: one turn lays down 2 pi R,
+whatever the deflection. So v_r is the wheel's velocity at r_r, the contact moved out to the distance R, and F_x has the
+lever R: |r| by itself, the rest because F_x shifts the rim by F_x / k against the hub and N with it, k delta F_x / k.
+The power of the wrench on the hub's motion is that of spring, damper, slip and rolling resistance, and nothing else.
 
 State of a wheel: u_x, u_y [m] for each piece of terrain in turn; out of contact u fades with the retardation time, and
 over the first 0.1 mm of deflection its rate goes over into that of the contact.
@@ -186,9 +190,11 @@ def _add_contact(
     turning = cross(omega, r)
     v = along(v_hub, 1.0, turning)
     load = _normal_load(contact[0], -dot(n, v) / q, q, numbers)
-    rolling = -dot(turning, t)
+    u_hub = contact[7], contact[8], contact[9]
+    to_rim = -(numbers.radius + dot(r, u_hub))
+    rolling = -dot(turning, t) - to_rim * dot(cross(omega, u_hub), t)
     speed = rolling if int(numbers.law) == BRUSH else dot(v_hub, t)
-    (F_x, F_y, M_z), rate, slip = bristle_force(load, u, (-dot(v, t), -dot(v, left)), speed, numbers)
+    (F_x, F_y, M_z), rate, slip = bristle_force(load, u, (rolling - dot(v_hub, t), -dot(v, left)), speed, numbers)
     F = (
         load * n[0] + F_x * t[0] + F_y * left[0],
         load * n[1] + F_x * t[1] + F_y * left[1],
@@ -197,6 +203,7 @@ def _add_contact(
     arm = math.sqrt(dot(r, r))
     resistance = numbers.rolling_resistance * load * arm * math.tanh(rolling / numbers.standstill_speed)
     M = along(along(cross(r, F), M_z, n), -resistance, e)
+    M = along(M, to_rim * F_x, cross(u_hub, t))
     for m in range(3):
         wrench[m] += F[m]
         wrench[3 + m] += M[m]

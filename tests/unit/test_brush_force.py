@@ -103,9 +103,17 @@ def test_power_of_the_wrench_is_that_of_normal_and_slip_forces() -> None:
         found = wheels.forces(hub, draw.normal(size=(1, 2)) * 5e-4)
         r = found.output[0, 4:7] - hub.position[0]
         F, M = found.wrench[0, :3], found.wrench[0, 3:]
-        own = M - np.cross(r, F)  # aligning moment and rolling resistance
-        assert F @ v + M @ omega == pytest.approx(F @ (v + np.cross(omega, r)) + own @ omega, abs=1e-12)
-        n = np.array(wheels.pieces.rows[0, 1:4])
+        n, e = np.array(wheels.pieces.rows[0, 1:4]), hub.rotation[0, :, 1]
+        t = np.cross(e, n) / np.linalg.norm(np.cross(e, n))
+        u = np.cross(t, e)
+        on_rim = r - (RADIUS + r @ u) * u
+        forward = (F @ t) * t
+        own = M - np.cross(r, F - forward) - np.cross(on_rim, forward)
+        slip_power = (F - forward) @ (v + np.cross(omega, r)) + forward @ (v + np.cross(omega, on_rim))
+        assert F @ v + M @ omega == pytest.approx(slip_power + own @ omega, abs=1e-12)
+        resistance, aligning = np.linalg.lstsq(np.column_stack([e, n]), own, rcond=None)[0]
+        np.testing.assert_allclose(resistance * e + aligning * n, own, atol=1e-12)
+        assert abs(resistance) <= 0.015 * found.output[0, 1] * RADIUS
         assert F @ n == pytest.approx(found.output[0, 1], rel=1e-12)
         friction = F - (F @ n) * n
         assert np.hypot(*found.output[0, 7:9]) == pytest.approx(np.linalg.norm(friction), rel=1e-12)
@@ -117,7 +125,7 @@ def test_rolling_resistance_opposes_the_spin_and_passes_smoothly_through_zero() 
     arm = RADIUS - deflection
 
     def moment(spin: float) -> float:
-        hub = motion((0.0, 0.0, arm), None, (spin * arm, 0.0, 0.0), (0.0, spin, 0.0))
+        hub = motion((0.0, 0.0, arm), None, (spin * RADIUS, 0.0, 0.0), (0.0, spin, 0.0))
         return float(wheels.forces(hub, np.zeros((1, 2))).wrench[0, 4])
 
     assert moment(1.0) == pytest.approx(-0.015 * STIFFNESS * deflection * arm, rel=1e-9)

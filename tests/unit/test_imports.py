@@ -33,13 +33,14 @@ CONFINED: dict[str, set[str]] = {
     **{library: {"reference_fe"} for library in FENICS},
     **{library: {"workbench"} for library in FRONT},
     "gmsh": {"geometry"},
+    "rasterio": {"workbench"},
 }
 """Library -> the packages that may import it."""
-ONE_MODULE = ("gmsh", "meshio", "plotly", "matplotlib", "pyvista", "pint", "jinja2", "distributed")
+ONE_MODULE = ("gmsh", "meshio", "plotly", "matplotlib", "pyvista", "pint", "jinja2", "distributed", "rasterio")
 """Libraries imported by at most one module of a package."""
 NEVER_ON_HELP = {
     *("gmsh", "petsc4py", "dolfinx", "mpi4py", "vtk", "vtkmodules"),
-    *("pyvista", "matplotlib", "numba", "distributed"),
+    *("pyvista", "matplotlib", "numba", "distributed", "rasterio"),
 }
 
 

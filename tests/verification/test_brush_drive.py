@@ -45,7 +45,7 @@ def steadily_rolling(wheels: BrushWheels, slip: tuple[float, float], rolling: fl
     else:
         forward = rolling / (1.0 + slip[0])
         sideways = -forward * slip[1]
-    hub = motion((0.0, 0.0, LOADED), None, (forward, sideways, 0.0), (0.0, rolling / LOADED, 0.0))
+    hub = motion((0.0, 0.0, LOADED), None, (forward, sideways, 0.0), (0.0, rolling / RADIUS, 0.0))
     found = solve_ivp(lambda t, u: wheels.forces(hub, u[None]).rate[0], (0.0, until), np.zeros(2), "LSODA", rtol=1e-9)
     wrench = wheels.forces(hub, np.ascontiguousarray(found.y[:, -1][None])).wrench[0]
     return np.array([wrench[0], wrench[1], wrench[5]])
@@ -94,15 +94,15 @@ def test_rolling_backwards_mirrors_forces_and_moment() -> None:
 
 def test_free_wheel_rolls_out_by_rolling_resistance() -> None:
     rig = Rig(torque=lambda t, spin: 0.0)
-    y = rig.run(rig.start((0.0, 0.0, LOADED), 0.5, 0.5 / LOADED), np.array([0.0, 1.0, 3.0]))
-    deceleration = 0.015 * LOAD / (MASS + rig.inertia / LOADED**2)
+    y = rig.run(rig.start((0.0, 0.0, LOADED), 0.5, 0.5 / RADIUS), np.array([0.0, 1.0, 3.0]))
+    deceleration = 0.015 * LOAD * LOADED / RADIUS / (MASS + rig.inertia / RADIUS**2)
     assert (y[1, 3] - y[2, 3]) / 2.0 == pytest.approx(deceleration, rel=5e-3)
 
 
 def test_drive_torque_accelerates_as_newton_says() -> None:
     rig = Rig(torque=lambda t, spin: 3.5)
     y = rig.run(rig.start((0.0, 0.0, LOADED)), np.array([0.0, 1.0, 3.0]))
-    acceleration = (3.5 / LOADED - 0.015 * LOAD) / (MASS + rig.inertia / LOADED**2)
+    acceleration = (3.5 - 0.015 * LOAD * LOADED) / RADIUS / (MASS + rig.inertia / RADIUS**2)
     assert (y[2, 3] - y[1, 3]) / 2.0 == pytest.approx(acceleration, rel=1e-2)  # slip grows a little with speed
     assert rig.response(y[2]).output[0, 7] == pytest.approx(MASS * acceleration, rel=1e-2)
 
