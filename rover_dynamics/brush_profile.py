@@ -21,7 +21,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_dynamics.brush_compiled import Vector, along, compiled, cross, dot, over_length
+from rover_dynamics.brush_compiled import Vector, along, compiled, cross, dot, hypotenuse, over_length
 from rover_dynamics.brush_edges import Facing
 from rover_dynamics.brush_graph import Graph, graph, graph_height
 
@@ -48,7 +48,7 @@ def profile_distance(
     radius : R [m]
     scratch : (34, 4) float: u_x, u_y, delta, x of each point
     """
-    level = math.hypot(e[0], e[1])
+    level = hypotenuse(e[0], e[1])
     if level < LEVEL:  # the wheel lies on its side
         return 2.0 * radius, (0.0, 0.0, 1.0), e[2]
     f = e[1] / level, -e[0] / level, 0.0
@@ -62,7 +62,7 @@ def profile_distance(
         if second >= 0:
             share, other = _shares(D, scratch[0], scratch[second])
             tilt = share * tilt + other * _tilt(piece, knots, section, radius, scratch[second])
-        size = math.hypot(D[0], D[1])
+        size = hypotenuse(D[0], D[1])
         x, y = D[0] / size, D[1] / size
     q, g = math.sqrt(max(1.0 - tilt * tilt, 0.0)), section[2]
     n = q * (x * f[0] + y * g[0]), q * (x * f[1] + y * g[1]), q * y * g[2]
@@ -71,9 +71,9 @@ def profile_distance(
 
 @compiled
 def _sample(piece: FloatArray, knots: FloatArray, section: Section, radius: float, scratch: FloatArray) -> int:
-    """Fill rows 1.. of the scratch; the row of the largest deflection."""
-    best, (p, f, g, _) = 1, section
-    upright = math.hypot(g[0], g[1]) < UPRIGHT
+    """Fill rows 1.. of the scratch, delta = -1 where the rim is free; the row of the largest deflection."""
+    best, nearest, height, (p, f, g, _) = 1, 1e300, 0.0, section
+    upright = hypotenuse(g[0], g[1]) < UPRIGHT
     for k in range(1, SAMPLES + 1):
         x = radius * (2.0 * (k - 1) / (SAMPLES - 1) - 1.0)
         at = along(along(p, x, f), -math.sqrt(max(radius * radius - x * x, 0.0)), g)
@@ -83,13 +83,21 @@ def _sample(piece: FloatArray, knots: FloatArray, section: Section, radius: floa
             y = (graph_height(piece, knots, at[0], at[1]) - p[2]) / g[2]
         if x != 0.0:
             y = min(y, 0.0)  # below its top the ground is solid: at the axle's height stands its face
-        distance = max(math.hypot(x, y), 1e-9)
-        sign = 1.0 if y <= 0.0 else -1.0
-        row = scratch[k]
-        row[0], row[1], row[2], row[3] = -sign * x / distance, -sign * y / distance, radius - sign * distance, x
-        if row[2] > scratch[best, 2]:
-            best = k
+        square = x * x + y * y if y <= 0.0 else -y * y
+        scratch[k, 2], scratch[k, 3] = -1.0, x
+        if square < radius * radius:
+            _put(scratch[k], x, y, radius)
+        if square < nearest:
+            best, nearest, height = k, square, y
+    _put(scratch[best], scratch[best, 3], height, radius)
     return best
+
+
+@compiled
+def _put(row: FloatArray, x: float, y: float, radius: float) -> None:
+    """A point of the profile as a row of the scratch."""
+    distance = max(hypotenuse(x, y), 1e-9) * (1.0 if y <= 0.0 else -1.0)
+    row[0], row[1], row[2], row[3] = -x / distance, -y / distance, radius - distance, x
 
 
 @compiled
@@ -113,10 +121,9 @@ def _closest(
             break
         step = max(-spacing, min(spacing, step))
         x, y = x + step, y + slope * step
-    distance = math.hypot(x, y)
+    distance = hypotenuse(x, y)
     if y < 0.0 and abs(x - start[3]) <= 2.0 * spacing and radius - distance >= start[2] - SLACK:
-        row = scratch[0]
-        row[0], row[1], row[2], row[3] = -x / distance, -y / distance, radius - distance, x
+        _put(scratch[0], x, y, radius)
         return tilt
     return _tilt(piece, knots, section, radius, start)
 
@@ -147,7 +154,7 @@ def _freeing(D: Pair, scratch: FloatArray) -> tuple[Pair, int]:
     last = -1
     for k in range(1, SAMPLES + 1):
         a, b, deflection = scratch[k, 0], scratch[k, 1], scratch[k, 2]
-        if deflection <= 0.0 or D[0] * a + D[1] * b >= deflection:
+        if deflection <= 0.0 or D[0] * a + D[1] * b >= deflection - TOLERANCE:
             continue
         low, high = -1e3, 1e3
         for j in range(k):

@@ -29,7 +29,7 @@ from __future__ import annotations
 
 import math
 
-from rover_dynamics.brush_compiled import compiled
+from rover_dynamics.brush_compiled import compiled, hypotenuse
 
 __all__ = ["brush_slip", "falling_friction", "fiala_slip"]
 
@@ -56,7 +56,7 @@ def brush_slip(
     friction : mu at this slip [-]
     half_length : a, half the length of the patch [m]
     """
-    size = math.hypot(slip[0], slip[1])
+    size = hypotenuse(slip[0], slip[1])
     limit = friction * load
     if size == 0.0 or limit <= 0.0:
         return 0.0, 0.0, 0.0

@@ -26,9 +26,7 @@ Verified by tests/verification/test_brush_standstill.py and tests/unit/test_brus
 
 from __future__ import annotations
 
-import math
-
-from rover_dynamics.brush_compiled import compiled, ramp
+from rover_dynamics.brush_compiled import compiled, hypotenuse, ramp
 from rover_dynamics.brush_settings import SlipLaw, WheelNumbers
 from rover_dynamics.brush_slip import brush_slip, falling_friction, fiala_slip
 
@@ -43,7 +41,7 @@ BAND, SMALLEST = 0.5, 5e-5
 @compiled
 def held_motion(u: Pair, v: Pair, limit: float) -> tuple[Pair, Pair]:
     """Part h of the slip velocity that slides at the limit, and how far u lies beyond its band (as a vector) [m]."""
-    size = math.hypot(u[0], u[1])
+    size = hypotenuse(u[0], u[1])
     if size <= limit or size == 0.0:
         return (0.0, 0.0), (0.0, 0.0)
     x, y, band = u[0] / size, u[1] / size, BAND * limit + SMALLEST
@@ -75,10 +73,10 @@ def bristle_force(
         h, excess = (h_x[0], h_y[1]), (excess_x[0], excess_y[1])
     sigma_x, sigma_y, tau = numbers.relaxation_x, numbers.relaxation_y, numbers.retardation_time
     rate = v[0] - abs(speed) * u[0] / sigma_x - h[0], v[1] - abs(speed) * u[1] / sigma_y - h[1]
-    regular = math.hypot(speed, numbers.standstill_speed)
+    regular = hypotenuse(speed, numbers.standstill_speed)
     q_x, q_y = u[0] + tau * rate[0], u[1] + tau * rate[1]
     slip = q_x / sigma_x + h[0] / regular, q_y / sigma_y + h[1] / regular
-    friction = falling_friction(math.hypot(slip[0], slip[1]), numbers.friction_min, numbers.friction_max)
+    friction = falling_friction(hypotenuse(slip[0], slip[1]), numbers.friction_min, numbers.friction_max)
     if int(numbers.law) == BRUSH:
         k = numbers.tangential_stiffness
         s = k * (q_x + sigma_x * h[0] / regular), k * (q_y + sigma_x * h[1] / regular)

@@ -35,7 +35,8 @@ class BrushWheels:
     Raises
     ------
     InputError
-        For no wheel; by `forces` if a hub lies beside the terrain's height field.
+        For no wheel; by `forces` and `derivatives` for arrays of another shape and numbers that are not finite; by
+        `forces` if a hub lies beside the terrain's height field. The compiled calls themselves check nothing.
 
     Verified by tests/unit/test_brush_force.py.
     """
@@ -61,6 +62,7 @@ class BrushWheels:
 
     def forces(self, motions: HubMotions, state: FloatArray) -> BrushResult:
         """Wrenches, rates and outputs of all wheels; state (n, n_state) float [m]."""
+        self._check(motions, state)
         result = brush_result(self._wheels, self.pieces)
         brush_forces(motions, state, self.numbers, self.pieces, result, self._scratch)
         beside = np.flatnonzero(result.output[:, 9])
@@ -74,10 +76,23 @@ class BrushWheels:
 
     def derivatives(self, motions: HubMotions, state: FloatArray) -> FloatArray:
         """(n, 6 + s, 12 + s) float, see `brush_derivatives`."""
+        self._check(motions, state)
         jacobian = np.zeros((self._wheels, 6 + self.n_state, MOTION + self.n_state))
         scratch = self._scratch, self._pair
         brush_derivatives(motions, state.copy(), self.numbers, self.pieces, jacobian, scratch)
         return jacobian
+
+    def _check(self, motions: HubMotions, state: FloatArray) -> None:
+        """Refuse what the compiled loops would read beyond or carry on: other shapes, NaN."""
+        n = self._wheels
+        wanted = ((n, 3), (n, 3, 3), (n, 3), (n, 3), (n, self.n_state))
+        found = tuple(np.shape(array) for array in (*motions, state))
+        if found != wanted:
+            rule = f"must be {wanted}"
+            raise InputError("shapes of motions and state", found, rule, "give every wheel on this terrain its row")
+        if not all(np.all(np.isfinite(array)) for array in (*motions, state)):
+            value = f"positions {motions.position.tolist()} m, states {state.tolist()} m"
+            raise InputError("motions and state", value, "must be finite", "shorten the time step")
 
 
 class BrushTire:

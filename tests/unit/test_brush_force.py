@@ -183,6 +183,13 @@ def test_the_calls_allocate_nothing() -> None:
 def test_bad_input_is_refused() -> None:
     with pytest.raises(InputError, match="wheels = 0"):
         BrushWheels(Plane(), 0)
+    wheels = BrushWheels(Plane(), 1)
+    with pytest.raises(InputError, match="shapes of motions and state"):
+        wheels.forces(motion((0.0, 0.0, 0.12)), np.zeros((1, 4)))
+    with pytest.raises(InputError, match="shapes of motions and state"):
+        wheels.derivatives(motion((0.0, 0.0, 0.12)), np.zeros(2))
+    with pytest.raises(InputError, match=r"motions and state = positions .* must be finite"):
+        wheels.forces(motion((0.0, 0.0, np.nan)), np.zeros((1, 2)))
     field = HeightField(heights=np.zeros((5, 5)), spacing=(0.5, 0.5))
     with pytest.raises(InputError, match=r"hub of wheel 0 = x, y = 2\.5, 1 m"):
         BrushWheels(field, 1).forces(motion((2.5, 1.0, 0.12)), np.zeros((1, 2)))

@@ -99,6 +99,13 @@ def test_free_wheel_rolls_out_by_rolling_resistance() -> None:
     assert (y[1, 3] - y[2, 3]) / 2.0 == pytest.approx(deceleration, rel=5e-3)
 
 
+@pytest.mark.parametrize("settings", [BRUSH, FIALA], ids=["brush", "fiala"])
+def test_one_turn_lays_down_the_rims_circumference(settings: BrushSettings) -> None:
+    rig = Rig(torque=lambda t, spin: 0.015 * LOAD * LOADED, settings=settings)  # just the rolling resistance
+    start, end = rig.run(rig.start((0.0, 0.0, LOADED), 0.1365 * RADIUS, 0.1365), np.array([0.0, 10.0]))
+    assert end[0] - start[0] == pytest.approx(10.0 * 0.1365 * RADIUS, rel=1e-6)  # 70 m/h
+
+
 def test_drive_torque_accelerates_as_newton_says() -> None:
     rig = Rig(torque=lambda t, spin: 3.5)
     y = rig.run(rig.start((0.0, 0.0, LOADED)), np.array([0.0, 1.0, 3.0]))
