@@ -61,7 +61,9 @@ def profile_distance(
         D, second = _freeing((size * x, size * y), scratch)
         if second >= 0:
             share, other = _shares(D, scratch[0], scratch[second])
-            tilt = share * tilt + other * _tilt(piece, knots, section, radius, scratch[second])
+            tilt = _sine(
+                share * _tangent(tilt) + other * _tangent(_tilt(piece, knots, section, radius, scratch[second]))
+            )
         size = hypotenuse(D[0], D[1])
         x, y = D[0] / size, D[1] / size
     q, g = math.sqrt(max(1.0 - tilt * tilt, 0.0)), section[2]
@@ -172,10 +174,22 @@ def _freeing(D: Pair, scratch: FloatArray) -> tuple[Pair, int]:
 
 @compiled
 def _shares(D: Pair, a: FloatArray, b: FloatArray) -> Pair:
-    """Shares of two directions in D, not below zero, with the sum 1."""
+    """Components of D along two directions over its length, not below zero."""
     det = a[0] * b[1] - a[1] * b[0]
     if abs(det) < 1e-9:
         return 1.0, 0.0
     first, other = max((D[0] * b[1] - D[1] * b[0]) / det, 0.0), max((D[1] * a[0] - D[0] * a[1]) / det, 0.0)
-    whole = max(first + other, 1e-12)
-    return first / whole, other / whole
+    size = max(hypotenuse(D[0], D[1]), 1e-12)
+    return first / size, other / size
+
+
+@compiled
+def _tangent(sine: float) -> float:
+    """Tangent of an angle from its sine."""
+    return sine / math.sqrt(max(1.0 - sine * sine, 1e-6))
+
+
+@compiled
+def _sine(tangent: float) -> float:
+    """Sine of an angle from its tangent."""
+    return tangent / math.sqrt(1.0 + tangent * tangent)

@@ -155,6 +155,18 @@ def test_a_valley_of_a_height_field_is_the_valley_of_two_planes() -> None:
         np.testing.assert_allclose(smooth[:3], planes[:3], atol=0.0007 * STIFFNESS)  # samples 9 mm apart
 
 
+def test_a_leaning_wheel_in_a_valley_is_lifted_upright() -> None:
+    slope = np.radians(30.0)
+    valley = TerrainUnion(parts=(inclined_plane(slope), inclined_plane(slope, np.pi)))
+    field = sampled_terrain(valley, np.linspace(-0.5, 0.5, 1001), np.linspace(-0.5, 0.5, 11))
+    p, leaning = (0.0, 0.0, RADIUS / np.cos(slope) - 0.02), turned(0.2)
+    smooth = BrushWheels(field, 1).forces(motion(p, leaning), np.zeros((1, 2))).wrench[0]
+    planes = BrushWheels(valley, 1).forces(motion(p, leaning), np.zeros((1, 4))).wrench[0]
+    np.testing.assert_allclose(planes[:2], 0.0, atol=1e-9)  # both sides together push straight up
+    np.testing.assert_allclose(smooth[:3], planes[:3], atol=0.0007 * STIFFNESS)
+    assert abs(smooth[1]) < 0.01 * smooth[2]
+
+
 def test_force_changes_little_by_little_where_places_of_contact_come_and_go() -> None:
     long, short = Sinusoid(amplitude=0.02, wavelength=0.21), Sinusoid(amplitude=0.015, wavelength=0.13, position=0.03)
     both = TerrainUnion(parts=(long, short))
