@@ -8,9 +8,9 @@ free it from the profile, to first order
 
 the shortest one gives the contact: deflection |D| along D. With one place of contact it is the closest point's
 deflection; a rim between two rocks rests on both; and D changes continuously where places of contact come and go. The
-camber against the ground is that of the resultant, tan gamma = sum lambda_k tan gamma_k / |D| with D = sum lambda_k u_k.
-The closest point is found by Newton, the others are samples across the wheel (9 mm apart), left where they are: a second
-place of contact is met to about half a millimetre.
+camber against the ground is that of the resultant, tan gamma = sum lambda_k tan gamma_k / |D|, D = sum lambda_k u_k.
+The closest point is found by Newton, the others are samples across the wheel (9 mm apart), left where they are: a
+second place of contact is met to about half a millimetre.
 
 Verified by tests/unit/test_brush_contact.py.
 """
