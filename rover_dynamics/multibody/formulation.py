@@ -1,0 +1,127 @@
+"""What an integrator needs of the equations of motion, and the three ways they are written.
+
+y' = f(t, y) with y chosen by the formulation; after each step it brings y back to the constraints. Here is the one that
+corrects all coordinates; `partitioned_coordinates` integrates only independent ones, `tree_coordinates` has joint
+coordinates. Verified by
+tests/verification/test_multibody_benchmarks.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_dynamics.multibody.augmented import AugmentedEquations
+from rover_dynamics.multibody.compiled import compiled, multiply_quaternions
+from rover_dynamics.multibody.model import MultibodyModel
+from rover_dynamics.multibody.reactions import Reactions
+from rover_dynamics.multibody.state import State
+
+__all__ = ["AbsoluteCoordinates", "Course", "Formulation", "SingularPosition", "packed"]
+
+FloatArray = NDArray[np.float64]
+Course = Callable[[float], FloatArray]
+"""y as a function of time within a step."""
+
+
+class Formulation(Protocol):
+    """First-order equations of a model."""
+
+    model: MultibodyModel
+
+    def start(self) -> FloatArray:
+        """y of the assembled start, (N,)."""
+
+    def rates(self, t: float, y: FloatArray) -> FloatArray:
+        """y', (N,)."""
+
+    def corrected(self, t: float, y: FloatArray) -> FloatArray:
+        """y with the constraints met at position and velocity level."""
+
+    def state(self, t: float, y: FloatArray) -> State:
+        """Positions and velocities of all bodies."""
+
+    def accepted(self, t: float, y: FloatArray, course: Course) -> None:
+        """Be told that a step ended at t with y, already corrected, and its course."""
+
+    def margin(self, t: float, y: FloatArray) -> float:
+        """Smallest over largest singular value of the loops' equations [-]; its sign changes where it is zero."""
+
+    def reactions(self, t: float, y: FloatArray) -> Reactions:
+        """What joints and drives transmit."""
+
+
+class SingularPosition(Exception):  # noqa: N818  (tells the integrator to step elsewhere)
+    """A loop has one freedom more here than elsewhere, so that the equations have no unique solution.
+
+    time : when [s]
+    margin : see `Formulation.margin`
+    """
+
+    def __init__(self, t: float, margin: float) -> None:
+        self.time, self.margin = t, margin
+        super().__init__(f"singular position at t = {t:g} s")
+
+
+class AbsoluteCoordinates:
+    """Equation 2.26 integrated for all bodies; the constraints are met by projection after each step.
+
+    y : positions (3 n), quaternions (4 n), velocities (6 n)
+    """
+
+    def __init__(self, model: MultibodyModel) -> None:
+        self.model = model
+        self.equations = AugmentedEquations(model)
+        self._n = len(model.bodies)
+
+    def start(self) -> FloatArray:
+        """See `Formulation`."""
+        return packed(self.equations.start)
+
+    def rates(self, t: float, y: FloatArray) -> FloatArray:
+        """See `Formulation`."""
+        state = self.state(t, y)
+        acceleration, _ = self.equations.accelerations(t, state)
+        turning = quaternion_rates(state.orientations, np.ascontiguousarray(state.velocities[:, 3:]))
+        return np.concatenate([state.velocities[:, :3].ravel(), turning.ravel(), acceleration.ravel()])
+
+    def corrected(self, t: float, y: FloatArray) -> FloatArray:
+        """See `Formulation`."""
+        return packed(self.equations.corrected(t, self.state(t, y)))
+
+    def accepted(self, t: float, y: FloatArray, course: Course) -> None:
+        """See `Formulation`; no use is made of it."""
+
+    def reactions(self, t: float, y: FloatArray) -> Reactions:
+        """See `Formulation`."""
+        return self.equations.reactions(t, self.state(t, y))
+
+    def margin(self, t: float, y: FloatArray) -> float:
+        """See `Formulation`; not known here."""
+        return 1.0
+
+    def state(self, t: float, y: FloatArray) -> State:
+        """See `Formulation`."""
+        n = self._n
+        q = y[3 * n : 7 * n].reshape(n, 4)
+        q = q / np.linalg.norm(q, axis=1, keepdims=True)
+        return State(positions=y[: 3 * n].reshape(n, 3), orientations=q, velocities=y[7 * n :].reshape(n, 6))
+
+
+def packed(state: State) -> FloatArray:
+    """Positions, quaternions and velocities in one vector, (13 n,)."""
+    return np.concatenate([state.positions.ravel(), state.orientations.ravel(), state.velocities.ravel()])
+
+
+@compiled
+def quaternion_rates(orientations: FloatArray, angular_velocities: FloatArray) -> FloatArray:
+    """1/2 (0, w) * q for each body, (n, 4)."""
+    out, turn = np.empty_like(orientations), np.zeros(4)
+    for k in range(len(orientations)):
+        for i in range(3):
+            turn[1 + i] = 0.5 * angular_velocities[k, i]
+        multiply_quaternions(turn, orientations[k], out[k])
+    return out

@@ -1,0 +1,44 @@
+"""Rotations by unit quaternions against SciPy's, and their rate."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from rover_dynamics.multibody.compiled import (
+    cross,
+    multiply_quaternions,
+    quaternion_of,
+    rotation_matrix,
+    rotation_quaternion,
+)
+from rover_dynamics.multibody.formulation import quaternion_rates
+
+
+def test_matrix_product_and_rotation_vector_are_scipys() -> None:
+    a, b = Rotation.random(2, random_state=4)
+    p, q = a.as_quat(scalar_first=True), b.as_quat(scalar_first=True)
+    R, product, turned, out = np.empty((3, 3)), np.empty(4), np.empty(4), np.empty(3)
+    rotation_matrix(2.0 * p, R)
+    np.testing.assert_allclose(R, a.as_matrix(), atol=1e-15)
+    multiply_quaternions(p, q, product)
+    np.testing.assert_allclose(abs(product @ (a * b).as_quat(scalar_first=True)), 1.0, atol=1e-15)
+    vector = a.as_rotvec()
+    rotation_quaternion(vector, turned)
+    np.testing.assert_allclose(abs(turned @ p), 1.0, atol=1e-15)
+    cross(vector, R[0], out)
+    np.testing.assert_allclose(out, np.cross(vector, R[0]), atol=1e-15)
+    np.testing.assert_allclose(abs(quaternion_of(R) @ p), 1.0, atol=1e-15)
+
+
+def test_a_rotation_of_nothing_is_one() -> None:
+    out = np.empty(4)
+    rotation_quaternion(np.zeros(3), out)
+    np.testing.assert_array_equal(out, [1.0, 0.0, 0.0, 0.0])
+
+
+def test_rate_is_the_derivative_of_a_rotation_about_a_world_axis() -> None:
+    start, w, h = Rotation.random(random_state=5), np.array([0.4, -1.0, 0.3]), 1e-5
+    at = [(Rotation.from_rotvec(k * h * w) * start).as_quat(scalar_first=True) for k in (-1, 0, 1)]
+    rate = quaternion_rates(at[1][None], w[None])[0]
+    np.testing.assert_allclose(rate, (at[2] - at[0]) / (2 * h), atol=1e-9)
