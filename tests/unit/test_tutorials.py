@@ -19,7 +19,10 @@ def run_blocks(name: str, capsys: pytest.CaptureFixture[str]) -> str:
 
 
 def test_every_tutorial_is_run_here() -> None:
-    assert sorted(path.name for path in DOCS.glob("tutorial_*.md")) == ["tutorial_ancf_tire.md"]
+    assert sorted(path.name for path in DOCS.glob("tutorial_*.md")) == [
+        "tutorial_ancf_tire.md",
+        "tutorial_multibody.md",
+    ]
 
 
 def test_ancf_tire(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
@@ -32,3 +35,14 @@ def test_ancf_tire(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pyte
     assert min(loads) > 20.0
     assert float(re.findall(r"open by ([\d.]+) %", printed)[0]) < 1.0
     assert (tmp_path / "leaning_tire_20mm.step").stat().st_size > 1000
+
+
+def test_multibody(capsys: pytest.CaptureFixture[str]) -> None:
+    """The piston's stroke is twice the crank; redundant equations are named; the crank hangs straight down."""
+    printed = run_blocks("tutorial_multibody.md", capsys)
+    print(printed)
+    low, high = (float(value) for value in re.findall(r"piston from ([\d.]+) to ([\d.]+) m", printed)[0])
+    assert 0.2 <= low < 0.205
+    assert 0.395 < high <= 0.4
+    assert printed.count("left out:") == 3
+    assert float(re.findall(r"crank (-[\d.]+) m", printed)[0]) == pytest.approx(-0.05, abs=1e-4)
