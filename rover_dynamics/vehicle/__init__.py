@@ -1,0 +1,1 @@
+"""Vehicles on wheels: a tree of bodies, tires on terrain, implicit integration; the rover is one."""
