@@ -1,0 +1,147 @@
+"""The rover as a vehicle: bodies, hinges and actuators of a `RoverDesign`, standing on a terrain.
+
+Verified by tests/unit/test_rover.py and tests/verification/test_rover_loads.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from contracts.terrain import Plane, Terrain
+from rover_dynamics.brush_settings import BrushSettings
+from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
+from rover_dynamics.multibody.body import RigidBody, body
+from rover_dynamics.multibody.joint import Joint, revolute
+from rover_dynamics.multibody.model import Drive, MultibodyModel
+from rover_dynamics.multibody.motion_law import Hold, MotionLaw
+from rover_dynamics.rover.rover_file import Leg, RoverDesign
+from rover_dynamics.vehicle.vehicle import JointEffort, Vehicle
+
+__all__ = ["Actuators", "build_rover", "degrees_of_freedom", "wheel_names"]
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Actuators:
+    """What the 18 actuators do, by joint name; deployment and steering hold, drives are free, unless said otherwise.
+
+    Names are ``deploy_LEG``, ``steer_LEG`` and ``drive_LEG`` with LEG such as ``front_left``.
+
+    Attributes
+    ----------
+    laws : joint -> angle in time; a positive drive angle rolls forward
+    torques : joint -> torque in time [N m]
+    free : joints that nothing holds
+    """
+
+    laws: Mapping[str, MotionLaw] = field(default_factory=dict)
+    torques: Mapping[str, Callable[[float], float]] = field(default_factory=dict)
+    free: frozenset[str] = frozenset()
+
+
+def wheel_names(design: RoverDesign) -> tuple[str, ...]:
+    """Bodies of the wheels, in the order of the legs."""
+    return tuple(f"wheel_{leg.name}" for leg in design.legs)
+
+
+def build_rover(
+    design: RoverDesign,
+    *,
+    terrain: Terrain | None = None,
+    actuators: Actuators | None = None,
+    height: float = 0.0,
+    tire: BrushTireParameters = THESIS_BRUSH,
+    settings: BrushSettings | None = None,
+) -> Vehicle:
+    """The rover standing level over the origin, lowest points of its wheels ``height`` [m] above z = 0.
+
+    Raises
+    ------
+    InputError
+        For actuators the rover does not have, or one that is both moved and loaded by a torque.
+    """
+    actuators = actuators or Actuators()
+    lift = design.wheel_radius + height
+    bodies = _Bodies(design, lift).bodies
+    joints = _joints(design, bodies, lift)
+    _check(actuators, [joint.name for joint in joints])
+    held = [j.name for j in joints if j.name.startswith(("deploy_", "steer_"))]
+    laws = {name: Hold() for name in held if name not in actuators.free and name not in actuators.torques}
+    drives = tuple(Drive(joint=name, law=law) for name, law in ({**laws, **actuators.laws}).items())
+    model = MultibodyModel(
+        bodies=tuple(bodies.values()), joints=tuple(joints), drives=drives, gravity=(0.0, 0.0, -design.gravity)
+    )
+    sized = replace(settings or BrushSettings(), wheel_radius=design.wheel_radius, wheel_width=design.wheel_width)
+    return Vehicle(
+        model=model,
+        wheels=wheel_names(design),
+        terrain=terrain or Plane(),
+        tire=tire,
+        settings=sized,
+        efforts=tuple(JointEffort(joint=name, effort=torque) for name, torque in actuators.torques.items()),
+    )
+
+
+def degrees_of_freedom(model: MultibodyModel) -> int:
+    """Six for each body, less five for each hinge; actuators are not counted."""
+    return 6 * len(model.bodies) - 5 * len(model.joints)
+
+
+class _Bodies:
+    """All bodies by name, where they stand at the start."""
+
+    def __init__(self, design: RoverDesign, lift: float) -> None:
+        self.bodies: dict[str, RigidBody] = {}
+        for row in design.bodies:
+            self.bodies[row.name] = body(row.name, row.mass, row.inertia, np.array(row.position) + (0.0, 0.0, lift))
+        for leg in design.legs:
+            for row in design.leg_bodies:
+                name, place = f"{row.name}_{leg.name}", np.array(leg.drive) + np.array(row.position) + (0.0, 0.0, lift)
+                self.bodies[name] = body(name, row.mass, row.inertia, place)
+
+
+def _joints(design: RoverDesign, bodies: Mapping[str, RigidBody], lift: float) -> list[Joint]:
+    joints = [
+        _hinge(pivot.name, (pivot.first, pivot.second), pivot.position, pivot.axis, bodies, lift)
+        for pivot in design.pivots
+    ]
+    return joints + [joint for leg in design.legs for joint in _leg_joints(leg, bodies, lift)]
+
+
+def _leg_joints(leg: Leg, bodies: Mapping[str, RigidBody], lift: float) -> list[Joint]:
+    arm, spindle, wheel = (f"{part}_{leg.name}" for part in ("arm", "spindle", "wheel"))
+    along, up = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    return [
+        _hinge(f"deploy_{leg.name}", (leg.carrier, arm), leg.deployment, along, bodies, lift),
+        _hinge(f"steer_{leg.name}", (arm, spindle), leg.steering, up, bodies, lift),
+        _hinge(f"drive_{leg.name}", (spindle, wheel), leg.drive, along, bodies, lift),
+    ]
+
+
+def _hinge(
+    name: str,
+    ends: tuple[str, str],
+    position: tuple[float, float, float],
+    axis: tuple[float, float, float],
+    bodies: Mapping[str, RigidBody],
+    lift: float,
+) -> Joint:
+    for end in ends:
+        if end not in bodies:
+            raise InputError(f"body of joint '{name}'", repr(end), "is not in the rover", f"it has: {', '.join(bodies)}")
+    return revolute(name, bodies[ends[0]], bodies[ends[1]], at=np.array(position) + (0.0, 0.0, lift), axis=axis)
+
+
+def _check(actuators: Actuators, joints: list[str]) -> None:
+    for name in {*actuators.laws, *actuators.torques, *actuators.free}:
+        if name not in joints:
+            raise InputError("actuator", repr(name), "is not in the rover", f"it has: {', '.join(joints)}")
+    both = sorted(set(actuators.laws) & (set(actuators.torques) | actuators.free))
+    if both:
+        raise InputError("actuator", repr(both[0]), "cannot follow a law and be free or loaded", "choose one of them")
