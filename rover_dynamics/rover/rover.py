@@ -8,9 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from contracts.errors import InputError
 from contracts.terrain import Plane, Terrain
 from rover_dynamics.brush_settings import BrushSettings
@@ -24,14 +21,13 @@ from rover_dynamics.vehicle.vehicle import JointEffort, Vehicle
 
 __all__ = ["Actuators", "build_rover", "degrees_of_freedom", "wheel_names"]
 
-FloatArray = NDArray[np.float64]
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Actuators:
     """What the 18 actuators do, by joint name; deployment and steering hold, drives are free, unless said otherwise.
 
-    Names are ``deploy_LEG``, ``steer_LEG`` and ``drive_LEG`` with LEG such as ``front_left``.
+    Names are ``deploy_LEG``, ``steer_LEG`` and ``drive_LEG`` with LEG such as ``front_left``; a law may also be given
+    to a passive pivot, which locks or moves it.
 
     Attributes
     ----------
@@ -61,14 +57,23 @@ def build_rover(
 ) -> Vehicle:
     """The rover standing level over the origin, lowest points of its wheels ``height`` [m] above z = 0.
 
+    Parameters
+    ----------
+    design : see `rover_file.read_rover`
+    terrain : the ground; level without it
+    actuators : what they do
+    height : [m]
+    tire, settings : of all wheels; radius and width are the design's
+
     Raises
     ------
     InputError
-        For actuators the rover does not have, or one that is both moved and loaded by a torque.
+        For two bodies of one name, joints of bodies the design does not have, actuators the rover does not have, or
+        one that is both moved and loaded by a torque.
     """
     actuators = actuators or Actuators()
     lift = design.wheel_radius + height
-    bodies = _Bodies(design, lift).bodies
+    bodies = _bodies(design, lift)
     joints = _joints(design, bodies, lift)
     _check(actuators, [joint.name for joint in joints])
     held = [j.name for j in joints if j.name.startswith(("deploy_", "steer_"))]
@@ -93,17 +98,22 @@ def degrees_of_freedom(model: MultibodyModel) -> int:
     return 6 * len(model.bodies) - 5 * len(model.joints)
 
 
-class _Bodies:
-    """All bodies by name, where they stand at the start."""
+def _raised(point: tuple[float, float, float], lift: float) -> tuple[float, float, float]:
+    return point[0], point[1], point[2] + lift
 
-    def __init__(self, design: RoverDesign, lift: float) -> None:
-        self.bodies: dict[str, RigidBody] = {}
-        for row in design.bodies:
-            self.bodies[row.name] = body(row.name, row.mass, row.inertia, np.array(row.position) + (0.0, 0.0, lift))
-        for leg in design.legs:
-            for row in design.leg_bodies:
-                name, place = f"{row.name}_{leg.name}", np.array(leg.drive) + np.array(row.position) + (0.0, 0.0, lift)
-                self.bodies[name] = body(name, row.mass, row.inertia, place)
+
+def _bodies(design: RoverDesign, lift: float) -> dict[str, RigidBody]:
+    """All bodies by name, where they stand at the start."""
+    rows = list(design.bodies)
+    for leg in design.legs:
+        for row in design.leg_bodies:
+            x, y, z = (a + b for a, b in zip(leg.drive, row.position, strict=True))
+            rows.append(replace(row, name=f"{row.name}_{leg.name}", position=(x, y, z)))
+    names = [row.name for row in rows]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError("body", repr(name), "is in the rover twice", "rename one")
+    return {row.name: body(row.name, row.mass, row.inertia, _raised(row.position, lift)) for row in rows}
 
 
 def _joints(design: RoverDesign, bodies: Mapping[str, RigidBody], lift: float) -> list[Joint]:
@@ -134,8 +144,10 @@ def _hinge(
 ) -> Joint:
     for end in ends:
         if end not in bodies:
-            raise InputError(f"body of joint '{name}'", repr(end), "is not in the rover", f"it has: {', '.join(bodies)}")
-    return revolute(name, bodies[ends[0]], bodies[ends[1]], at=np.array(position) + (0.0, 0.0, lift), axis=axis)
+            raise InputError(
+                f"body of joint '{name}'", repr(end), "is not in the rover", f"it has: {', '.join(bodies)}"
+            )
+    return revolute(name, bodies[ends[0]], bodies[ends[1]], at=_raised(position, lift), axis=axis)
 
 
 def _check(actuators: Actuators, joints: list[str]) -> None:

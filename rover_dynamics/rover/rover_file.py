@@ -12,13 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contracts.errors import InputError
 
 __all__ = ["EXOMARS_ROVER", "SIDES", "BodyRow", "Leg", "PivotRow", "RoverDesign", "read_rover"]
-
-FloatArray = NDArray[np.float64]
 
 EXOMARS_ROVER = Path(__file__).with_name("exomars_rover.toml")
 SIDES = {"left": 1.0, "right": -1.0}
@@ -103,7 +100,9 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError("rover file", path, f"cannot be read ({error})", "copy rover_dynamics' own and edit it") from error
+        raise InputError(
+            "rover file", path, f"cannot be read ({error})", "copy rover_dynamics' own and edit it"
+        ) from error
     rover = _Reader(str(path), content)
     wheel, legs = rover.table("wheel"), rover.rows("legs")
     design = RoverDesign(
@@ -164,6 +163,8 @@ class _Reader:
     def rows(self, key: str) -> list[_Reader]:
         found = self.get(key, list, "a list of tables")
         for k, row in enumerate(found):
+            if not isinstance(row, dict):
+                raise InputError(f"{self.place}: {key}[{k}]", row, "must be a table", f"begin it with [[{key}]]")
             self.parts.setdefault(f"{key}[{k}]", _Reader(f"{self.place}: {key}[{k}]", row))
         return [self.parts[f"{key}[{k}]"] for k in range(len(found))]
 

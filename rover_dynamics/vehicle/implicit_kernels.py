@@ -1,14 +1,21 @@
 """One step of the generalised-alpha method for a tree of bodies on tires, compiled.
 
-Unknown are the accelerations of the free joint velocities, M a + h = J^T W + tau, and the rates of the tires' own states,
-s' = g (Arnold and Bruels 2007, in joint coordinates; quaternions are advanced by rotation vectors):
+Unknown are the accelerations a of the joint velocities v, M a + h = tau with the tires' wrenches in h, and the rates of
+the tires' own states, s' = g. The method (Chung and Hulbert 1993; Arnold and Bruels 2007, eqs 12-14, in joint
+coordinates: quaternions are turned by rotation vectors) has accelerations A and rates B of its own:
 
-    step = dt v + dt^2 (1/2 - beta) A_n + dt^2 beta A,    v = v_n + dt (1 - gamma) A_n + dt gamma A
-    (1 - alpha_m) A + alpha_m A_n = (1 - alpha_f) a + alpha_f a_n,    the same for the states' rates with one integral less
+    step = dt v_n + dt^2 (1/2 - beta) A_n + dt^2 beta A,    v = v_n + dt (1 - gamma) A_n + dt gamma A
+    s = s_n + dt (1 - gamma) B_n + dt gamma B
+    (1 - alpha_m) A + alpha_m A_n = (1 - alpha_f) a + alpha_f a_n,    the same for B and s'
 
-Newton's matrix is c M - sum J^T E J, where E holds the derivatives of a tire's wrench by the hub's motion with the tire's
-states eliminated; derivatives of M, h and J are left out, which costs iterations only. Verified by
-tests/verification/test_vehicle_step.py.
+A_n belongs to the time t_n + (alpha_m - alpha_f) dt, so that a step of another length needs A_n moved to its own
+(`rescaled`): without it the order falls to one where the step changes (Bruels and Arnold 2008, sec. 4).
+
+Newton's matrix is c M - sum J^T E J with c = (1 - alpha_m) / (1 - alpha_f), where J takes v to the hub's velocity and E
+holds the derivatives of a tire's wrench by the hub's motion, the tire's states eliminated. Derivatives of M, h and J
+are left out: the residual is exact, so that costs iterations and changes no result.
+
+Verified by tests/verification/test_vehicle_step.py.
 """
 
 from __future__ import annotations
@@ -23,12 +30,16 @@ from rover_dynamics.brush_derivatives import brush_derivatives
 from rover_dynamics.brush_force import BrushResult, BrushScratch, HubMotions, brush_forces
 from rover_dynamics.brush_settings import WheelNumbers
 from rover_dynamics.multibody.compiled import compiled, cross
-from rover_dynamics.multibody.tree_kernels import Tree, TreeMotion, advance, bias_and_mass, tree_motion
+from rover_dynamics.multibody.tree_kernels import LinkKind, Tree, TreeMotion, advance, bias_and_mass, tree_motion
 
-__all__ = ["Method", "Moment", "Tires", "evaluate", "implicit_step"]
+__all__ = ["Known", "Method", "Moment", "System", "Tires", "evaluate", "implicit_step", "rescaled"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+
+_SPHERICAL = int(LinkKind.SPHERICAL)
+_FRESH = 4
+"""Iterations after which Newton's matrix is computed anew."""
 
 
 class Method(NamedTuple):
@@ -37,7 +48,7 @@ class Method(NamedTuple):
     Attributes
     ----------
     alpha_m, alpha_f, beta, gamma : [-]
-    tolerance : largest change of a joint acceleration times dt^2 in the last iteration [m, rad]
+    tolerance : largest dt^2 times the change of A in the last iteration [m, rad]
     iterations : at most
     """
 
@@ -66,6 +77,40 @@ class Tires(NamedTuple):
     pair: BrushResult
 
 
+class System(NamedTuple):
+    """What does not change in time.
+
+    Attributes
+    ----------
+    tree, tires : of the vehicle
+    gravity : (3,) float, acceleration of free fall [m/s^2]
+    free, driven : (n_f,), (n_d,) int, velocities that are unknown, and those that follow laws
+    driven_q : (n_d,) int, coordinates of the driven velocities
+    """
+
+    tree: Tree
+    tires: Tires
+    gravity: FloatArray
+    free: IntArray
+    driven: IntArray
+    driven_q: IntArray
+
+
+class Known(NamedTuple):
+    """What is prescribed at the end of a step.
+
+    Attributes
+    ----------
+    q, v, a : (n_d,) float, coordinates, velocities and accelerations of the driven joints
+    tau : (n_v,) float, joint efforts [N m, N]
+    """
+
+    q: FloatArray
+    v: FloatArray
+    a: FloatArray
+    tau: FloatArray
+
+
 class Moment(NamedTuple):
     """Everything at one time that a step starts from.
 
@@ -85,6 +130,28 @@ class Moment(NamedTuple):
     B: FloatArray
 
 
+class _Newton(NamedTuple):
+    """One linearisation.
+
+    Attributes
+    ----------
+    matrix : (n_v, n_v) float, c M - sum J^T E J
+    carry : (n_w, n_v, n_s) float, what a residual of the states adds to that of the accelerations
+    follow, inverse : (n_w, n_s, n_v), (n_w, n_s, n_s) float, change of B for that of A, and for the states' residual
+    """
+
+    matrix: FloatArray
+    carry: FloatArray
+    follow: FloatArray
+    inverse: FloatArray
+
+
+def rescaled(moment: Moment, ratio: float) -> Moment:
+    """The moment with A and B at the time that belongs to a next step ``ratio`` times as long as the last one."""
+    A = moment.a + ratio * (moment.A - moment.a)
+    return moment._replace(A=A, B=moment.s_rate + ratio * (moment.B - moment.s_rate))
+
+
 @compiled
 def hub_motions(motion: TreeMotion, bodies: IntArray) -> HubMotions:
     """Motions of the wheels' bodies."""
@@ -92,27 +159,33 @@ def hub_motions(motion: TreeMotion, bodies: IntArray) -> HubMotions:
     r, R, v, w = np.empty((n, 3)), np.empty((n, 3, 3)), np.empty((n, 3)), np.empty((n, 3))
     for i in range(n):
         b = bodies[i]
-        r[i], R[i], v[i], w[i] = motion.positions[b], motion.rotations[b], motion.velocities[b, :3], motion.velocities[b, 3:]
+        r[i], R[i], v[i], w[i] = (
+            motion.positions[b],
+            motion.rotations[b],
+            motion.velocities[b, :3],
+            motion.velocities[b, 3:],
+        )
     return HubMotions(r, R, v, w)
 
 
 @compiled
 def evaluate(
-    tree: Tree, tires: Tires, q: FloatArray, v: FloatArray, s: FloatArray, gravity: FloatArray, result: BrushResult
+    system: System, q: FloatArray, v: FloatArray, s: FloatArray, result: BrushResult
 ) -> tuple[TreeMotion, HubMotions, FloatArray, FloatArray]:
     """Motion of links and hubs, bias forces with the tires' wrenches in them, and mass matrix; fills ``result``."""
+    tree, tires = system.tree, system.tires
     motion = tree_motion(tree, q, v)
     hubs = hub_motions(motion, tires.bodies)
     brush_forces(hubs, s, tires.numbers, tires.pieces, result, tires.scratch)
     wrenches = np.zeros((len(tree.body_links), 6))
     for i in range(len(tires.bodies)):
         wrenches[tires.bodies[i]] += result.wrench[i]
-    h, M = bias_and_mass(tree, motion, wrenches, gravity)
+    h, M = bias_and_mass(tree, motion, wrenches, system.gravity)
     return motion, hubs, h, M
 
 
 @compiled
-def wheel_jacobian(tree: Tree, motion: TreeMotion, body: int, J: FloatArray) -> None:
+def _wheel_jacobian(tree: Tree, motion: TreeMotion, body: int, J: FloatArray) -> None:
     """J (6, n_v): velocity of the body's centre and its angular velocity are J v."""
     J[:] = 0.0
     turn = np.empty(3)
@@ -127,111 +200,121 @@ def wheel_jacobian(tree: Tree, motion: TreeMotion, body: int, J: FloatArray) -> 
 
 
 @compiled
-def newton_matrix(
-    tree: Tree,
-    motion: TreeMotion,
-    tires: Tires,
-    derivatives: FloatArray,
-    M: FloatArray,
-    weights: tuple[float, float, float],
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """c M - sum J^T E J for all velocities; and what brings the states' changes back: (n_w, s, n_v) and (n_w, s, s).
+def _newton(
+    system: System, motion: TreeMotion, M: FloatArray, derivatives: FloatArray, weights: tuple[float, float, float]
+) -> _Newton:
+    """Linearise about a motion.
 
-    weights : c, dt gamma, dt^2 beta
+    Parameters
+    ----------
+    derivatives : (n_w, 6 + n_s, 12 + n_s) float, of `brush_derivatives`
+    weights : c; dt gamma, the derivative of v by A; dt^2 beta, that of the step
     """
     c, w_v, w_q = weights
-    n_w, n_v = len(tires.bodies), len(M)
-    n_s = derivatives.shape[1] - 6
+    n_w, n_v, n_s = len(derivatives), len(M), derivatives.shape[1] - 6
     matrix, J = c * M, np.empty((6, n_v))
-    follow, inverse = np.zeros((n_w, n_s, n_v)), np.zeros((n_w, n_s, n_s))
+    carry, follow, inverse = np.zeros((n_w, n_v, n_s)), np.zeros((n_w, n_s, n_v)), np.zeros((n_w, n_s, n_s))
     for i in range(n_w):
         D = derivatives[i]
-        wheel_jacobian(tree, motion, tires.bodies[i], J)
+        _wheel_jacobian(system.tree, motion, system.tires.bodies[i], J)
         by_motion = w_q * D[:, :6].copy() + w_v * D[:, 6:12].copy()
-        inverse[i] = np.linalg.inv(c * np.eye(n_s) - w_v * D[6:, 12:].copy())
-        states = inverse[i] @ by_motion[6:].copy()
-        E = by_motion[:6].copy() + w_v * (D[:6, 12:].copy() @ states)
+        by_state = w_v * D[:, 12:].copy()
+        inverse[i] = np.linalg.inv(c * np.eye(n_s) - by_state[6:])
+        states = inverse[i] @ by_motion[6:]
+        E = by_motion[:6] + by_state[:6] @ states
         follow[i] = states @ J
+        carry[i] = J.T @ (by_state[:6] @ inverse[i])
         matrix -= J.T @ (E @ J)
-    return matrix, follow, inverse
+    return _Newton(matrix, carry, follow, inverse)
+
+
+@compiled
+def _turning(tree: Tree, motion: TreeMotion, v: FloatArray) -> FloatArray:
+    """Factor of dt^2 in the step, (n_v,), since ball joints count in frames that turn with their carriers.
+
+    The rate of F^T w is F^T (w' - W x w), with W the carrier's angular velocity, and not F^T w'.
+    """
+    out = np.zeros_like(v)
+    for k in range(len(tree.parents)):
+        if tree.kinds[k] == _SPHERICAL:
+            at = tree.v_at[k]
+            cross(-0.5 * motion.V[tree.parents[k], :3], v[at : at + 3], out[at : at + 3])
+    return out
+
+
+@compiled
+def _end(
+    system: System,
+    before: Moment,
+    start: tuple[FloatArray, FloatArray],
+    method_rates: tuple[FloatArray, FloatArray],
+    known: Known,
+    step_of: tuple[float, Method],
+) -> Moment:
+    """The end of a step for the method's A and B; ``start``: the joint frames there, and what `_turning` returns."""
+    A, B = method_rates
+    frames, turning = start
+    dt, method = step_of
+    m, f, beta, gamma = method.alpha_m, method.alpha_f, method.beta, method.gamma
+    a = ((1.0 - m) * A + m * before.A - f * before.a) / (1.0 - f)
+    s_rate = ((1.0 - m) * B + m * before.B - f * before.s_rate) / (1.0 - f)
+    v = before.v + dt * ((1.0 - gamma) * before.A + gamma * A)
+    step = dt * before.v + dt * dt * ((0.5 - beta) * before.A + beta * A) + dt * dt * turning
+    s = before.s + dt * ((1.0 - gamma) * before.B + gamma * B)
+    q = advance(system.tree, before.q, step, frames)
+    for k in range(len(system.driven)):
+        i = system.driven[k]
+        q[system.driven_q[k]], v[i], a[i], A[i] = known.q[k], known.v[k], known.a[k], known.a[k]
+    return Moment(q, v, a, A, s, s_rate, B)
 
 
 @compiled
 def implicit_step(
-    tree: Tree,
-    tires: Tires,
-    before: Moment,
-    known: tuple[IntArray, IntArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray],
-    dt: float,
-    method: Method,
-    result: BrushResult,
+    system: System, before: Moment, known: Known, dt: float, method: Method, result: BrushResult
 ) -> tuple[bool, int, float, Moment]:
     """One step.
 
     Parameters
     ----------
     before : where it starts
-    known : free and driven velocities, (n_f,) and (n_d,) int; driven coordinates, velocities and accelerations at the
-        end, (n_d,); joint efforts tau, (n_v,) [N m, N]; gravity, (3,)
+    known : what is prescribed at the end
     dt : [s]
+    result : overwritten
 
     Returns
     -------
     converged, iterations : of Newton's method
-    error : estimated local error of the joint coordinates, largest entry [m, rad]
+    error : leading term of the local error of the free joint coordinates, largest entry [m, rad]; the tires' states
+        have no part in it
     after : the end of the step
     """
-    free, driven, q_d, v_d, a_d, tau, gravity = known
     m, f, beta, gamma = method.alpha_m, method.alpha_f, method.beta, method.gamma
-    c = (1.0 - m) / (1.0 - f)
-    n_f, n_s = len(free), before.s.shape[1]
+    weights = (1.0 - m) / (1.0 - f), dt * gamma, dt * dt * beta
+    tires, free, n_s = system.tires, system.free, before.s.shape[1]
     A, B = before.a.copy(), before.s_rate.copy()  # predictor: accelerations stay
-    start = tree_motion(tree, before.q, before.v)
-    derivatives = np.zeros((len(tires.bodies), 6 + n_s, 12 + n_s))
-    factors, follow, inverse = np.zeros((n_f, n_f)), np.zeros((1, 1, 1)), np.zeros((1, 1, 1))
-    last = 1e300
-    for iteration in range(method.iterations):
-        a = (  (1.0 - m) * A + m * before.A - f * before.a) / (1.0 - f)
-        s_rate = ((1.0 - m) * B + m * before.B - f * before.s_rate) / (1.0 - f)
-        v = before.v + dt * ((1.0 - gamma) * before.A + gamma * A)
-        step = dt * before.v + dt * dt * ((0.5 - beta) * before.A + beta * A)
-        q = advance(tree, before.q, step, start.frames)
-        for k in range(len(driven)):
-            q[tree.q_at[np.searchsorted(tree.v_at, driven[k], side="right") - 1]] = q_d[k]
-            v[driven[k]], a[driven[k]] = v_d[k], a_d[k]
-        s = before.s + dt * ((1.0 - gamma) * before.B + gamma * B)
-        motion, hubs, h, M = evaluate(tree, tires, q, v, s, gravity, result)
-        residual = (tau - h - M @ a)[free]
-        state_residual = result.rate - s_rate
-        if iteration % 4 == 0:
-            brush_derivatives(hubs, s, tires.numbers, tires.pieces, derivatives, (tires.scratch, tires.pair))
-            matrix, follow, inverse = newton_matrix(
-                tree, motion, tires, derivatives, M, (c, dt * gamma, dt * dt * beta)
-            )
-            factors = matrix[free][:, free]
-        right = residual.copy()
-        J = np.empty((6, len(M)))
+    motion = tree_motion(system.tree, before.q, before.v)
+    start = motion.frames, _turning(system.tree, motion, before.v)
+    derivatives, whole = np.zeros((len(tires.bodies), 6 + n_s, 12 + n_s)), np.zeros(len(A))
+    after = _end(system, before, start, (A, B), known, (dt, method))
+    last, iteration = np.inf, 0
+    while iteration < method.iterations and last >= method.tolerance:
+        motion, hubs, h, M = evaluate(system, after.q, after.v, after.s, result)
+        residual, state_residual = known.tau - h - M @ after.a, result.rate - after.s_rate
+        if iteration % _FRESH == 0:
+            brush_derivatives(hubs, after.s, tires.numbers, tires.pieces, derivatives, (tires.scratch, tires.pair))
+            newton = _newton(system, motion, M, derivatives, weights)
+            matrix = newton.matrix[free][:, free]
         for i in range(len(tires.bodies)):
-            wheel_jacobian(tree, motion, tires.bodies[i], J)
-            shift = dt * gamma * (derivatives[i, :6, 12:].copy() @ (inverse[i] @ state_residual[i]))
-            right += (J.T @ shift)[free]
-        change = np.linalg.solve(factors, right)
-        whole = np.zeros(len(M))
-        whole[free] = change
+            residual += newton.carry[i] @ state_residual[i]
+        if not np.all(np.isfinite(residual)):
+            break
+        whole[free] = np.linalg.solve(matrix, residual[free])
         A += whole
         for i in range(len(tires.bodies)):
-            B[i] += inverse[i] @ state_residual[i] + follow[i] @ whole
-        last = dt * dt * np.max(np.abs(change))
-        if last < method.tolerance:
-            break
-    a = ((1.0 - m) * A + m * before.A - f * before.a) / (1.0 - f)
-    s_rate = ((1.0 - m) * B + m * before.B - f * before.s_rate) / (1.0 - f)
-    v = before.v + dt * ((1.0 - gamma) * before.A + gamma * A)
-    step = dt * before.v + dt * dt * ((0.5 - beta) * before.A + beta * A)
-    q = advance(tree, before.q, step, start.frames)
-    for k in range(len(driven)):
-        q[tree.q_at[np.searchsorted(tree.v_at, driven[k], side="right") - 1]] = q_d[k]
-        v[driven[k]], a[driven[k]], A[driven[k]] = v_d[k], a_d[k], a_d[k]
-    s = before.s + dt * ((1.0 - gamma) * before.B + gamma * B)
-    error = dt * dt * abs(beta - 1.0 / 6.0) * np.max(np.abs((A - before.A)[free]))
-    return last < method.tolerance, iteration + 1, error, Moment(q, v, a, A, s, s_rate, B)
+            B[i] += newton.inverse[i] @ state_residual[i] + newton.follow[i] @ whole
+        after = _end(system, before, start, (A, B), known, (dt, method))
+        last = dt * dt * np.max(np.abs(whole))
+        iteration += 1
+    coefficient = abs(beta - 1.0 / 6.0 + 0.5 * (m - f))
+    error = coefficient * dt * dt * np.max(np.abs((A - before.A)[free]))
+    return last < method.tolerance, iteration, error, after

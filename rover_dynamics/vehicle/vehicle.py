@@ -17,14 +17,27 @@ from rover_dynamics.brush_derivatives import derivative_result
 from rover_dynamics.brush_force import BrushResult, brush_result, brush_scratch
 from rover_dynamics.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
-from rover_dynamics.multibody.model import Drive, MultibodyModel
+from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
-from rover_dynamics.vehicle.implicit_kernels import Method, Moment, Tires, evaluate, implicit_step
+from rover_dynamics.vehicle.implicit_kernels import (
+    Known,
+    Method,
+    Moment,
+    System,
+    Tires,
+    evaluate,
+    implicit_step,
+    rescaled,
+)
+from rover_dynamics.vehicle.steps import VehicleSteps
 
 __all__ = ["JointEffort", "Vehicle", "VehicleMotion", "VehicleSteps", "drive_vehicle"]
 
 FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+ITERATIONS = 8
+"""Newton iterations of a step before it is tried shorter."""
+NEWTON_SHARE = 0.01
+"""Change at which they end, over the error allowed in the step."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +65,11 @@ class Vehicle:
     terrain : the ground
     tire, settings : of all wheels
     efforts : torques and forces in joints
+
+    Raises
+    ------
+    InputError
+        For a model with forces of its own, or a wheel that is no body of it or named twice.
     """
 
     model: MultibodyModel
@@ -66,25 +84,8 @@ class Vehicle:
             rule = "the implicit step knows joint efforts and tires only"
             raise InputError("forces of the vehicle's model", len(self.model.forces), rule, "give them as efforts")
         for wheel in self.wheels:
-            self.model.number(wheel)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class VehicleSteps:
-    """How steps are chosen.
-
-    Attributes
-    ----------
-    tolerance : estimated error of a step in the joint coordinates [m, rad]
-    first, shortest, longest : steps [s]
-    spectral_radius : at infinity; below one the highest frequencies are damped [-]
-    """
-
-    tolerance: float = 1e-6
-    first: float = 1e-4
-    shortest: float = 1e-9
-    longest: float = 0.02
-    spectral_radius: float = 0.6
+            if self.model.number(wheel) < 0 or self.wheels.count(wheel) > 1:
+                raise InputError("wheel", repr(wheel), "must be a body, and named once", "name the wheels' bodies")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -116,14 +117,29 @@ class VehicleMotion:
 def drive_vehicle(vehicle: Vehicle, times: FloatArray, steps: VehicleSteps | None = None) -> VehicleMotion:
     """Integrate from the model's start at ``times[0]`` by the generalised-alpha method with adaptive steps.
 
+    Parameters
+    ----------
+    vehicle : its bodies start as its model says
+    times : (n,) ascending [s]; each is the end of a step
+    steps : how they are chosen
+
     Raises
     ------
     ConvergenceError
         If the step falls below the shortest one; with the motion up to there.
     InputError
-        If the bodies form loops: those need `multibody.motion.integrate`.
+        If the times do not ascend; if the bodies form loops, which need `multibody.motion.integrate`; if every joint is
+        driven; or for a joint effort at a joint that is driven, or neither a hinge nor a slider.
     """
-    return _Run(vehicle, np.asarray(times, dtype=np.float64), steps or VehicleSteps()).to_its_end()
+    return _Run(vehicle, _ascending(times), steps or VehicleSteps()).to_its_end()
+
+
+def _ascending(times: FloatArray) -> FloatArray:
+    found = np.asarray(times, dtype=np.float64)
+    if found.ndim != 1 or len(found) < 2 or not np.all(np.isfinite(found)) or not np.all(np.diff(found) > 0.0):
+        rule = "must be two or more and ascend"
+        raise InputError("times of a vehicle's motion", f"{times} s", rule, "give e.g. numpy.linspace(0, 1)")
+    return found
 
 
 class _Run:
@@ -134,114 +150,127 @@ class _Run:
         self.coordinates = TreeCoordinates(vehicle.model)
         if self.coordinates.spanning.cut:
             loops = ", ".join(self.coordinates.spanning.cut)
-            raise InputError("joints of the vehicle", loops, "close loops", "integrate it explicitly")
-        pieces = vehicle.terrain.pieces()
-        bodies = np.array([vehicle.model.number(name) for name in vehicle.wheels], dtype=np.int64)
-        numbers = wheel_numbers(vehicle.tire, vehicle.settings)
-        self.tires = Tires(bodies, numbers, pieces, brush_scratch(pieces), derivative_result(pieces))
-        self.result: BrushResult = brush_result(len(bodies), pieces)
-        self._joints()
-        self.gravity = np.array(vehicle.model.gravity, dtype=np.float64)
-        rho = steps.spectral_radius
-        alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
-        gamma = 0.5 - alpha_m + alpha_f
-        self.method = Method(alpha_m, alpha_f, 0.25 * (gamma + 0.5) ** 2, gamma, 0.01 * steps.tolerance, 8)
-        self.counts = [0, 0, 0]
+            raise InputError("joints of the vehicle", loops, "close loops", "integrate it by multibody.motion")
+        self.efforts: list[tuple[int, JointEffort]] = []
+        self.system = self._system()
+        self.result: BrushResult = brush_result(len(vehicle.wheels), self.system.tires.pieces)
+        self.method = _method(steps)
+        self.accepted = self.iterations = self.rejected = 0
         self.rows: list[tuple[FloatArray, ...]] = []
 
-    def _joints(self) -> None:
-        """Which velocities are driven, which are free, and where efforts act."""
-        tree, spanning = self.coordinates.tree, self.coordinates.spanning
-        at = {(named.joint, named.coordinate): int(tree.v_at[named.link]) for named in spanning.joint_links}
-        drives = self.vehicle.model.drives
-        self.drives: tuple[Drive, ...] = drives
-        self.driven = np.array([at[drive.joint, drive.coordinate] for drive in drives], dtype=np.int64)
-        self.free = np.setdiff1d(np.arange(tree.v_at[-1]), self.driven)
-        self.effort_at: list[tuple[int, JointEffort]] = []
-        for effort in self.vehicle.efforts:
-            places = [place for (joint, _), place in at.items() if joint == effort.joint]
-            if len(places) != 1 or places[0] in self.driven:
+    def _system(self) -> System:
+        """Arrays for the compiled calls; notes where joint efforts act."""
+        vehicle, tree, links = self.vehicle, self.coordinates.tree, self.coordinates.spanning.joint_links
+        pieces = vehicle.terrain.pieces()
+        wheels = np.array([vehicle.model.number(name) for name in vehicle.wheels], dtype=np.int64)
+        numbers = wheel_numbers(vehicle.tire, vehicle.settings)
+        tires = Tires(wheels, numbers, pieces, brush_scratch(pieces), derivative_result(pieces))
+        at = {(named.joint, named.coordinate): named.link for named in links}
+        driven = np.array([at[drive.joint, drive.coordinate] for drive in vehicle.model.drives], dtype=np.int64)
+        driven_v = tree.v_at[driven]
+        free = np.setdiff1d(np.arange(tree.v_at[-1]), driven_v)
+        if len(free) == 0:
+            raise InputError("joints of the vehicle", len(driven), "are all driven", "leave one free to move")
+        for effort in vehicle.efforts:
+            places = [int(tree.v_at[link]) for (joint, _), link in at.items() if joint == effort.joint]
+            if len(places) != 1 or places[0] in driven_v:
                 rule = "must be a hinge or a slider that no drive moves"
                 raise InputError("joint of an effort", repr(effort.joint), rule, "name another, or remove its drive")
-            self.effort_at.append((places[0], effort))
+            self.efforts.append((places[0], effort))
+        gravity = np.array(vehicle.model.gravity, dtype=np.float64)
+        return System(tree, tires, gravity, free, driven_v, tree.q_at[driven])
 
-    def known(self, t: float) -> tuple[IntArray, IntArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    def known(self, t: float) -> Known:
         """What drives and efforts prescribe at a time."""
-        laws = np.array([drive.law.at(t) for drive in self.drives]).reshape(-1, 3)
-        tau = np.zeros(len(self.free) + len(self.driven))
-        for place, effort in self.effort_at:
+        laws = np.array([drive.law.at(t) for drive in self.vehicle.model.drives]).reshape(-1, 3)
+        tau = np.zeros(self.coordinates.tree.v_at[-1])
+        for place, effort in self.efforts:
             tau[place] += effort.effort(t)
         q, v, a = (np.ascontiguousarray(laws[:, k]) for k in range(3))
-        return self.free, self.driven, q, v, a, tau, self.gravity
+        return Known(q, v, a, tau)
 
     def start(self, t: float) -> Moment:
-        """State and consistent accelerations."""
-        tree = self.coordinates.tree
+        """State and consistent accelerations; the method's own begin as these."""
+        n_q = int(self.coordinates.tree.q_at[-1])
         y = self.coordinates.corrected(t, self.coordinates.start())
-        n_q = int(tree.q_at[-1])
-        q, v = y[:n_q], y[n_q:]
-        s = np.zeros((len(self.tires.bodies), self.result.rate.shape[1]))
-        free, driven, _, _, a_d, tau, _ = self.known(t)
-        _, _, h, M = evaluate(tree, self.tires, q, v, s, self.gravity, self.result)
+        q, v, s = y[:n_q], y[n_q:], np.zeros_like(self.result.rate)
+        known, free = self.known(t), self.system.free
+        _, _, h, M = evaluate(self.system, q, v, s, self.result)
         a = np.zeros(len(h))
-        a[driven] = a_d
-        a[free] = np.linalg.solve(M[np.ix_(free, free)], (tau - h - M @ a)[free])
+        a[self.system.driven] = known.a
+        a[free] = np.linalg.solve(M[np.ix_(free, free)], (known.tau - h - M @ a)[free])
         rate = self.result.rate.copy()
         return Moment(q, v, a, a.copy(), s, rate, rate.copy())
 
     def to_its_end(self) -> VehicleMotion:
-        t, end, dt = float(self.times[0]), float(self.times[-1]), self.steps.first
+        """Step from one time asked for to the next."""
+        t, length, last = float(self.times[0]), self.steps.first, 0.0
         now = self.start(t)
-        self.keep(t, now)
-        while len(self.rows) < len(self.times):
-            target = float(self.times[len(self.rows)])
-            dt_now = min(dt, self.steps.longest)
-            left = target - t
-            if dt_now >= left * (1.0 - 1e-9):
-                dt_now = left
-            elif dt_now > 0.5 * left:
-                dt_now = 0.5 * left
-            good, iterations, error, after = implicit_step(
-                self.coordinates.tree, self.tires, now, self.known(t + dt_now), dt_now, self.method, self.result
-            )
-            self.counts[1] += iterations
-            if not good or not np.isfinite(error) or error > self.steps.tolerance:
-                self.counts[2] += 1
-                factor = 0.25 if not good or not np.isfinite(error) else max(0.2, 0.8 * (self.steps.tolerance / error) ** (1 / 3))
-                dt = dt_now * factor
-                if dt < self.steps.shortest:
-                    raise self.stopped(t, end)
-                continue
-            self.counts[0] += 1
-            now, t = after, t + dt_now
-            growth = 0.85 * (self.steps.tolerance / max(error, 1e-300)) ** (1 / 3)
-            dt = max(dt, dt_now) * min(2.0, max(0.5, growth)) if dt_now < dt else dt_now * min(2.0, max(0.5, growth))
-            if abs(t - target) < 1e-12 * max(1.0, abs(target)):
-                t = target
-                self.keep(t, now)
-        return self.motion()
+        self._keep(now)
+        for target in self.times[1:].tolist():
+            while t < target:
+                dt = self.steps.towards(target - t, length)
+                before = rescaled(now, dt / last) if last > 0.0 else now
+                error, after = self._step(before, t + dt, dt)
+                length = self.steps.after(dt, length, error)
+                if self.steps.accepts(error):
+                    now, last = after, dt
+                    t = target if dt == target - t else t + dt
+                elif length < self.steps.shortest or self.steps.fixed is not None:
+                    raise self._stopped(t)
+            self._keep(now)
+        return self._motion()
 
-    def keep(self, t: float, now: Moment) -> None:
+    def _step(self, before: Moment, end: float, dt: float) -> tuple[float, Moment]:
+        """Estimated error of a step, infinite if Newton's method fails, and the end of the step."""
+        try:
+            found = implicit_step(self.system, before, self.known(end), dt, self.method, self.result)
+        except np.linalg.LinAlgError:  # a singular matrix: a shorter step has the mass matrix to rely on
+            found = False, 0, np.inf, before
+        converged, iterations, error, after = found
+        self.iterations += iterations
+        if not converged or not np.isfinite(error):
+            error = np.inf
+        self.accepted += self.steps.accepts(error)
+        self.rejected += not self.steps.accepts(error)
+        return error, after
+
+    def _keep(self, now: Moment) -> None:
         """Record bodies, tires and drives."""
-        motion, _, h, M = evaluate(
-            self.coordinates.tree, self.tires, now.q, now.v, now.s, self.gravity, self.result
-        )
-        efforts = (M @ now.a + h)[self.driven]
+        motion, _, h, M = evaluate(self.system, now.q, now.v, now.s, self.result)
+        efforts = (M @ now.a + h)[self.system.driven]
         row = (motion.positions[:-1], motion.rotations[:-1], motion.velocities[:-1])
         self.rows.append((*row, self.result.output.copy(), self.result.wrench.copy(), efforts))
 
-    def motion(self) -> VehicleMotion:
-        columns = [np.array([row[k] for row in self.rows]) for k in range(6)]
-        r, R, u, output, wrench, efforts = columns
+    def _motion(self) -> VehicleMotion:
+        r, R, u, output, wrench, efforts = (np.array(column) for column in zip(*self.rows, strict=True))
         return VehicleMotion(
-            times=self.times[: len(self.rows)], positions=r, rotations=R, velocities=u, tires=output, wrenches=wrench,
-            efforts=efforts, steps=self.counts[0], iterations=self.counts[1], rejected=self.counts[2],
+            times=self.times[: len(self.rows)],
+            positions=r,
+            rotations=R,
+            velocities=u,
+            tires=output,
+            wrenches=wrench,
+            efforts=efforts,
+            steps=self.accepted,
+            iterations=self.iterations,
+            rejected=self.rejected,
         )
 
-    def stopped(self, t: float, end: float) -> ConvergenceError:
+    def _stopped(self, t: float) -> ConvergenceError:
+        shortest = self.steps.fixed or self.steps.shortest
         message = (
-            f"motion of the vehicle stopped at t = {t:g} s of {end:g} s: no step above "
-            f"{self.steps.shortest:g} s converges; allow a larger error, or look at the ground there"
+            f"motion of the vehicle stopped at t = {t:g} s of {self.times[-1]:g} s: no step down to "
+            f"{shortest:g} s converges; allow a larger error or shorter steps, or look at the ground there"
         )
-        record = IncrementRecord(target=t, step=self.steps.shortest, converged=False, residuals=())
-        return ConvergenceError(message, [record], self.motion())
+        record = IncrementRecord(target=t, step=shortest, converged=False, residuals=())
+        return ConvergenceError(message, [record], self._motion())
+
+
+def _method(steps: VehicleSteps) -> Method:
+    """Coefficients for the spectral radius (Chung and Hulbert 1993, eqs 20 and 25)."""
+    rho = steps.spectral_radius
+    alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
+    gamma = 0.5 - alpha_m + alpha_f
+    tolerance = NEWTON_SHARE * steps.tolerance
+    return Method(alpha_m, alpha_f, 0.25 * (gamma + 0.5) ** 2, gamma, tolerance, ITERATIONS)

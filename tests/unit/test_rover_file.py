@@ -1,0 +1,67 @@
+"""The rover's file: what ships is Table I; a bad file gives one clear message."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from contracts.errors import InputError
+from rover_dynamics.rover.rover_file import EXOMARS_ROVER, read_rover
+
+SHIPPED = EXOMARS_ROVER.read_text(encoding="utf-8")
+
+
+def test_the_rover_that_ships_weighs_320_kg() -> None:
+    assert read_rover().mass == pytest.approx(320.0, abs=1e-9)
+
+
+def test_mirrored_rows_stand_on_both_sides() -> None:
+    design = read_rover()
+    left, right = (next(body for body in design.bodies if body.name == f"pivot_{side}") for side in ("left", "right"))
+    assert left.position[1] == -right.position[1] == 0.4705
+    assert left.position[::2] == right.position[::2]
+    legs = {leg.name: leg for leg in design.legs}
+    assert sorted(legs) == ["center_left", "center_right", "front_left", "front_right", "rear_left", "rear_right"]
+    assert (legs["front_left"].carrier, legs["front_right"].carrier) == ("pivot_left", "pivot_right")
+    assert legs["rear_left"].carrier == legs["rear_right"].carrier == "pivot_rear"
+    assert legs["rear_right"].drive == (-0.72, -0.6012, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("gravity = 3.711", "", "gravity = nothing: is missing"),
+        ("gravity = 3.711", "gravity = 'Mars'", "gravity = Mars: must be a number"),
+        ("gravity = 3.711", "gravity = nan", "must be finite"),
+        ("gravity = 3.711", "gravity = true", "must be a number"),
+        ("gravity = 3.711", "gravity = 3.711\ngravitation = 1", "gravitation = 1: is not a known key"),
+        ("radius = 0.1425", "radius = 0.1425\ndiameter = 0.285", "wheel: diameter = 0.285: is not a known key"),
+        ("inertia = [51.0, 65.0, 98.0]", "inertia = [51.0, 65.0]", "must be three finite numbers"),
+        ("inertia = [51.0, 65.0, 98.0]", "inertia = 51.0", "must be three numbers"),
+        ("mirrored = true", "mirrored = 1", "must be true or false"),
+        ("[leg_bodies.arm]", "[leg_bodies.elbow]", "leg_bodies: arm = nothing: is missing"),
+        ("name =", "name", "cannot be read"),
+    ],
+)
+def test_a_bad_file_gives_one_clear_message(tmp_path: Path, old: str, new: str, words: str) -> None:
+    assert old in SHIPPED
+    path = tmp_path / "rover.toml"
+    path.write_text(SHIPPED.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_rover(path)
+    assert words in str(caught.value)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value).removesuffix("\n") or "cannot be read" in words
+
+
+def test_rows_must_be_tables(tmp_path: Path) -> None:
+    path = tmp_path / "rover.toml"
+    path.write_text("legs = [1]\nname = 'x'\ngravity = 1.0\n[wheel]\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"legs\[0\] = 1: must be a table"):
+        read_rover(path)
+
+
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="cannot be read"):
+        read_rover(tmp_path / "none.toml")
