@@ -1,15 +1,12 @@
 """One step of the generalised-alpha method for a tree of bodies on tires, compiled.
 
 Unknown are the accelerations a of the joint velocities v, M a + h = tau with the tires' wrenches in h, and the rates of
-the tires' own states, s' = g. The method (Chung and Hulbert 1993; Arnold and Bruels 2007, eqs 12-14, in joint
+the tires' own states, s' = g. The method (Chung and Hulbert 1993; Arnold and Bruels 2007; in joint
 coordinates: quaternions are turned by rotation vectors) has accelerations A and rates B of its own:
 
     step = dt v_n + dt^2 (1/2 - beta) A_n + dt^2 beta A,    v = v_n + dt (1 - gamma) A_n + dt gamma A
     s = s_n + dt (1 - gamma) B_n + dt gamma B
     (1 - alpha_m) A + alpha_m A_n = (1 - alpha_f) a + alpha_f a_n,    the same for B and s'
-
-A_n belongs to the time t_n + (alpha_m - alpha_f) dt, so that a step of another length needs A_n moved to its own
-(`rescaled`): without it the order falls to one where the step changes (Bruels and Arnold 2008, sec. 4).
 
 Newton's matrix is c M - sum J^T E J with c = (1 - alpha_m) / (1 - alpha_f), where J takes v to the hub's velocity and E
 holds the derivatives of a tire's wrench by the hub's motion, the tire's states eliminated. Derivatives of M, h and J
@@ -31,8 +28,9 @@ from rover_dynamics.brush_force import BrushResult, BrushScratch, HubMotions, br
 from rover_dynamics.brush_settings import WheelNumbers
 from rover_dynamics.multibody.compiled import compiled, cross
 from rover_dynamics.multibody.tree_kernels import LinkKind, Tree, TreeMotion, advance, bias_and_mass, tree_motion
+from rover_dynamics.vehicle.implicit_method import Known, Method, Moment
 
-__all__ = ["Known", "Method", "Moment", "System", "Tires", "evaluate", "implicit_step", "rescaled"]
+__all__ = ["System", "Tires", "evaluate", "implicit_step"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -40,24 +38,6 @@ IntArray = NDArray[np.int64]
 _SPHERICAL = int(LinkKind.SPHERICAL)
 _FRESH = 4
 """Iterations after which Newton's matrix is computed anew."""
-
-
-class Method(NamedTuple):
-    """Coefficients of the generalised-alpha method, and when its iteration ends.
-
-    Attributes
-    ----------
-    alpha_m, alpha_f, beta, gamma : [-]
-    tolerance : largest dt^2 times the change of A in the last iteration [m, rad]
-    iterations : at most
-    """
-
-    alpha_m: float
-    alpha_f: float
-    beta: float
-    gamma: float
-    tolerance: float
-    iterations: int
 
 
 class Tires(NamedTuple):
@@ -96,46 +76,12 @@ class System(NamedTuple):
     driven_q: IntArray
 
 
-class Known(NamedTuple):
-    """What is prescribed at the end of a step.
-
-    Attributes
-    ----------
-    q, v, a : (n_d,) float, coordinates, velocities and accelerations of the driven joints
-    tau : (n_v,) float, joint efforts [N m, N]
-    """
-
-    q: FloatArray
-    v: FloatArray
-    a: FloatArray
-    tau: FloatArray
-
-
-class Moment(NamedTuple):
-    """Everything at one time that a step starts from.
-
-    Attributes
-    ----------
-    q, v, a : (n_q,), (n_v,), (n_v,) float, coordinates, velocities, accelerations of the joints
-    A : (n_v,) float, the method's accelerations
-    s, s_rate, B : (n_w, n_s) float, states of the tires, their rates, the method's rates
-    """
-
-    q: FloatArray
-    v: FloatArray
-    a: FloatArray
-    A: FloatArray
-    s: FloatArray
-    s_rate: FloatArray
-    B: FloatArray
-
-
 class _Newton(NamedTuple):
     """One linearisation.
 
     Attributes
     ----------
-    matrix : (n_v, n_v) float, c M - sum J^T E J
+    matrix : (n_f, n_f) float, c M - sum J^T E J of the free velocities
     carry : (n_w, n_v, n_s) float, what a residual of the states adds to that of the accelerations
     follow, inverse : (n_w, n_s, n_v), (n_w, n_s, n_s) float, change of B for that of A, and for the states' residual
     """
@@ -144,12 +90,6 @@ class _Newton(NamedTuple):
     carry: FloatArray
     follow: FloatArray
     inverse: FloatArray
-
-
-def rescaled(moment: Moment, ratio: float) -> Moment:
-    """The moment with A and B at the time that belongs to a next step ``ratio`` times as long as the last one."""
-    A = moment.a + ratio * (moment.A - moment.a)
-    return moment._replace(A=A, B=moment.s_rate + ratio * (moment.B - moment.s_rate))
 
 
 @compiled
@@ -225,7 +165,7 @@ def _newton(
         follow[i] = states @ J
         carry[i] = J.T @ (by_state[:6] @ inverse[i])
         matrix -= J.T @ (E @ J)
-    return _Newton(matrix, carry, follow, inverse)
+    return _Newton(matrix[system.free][:, system.free], carry, follow, inverse)
 
 
 @compiled
@@ -269,6 +209,24 @@ def _end(
 
 
 @compiled
+def _correct(
+    system: System, newton: _Newton, residuals: tuple[FloatArray, FloatArray], A: FloatArray, B: FloatArray
+) -> float:
+    """Change A and B by one Newton correction; the largest change of A, infinite if there is none."""
+    residual, state_residual = residuals
+    for i in range(len(state_residual)):
+        residual += newton.carry[i] @ state_residual[i]
+    if not np.all(np.isfinite(residual)):
+        return np.inf
+    change = np.zeros_like(A)
+    change[system.free] = np.linalg.solve(newton.matrix, residual[system.free])
+    A += change
+    for i in range(len(state_residual)):
+        B[i] += newton.inverse[i] @ state_residual[i] + newton.follow[i] @ change
+    return float(np.max(np.abs(change)))
+
+
+@compiled
 def implicit_step(
     system: System, before: Moment, known: Known, dt: float, method: Method, result: BrushResult
 ) -> tuple[bool, int, float, Moment]:
@@ -288,33 +246,22 @@ def implicit_step(
         have no part in it
     after : the end of the step
     """
-    m, f, beta, gamma = method.alpha_m, method.alpha_f, method.beta, method.gamma
-    weights = (1.0 - m) / (1.0 - f), dt * gamma, dt * dt * beta
-    tires, free, n_s = system.tires, system.free, before.s.shape[1]
+    weights = (1.0 - method.alpha_m) / (1.0 - method.alpha_f), dt * method.gamma, dt * dt * method.beta
+    tires, n_s, step_of = system.tires, before.s.shape[1], (dt, method)
     A, B = before.a.copy(), before.s_rate.copy()  # predictor: accelerations stay
     motion = tree_motion(system.tree, before.q, before.v)
     start = motion.frames, _turning(system.tree, motion, before.v)
-    derivatives, whole = np.zeros((len(tires.bodies), 6 + n_s, 12 + n_s)), np.zeros(len(A))
-    after = _end(system, before, start, (A, B), known, (dt, method))
+    derivatives = np.zeros((len(tires.bodies), 6 + n_s, 12 + n_s))
+    after = _end(system, before, start, (A, B), known, step_of)
     last, iteration = np.inf, 0
     while iteration < method.iterations and last >= method.tolerance:
         motion, hubs, h, M = evaluate(system, after.q, after.v, after.s, result)
-        residual, state_residual = known.tau - h - M @ after.a, result.rate - after.s_rate
+        residuals = known.tau - h - M @ after.a, result.rate - after.s_rate
         if iteration % _FRESH == 0:
             brush_derivatives(hubs, after.s, tires.numbers, tires.pieces, derivatives, (tires.scratch, tires.pair))
             newton = _newton(system, motion, M, derivatives, weights)
-            matrix = newton.matrix[free][:, free]
-        for i in range(len(tires.bodies)):
-            residual += newton.carry[i] @ state_residual[i]
-        if not np.all(np.isfinite(residual)):
-            break
-        whole[free] = np.linalg.solve(matrix, residual[free])
-        A += whole
-        for i in range(len(tires.bodies)):
-            B[i] += newton.inverse[i] @ state_residual[i] + newton.follow[i] @ whole
-        after = _end(system, before, start, (A, B), known, (dt, method))
-        last = dt * dt * np.max(np.abs(whole))
+        last = dt * dt * _correct(system, newton, residuals, A, B)
+        after = _end(system, before, start, (A, B), known, step_of)
         iteration += 1
-    coefficient = abs(beta - 1.0 / 6.0 + 0.5 * (m - f))
-    error = coefficient * dt * dt * np.max(np.abs((A - before.A)[free]))
+    error = method.error * dt * dt * np.max(np.abs((A - before.A)[system.free]))
     return last < method.tolerance, iteration, error, after

@@ -19,16 +19,8 @@ from rover_dynamics.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
-from rover_dynamics.vehicle.implicit_kernels import (
-    Known,
-    Method,
-    Moment,
-    System,
-    Tires,
-    evaluate,
-    implicit_step,
-    rescaled,
-)
+from rover_dynamics.vehicle.implicit_kernels import System, Tires, evaluate, implicit_step
+from rover_dynamics.vehicle.implicit_method import Known, Moment, generalised_alpha, rescaled
 from rover_dynamics.vehicle.steps import VehicleSteps
 
 __all__ = ["JointEffort", "Vehicle", "VehicleMotion", "VehicleSteps", "drive_vehicle"]
@@ -154,7 +146,7 @@ class _Run:
         self.efforts: list[tuple[int, JointEffort]] = []
         self.system = self._system()
         self.result: BrushResult = brush_result(len(vehicle.wheels), self.system.tires.pieces)
-        self.method = _method(steps)
+        self.method = generalised_alpha(steps.spectral_radius, NEWTON_SHARE * steps.tolerance, ITERATIONS)
         self.accepted = self.iterations = self.rejected = 0
         self.rows: list[tuple[FloatArray, ...]] = []
 
@@ -265,12 +257,3 @@ class _Run:
         )
         record = IncrementRecord(target=t, step=shortest, converged=False, residuals=())
         return ConvergenceError(message, [record], self._motion())
-
-
-def _method(steps: VehicleSteps) -> Method:
-    """Coefficients for the spectral radius (Chung and Hulbert 1993, eqs 20 and 25)."""
-    rho = steps.spectral_radius
-    alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
-    gamma = 0.5 - alpha_m + alpha_f
-    tolerance = NEWTON_SHARE * steps.tolerance
-    return Method(alpha_m, alpha_f, 0.25 * (gamma + 0.5) ** 2, gamma, tolerance, ITERATIONS)

@@ -29,7 +29,7 @@ from rover_dynamics.multibody.motion_law import Hold, Turn
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
 from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import read_rover
-from rover_dynamics.vehicle.implicit_kernels import Moment
+from rover_dynamics.vehicle.implicit_method import Moment
 from rover_dynamics.vehicle.steps import VehicleSteps
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 from tests.brush_rig import RADIUS, Rig
