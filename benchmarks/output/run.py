@@ -21,7 +21,7 @@ from workbench.provenance import git_commit
 __all__ = ["Run", "add_option"]
 
 ROOT = Path(__file__).resolve().parents[2]
-LIBRARIES = ("dolfinx-solver-real", "numpy", "numba", "felupe", "pypardiso")
+LIBRARIES = ("dolfinx-solver-real", "numpy", "numba", "felupe", "pypardiso", "exudyn")
 
 
 def add_option(parser: argparse.ArgumentParser) -> None:
