@@ -10,86 +10,36 @@ coordinates: quaternions are turned by rotation vectors) has accelerations A and
 
 Newton's matrix is c M - sum J^T E J with c = (1 - alpha_m) / (1 - alpha_f), where J takes v to the hub's velocity and E
 holds the derivatives of a tire's wrench by the hub's motion, the tire's states eliminated. Derivatives of M, h and J
-are left out: the residual is exact, so that costs iterations and changes no result.
+are left out: the residual is exact, so that costs iterations and changes no result. A step takes the matrix of the
+step before it if that was as long and the same wheels touched the ground.
 
 Verified by tests/verification/test_vehicle_step.py.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.terrain import TerrainPieces
 from rover_dynamics.brush_derivatives import brush_derivatives
-from rover_dynamics.brush_force import BrushResult, BrushScratch, HubMotions, brush_forces
-from rover_dynamics.brush_settings import WheelNumbers
+from rover_dynamics.brush_force import BrushResult, HubMotions, brush_forces
 from rover_dynamics.multibody.compiled import compiled, cross
 from rover_dynamics.multibody.tree_kernels import LinkKind, Tree, TreeMotion, advance, bias_and_mass, tree_motion
 from rover_dynamics.vehicle.implicit_method import Known, Method, Moment
+from rover_dynamics.vehicle.system import Newton, System, Work
 
-__all__ = ["System", "Tires", "evaluate", "implicit_step"]
+__all__ = ["evaluate", "implicit_step"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 _SPHERICAL = int(LinkKind.SPHERICAL)
-_FRESH = 4
+_FRESH = 3
 """Iterations after which Newton's matrix is computed anew."""
-
-
-class Tires(NamedTuple):
-    """The vehicle's tires, for the compiled calls.
-
-    Attributes
-    ----------
-    bodies : (n_w,) int, rows of the wheels' bodies
-    numbers, pieces : of the wheels, of the terrain
-    scratch, pair : working memory of `brush_derivatives`
-    """
-
-    bodies: IntArray
-    numbers: WheelNumbers
-    pieces: TerrainPieces
-    scratch: BrushScratch
-    pair: BrushResult
-
-
-class System(NamedTuple):
-    """What does not change in time.
-
-    Attributes
-    ----------
-    tree, tires : of the vehicle
-    gravity : (3,) float, acceleration of free fall [m/s^2]
-    free, driven : (n_f,), (n_d,) int, velocities that are unknown, and those that follow laws
-    driven_q : (n_d,) int, coordinates of the driven velocities
-    """
-
-    tree: Tree
-    tires: Tires
-    gravity: FloatArray
-    free: IntArray
-    driven: IntArray
-    driven_q: IntArray
-
-
-class _Newton(NamedTuple):
-    """One linearisation.
-
-    Attributes
-    ----------
-    matrix : (n_f, n_f) float, c M - sum J^T E J of the free velocities
-    carry : (n_w, n_v, n_s) float, what a residual of the states adds to that of the accelerations
-    follow, inverse : (n_w, n_s, n_v), (n_w, n_s, n_s) float, change of B for that of A, and for the states' residual
-    """
-
-    matrix: FloatArray
-    carry: FloatArray
-    follow: FloatArray
-    inverse: FloatArray
+_OLD = 0.1
+"""Share of the tolerance that the last change must meet if the matrix is that of an earlier step."""
+_SAME = 0.01
+"""Relative difference of two steps' lengths that may share a matrix."""
 
 
 @compiled
@@ -140,22 +90,21 @@ def _wheel_jacobian(tree: Tree, motion: TreeMotion, body: int, J: FloatArray) ->
 
 
 @compiled
-def _newton(
-    system: System, motion: TreeMotion, M: FloatArray, derivatives: FloatArray, weights: tuple[float, float, float]
-) -> _Newton:
-    """Linearise about a motion.
+def _linearise(
+    system: System, motion: TreeMotion, M: FloatArray, work: Work, weights: tuple[float, float, float]
+) -> None:
+    """Fill ``work.newton`` from the tires' derivatives.
 
     Parameters
     ----------
-    derivatives : (n_w, 6 + n_s, 12 + n_s) float, of `brush_derivatives`
     weights : c; dt gamma, the derivative of v by A; dt^2 beta, that of the step
     """
     c, w_v, w_q = weights
-    n_w, n_v, n_s = len(derivatives), len(M), derivatives.shape[1] - 6
+    n_v, n_s = len(M), work.derivatives.shape[1] - 6
     matrix, J = c * M, np.empty((6, n_v))
-    carry, follow, inverse = np.zeros((n_w, n_v, n_s)), np.zeros((n_w, n_s, n_v)), np.zeros((n_w, n_s, n_s))
-    for i in range(n_w):
-        D = derivatives[i]
+    _, carry, follow, inverse, _ = work.newton
+    for i in range(len(work.derivatives)):
+        D = work.derivatives[i]
         _wheel_jacobian(system.tree, motion, system.tires.bodies[i], J)
         by_motion = w_q * D[:, :6].copy() + w_v * D[:, 6:12].copy()
         by_state = w_v * D[:, 12:].copy()
@@ -165,21 +114,37 @@ def _newton(
         follow[i] = states @ J
         carry[i] = J.T @ (by_state[:6] @ inverse[i])
         matrix -= J.T @ (E @ J)
-    return _Newton(matrix[system.free][:, system.free], carry, follow, inverse)
+    work.newton.matrix[:] = matrix[system.free][:, system.free]
 
 
 @compiled
-def _turning(tree: Tree, motion: TreeMotion, v: FloatArray) -> FloatArray:
-    """Factor of dt^2 in the step, (n_v,), since ball joints count in frames that turn with their carriers.
+def _fits(newton: Newton, dt: float, loads: FloatArray) -> bool:
+    """Whether an earlier linearisation serves a step; notes its length and the wheels that touch."""
+    made_for, same = newton.made_for, bool(abs(newton.made_for[0] - dt) <= _SAME * dt)
+    made_for[0] = dt
+    for i in range(len(loads)):
+        touches = 1.0 if loads[i] > 0.0 else 0.0
+        same = same and made_for[1 + i] == touches
+        made_for[1 + i] = touches
+    return same
 
-    The rate of F^T w is F^T (w' - W x w), with W the carrier's angular velocity, and not F^T w'.
+
+@compiled
+def _start(tree: Tree, before: Moment) -> tuple[FloatArray, FloatArray]:
+    """Joint frames, (n_l, 3, 3), and the factor of dt^2 in the step, (n_v,), where frames turn with their carriers.
+
+    The rate of F^T w is F^T (w' - W x w), with W the carrier's angular velocity, and not F^T w'. Only ball joints have
+    such frames: free links hang on the ground, and hinges and sliders need none.
     """
-    out = np.zeros_like(v)
+    turning = np.zeros_like(before.v)
+    if not np.any(tree.kinds == _SPHERICAL):
+        return tree.turns, turning
+    motion = tree_motion(tree, before.q, before.v)
     for k in range(len(tree.parents)):
         if tree.kinds[k] == _SPHERICAL:
             at = tree.v_at[k]
-            cross(-0.5 * motion.V[tree.parents[k], :3], v[at : at + 3], out[at : at + 3])
-    return out
+            cross(-0.5 * motion.V[tree.parents[k], :3], before.v[at : at + 3], turning[at : at + 3])
+    return motion.frames, turning
 
 
 @compiled
@@ -191,7 +156,7 @@ def _end(
     known: Known,
     step_of: tuple[float, Method],
 ) -> Moment:
-    """The end of a step for the method's A and B; ``start``: the joint frames there, and what `_turning` returns."""
+    """The end of a step for the method's A and B; ``start`` is what `_start` returns."""
     A, B = method_rates
     frames, turning = start
     dt, method = step_of
@@ -210,7 +175,7 @@ def _end(
 
 @compiled
 def _correct(
-    system: System, newton: _Newton, residuals: tuple[FloatArray, FloatArray], A: FloatArray, B: FloatArray
+    system: System, newton: Newton, residuals: tuple[FloatArray, FloatArray], A: FloatArray, B: FloatArray
 ) -> float:
     """Change A and B by one Newton correction; the largest change of A, infinite if there is none."""
     residual, state_residual = residuals
@@ -228,7 +193,7 @@ def _correct(
 
 @compiled
 def implicit_step(
-    system: System, before: Moment, known: Known, dt: float, method: Method, result: BrushResult
+    system: System, before: Moment, known: Known, dt: float, method: Method, work: Work
 ) -> tuple[bool, int, float, Moment]:
     """One step.
 
@@ -237,7 +202,7 @@ def implicit_step(
     before : where it starts
     known : what is prescribed at the end
     dt : [s]
-    result : overwritten
+    work : overwritten
 
     Returns
     -------
@@ -247,21 +212,21 @@ def implicit_step(
     after : the end of the step
     """
     weights = (1.0 - method.alpha_m) / (1.0 - method.alpha_f), dt * method.gamma, dt * dt * method.beta
-    tires, n_s, step_of = system.tires, before.s.shape[1], (dt, method)
+    tires, result, step_of, limit = system.tires, work.result, (dt, method), _OLD * method.tolerance
     A, B = before.a.copy(), before.s_rate.copy()  # predictor: accelerations stay
-    motion = tree_motion(system.tree, before.q, before.v)
-    start = motion.frames, _turning(system.tree, motion, before.v)
-    derivatives = np.zeros((len(tires.bodies), 6 + n_s, 12 + n_s))
+    start = _start(system.tree, before)
     after = _end(system, before, start, (A, B), known, step_of)
     last, iteration = np.inf, 0
-    while iteration < method.iterations and last >= method.tolerance:
+    while iteration < method.iterations and last >= limit:
         motion, hubs, h, M = evaluate(system, after.q, after.v, after.s, result)
         residuals = known.tau - h - M @ after.a, result.rate - after.s_rate
-        if iteration % _FRESH == 0:
-            brush_derivatives(hubs, after.s, tires.numbers, tires.pieces, derivatives, (tires.scratch, tires.pair))
-            newton = _newton(system, motion, M, derivatives, weights)
-        last = dt * dt * _correct(system, newton, residuals, A, B)
+        if not _fits(work.newton, dt, result.output[:, 1]) or iteration % _FRESH == _FRESH - 1:
+            memory = tires.scratch, tires.pair
+            brush_derivatives(hubs, after.s, tires.numbers, tires.pieces, work.derivatives, memory)
+            _linearise(system, motion, M, work, weights)
+            limit = method.tolerance
+        last = dt * dt * _correct(system, work.newton, residuals, A, B)
         after = _end(system, before, start, (A, B), known, step_of)
         iteration += 1
     error = method.error * dt * dt * np.max(np.abs((A - before.A)[system.free]))
-    return last < method.tolerance, iteration, error, after
+    return last < limit, iteration, error, after

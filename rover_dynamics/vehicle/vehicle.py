@@ -14,14 +14,15 @@ from numpy.typing import NDArray
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.terrain import Terrain
 from rover_dynamics.brush_derivatives import derivative_result
-from rover_dynamics.brush_force import BrushResult, brush_result, brush_scratch
+from rover_dynamics.brush_force import BrushResult, brush_scratch
 from rover_dynamics.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
-from rover_dynamics.vehicle.implicit_kernels import System, Tires, evaluate, implicit_step
+from rover_dynamics.vehicle.implicit_kernels import evaluate, implicit_step
 from rover_dynamics.vehicle.implicit_method import Known, Moment, generalised_alpha, rescaled
 from rover_dynamics.vehicle.steps import VehicleSteps
+from rover_dynamics.vehicle.system import System, Tires, work_for
 
 __all__ = ["JointEffort", "Vehicle", "VehicleMotion", "VehicleSteps", "drive_vehicle"]
 
@@ -145,7 +146,8 @@ class _Run:
             raise InputError("joints of the vehicle", loops, "close loops", "integrate it by multibody.motion")
         self.efforts: list[tuple[int, JointEffort]] = []
         self.system = self._system()
-        self.result: BrushResult = brush_result(len(vehicle.wheels), self.system.tires.pieces)
+        self.work = work_for(self.system)
+        self.result: BrushResult = self.work.result
         self.method = generalised_alpha(steps.spectral_radius, NEWTON_SHARE * steps.tolerance, ITERATIONS)
         self.accepted = self.iterations = self.rejected = 0
         self.rows: list[tuple[FloatArray, ...]] = []
@@ -216,7 +218,7 @@ class _Run:
     def _step(self, before: Moment, end: float, dt: float) -> tuple[float, Moment]:
         """Estimated error of a step, infinite if Newton's method fails, and the end of the step."""
         try:
-            found = implicit_step(self.system, before, self.known(end), dt, self.method, self.result)
+            found = implicit_step(self.system, before, self.known(end), dt, self.method, self.work)
         except np.linalg.LinAlgError:  # a singular matrix: a shorter step has the mass matrix to rely on
             found = False, 0, np.inf, before
         converged, iterations, error, after = found
