@@ -1,0 +1,230 @@
+"""The thesis' scenarios on level ground: equilibrium, drop, load sweep, straight path, traction (Figs 15 to 25).
+
+Verified by tests/unit/test_rover_scenarios.py and tests/verification/test_rover_statics.py.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from contracts.errors import InputError
+from rover_dynamics.brush_settings import BrushSettings, DamperLaw
+from rover_dynamics.brush_tire import THESIS_BRUSH
+from rover_dynamics.multibody.motion_law import Hold, MotionLaw, SpeedTrapezoid
+from rover_dynamics.rover.rover import Actuators
+from rover_dynamics.rover.rover_file import RoverDesign
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.rover.scenarios.scenario import SAMPLED, Scenario, ScenarioRun, mean_static_load, run_scenario
+
+__all__ = ["LEVEL_GROUND", "SPEED", "all_drives", "drive_forward"]
+
+SPEED = 70.0 / 3600.0
+"""70 m/h [m/s]."""
+OBSERVED = "front_right"
+OFFSETS = (
+    (-0.10, 162.3, 269.3),
+    (0.0, 184.2, 225.3),
+    (0.0623, 197.92, 197.92),
+    (0.10, 206.2, 181.3),
+    (0.14, 215.0, 163.7),
+)
+"""Centre of mass ahead of the principal body's frame [m]; load of a front or centre wheel and of a rear wheel [N].
+
+Statics of the rover on rigid wheels; the tires' deflection pitches the rover and shifts its weight further.
+"""
+FRAME_X = -0.0825
+"""Place of the principal body's frame [m]."""
+SWEEP = tuple(np.linspace(160.0, 250.0, 10))
+TORQUE, DROP_HEIGHT = 3.5, 0.010
+"""[N m], [m]."""
+
+
+def all_drives(design: RoverDesign, law: MotionLaw) -> Actuators:
+    """Every wheel driven by the same law."""
+    return Actuators(laws={f"drive_{leg.name}": law for leg in design.legs})
+
+
+def drive_forward(design: RoverDesign, ends: float = float("inf"), ramp: float = 5.0) -> Actuators:
+    """70 m/h at the nominal radius, reached in ``ramp`` [s] from time zero; standing again at ``ends`` [s]."""
+    law = SpeedTrapezoid(speed=SPEED / design.wheel_radius, accelerates=ramp, decelerates=ramp, ends=ends)
+    return all_drives(design, law)
+
+
+def _mean_load(run: ScenarioRun) -> Outcome:
+    reference = mean_static_load(run.design)
+    value = float(run.loads[-1].mean())
+    return Outcome(quantity="mean wheel load at the end", value=value, unit="N", reference=reference)
+
+
+def _static(run: ScenarioRun) -> tuple[Outcome, ...]:
+    each = [
+        Outcome(quantity=f"wheel load, {leg.name.replace('_', ' ')}", value=float(load), unit="N")
+        for leg, load in zip(run.design.legs, run.loads[-1], strict=True)
+    ]
+    return (_mean_load(run), *each, Outcome(quantity="deflection", value=float(run.deflections[-1].mean()), unit="m"))
+
+
+def _loads_against_offset(design: RoverDesign) -> tuple[Outcome, ...]:
+    """Wheel loads with the principal body's centre of mass moved, wheels free."""
+    found = []
+    for offset, front, rear in OFFSETS:
+        run = run_scenario(replace(STATIC, settles=8.0, lasts=0.1), _with_offset(design, offset))
+        for end, reference in (("front", front), ("center", front), ("rear", rear)):
+            at = [k for k, leg in enumerate(design.legs) if leg.name.startswith(end)]
+            if at:
+                value = float(run.loads[-1, at].mean())
+                text = f"load of a {end} wheel, centre of mass {1e3 * offset:g} mm ahead of the frame"
+                found.append(Outcome(quantity=text, value=value, unit="N", reference=reference))
+    return tuple(found)
+
+
+def _with_offset(design: RoverDesign, offset: float) -> RoverDesign:
+    if not any(body.name == "principal" for body in design.bodies):
+        raise InputError("bodies of the rover", design.name, "have none named principal", "name its main body so")
+    moved = [
+        replace(body, position=(FRAME_X + offset, *body.position[1:])) if body.name == "principal" else body
+        for body in design.bodies
+    ]
+    return replace(design, bodies=tuple(moved))
+
+
+def _drop(run: ScenarioRun) -> tuple[Outcome, ...]:
+    """Peaks; the damper as printed meets the ground with c sqrt(2 g h)."""
+    builds_up = run.scenario.settings.damper_law is DamperLaw.BUILDS_UP
+    law = "builds up with the deflection" if builds_up else "as printed"
+    touch = run.scenario.tire.radial_damping * math.sqrt(2.0 * run.design.gravity * DROP_HEIGHT)
+    return (
+        Outcome(
+            quantity=f"largest wheel load, damper {law}",
+            value=float(run.loads.max()),
+            unit="N",
+            reference=None if builds_up else touch,
+        ),
+        Outcome(quantity=f"largest deflection, damper {law}", value=float(run.deflections.max()), unit="m"),
+        _mean_load(run),
+    )
+
+
+def _drop_as_printed(design: RoverDesign) -> tuple[Outcome, ...]:
+    settings = BrushSettings(damper_law=DamperLaw.AS_PRINTED)
+    return _drop(run_scenario(replace(DROP, settings=settings, study=None), design))
+
+
+def _sweep(run: ScenarioRun) -> tuple[Outcome, ...]:
+    """Deflection at each load, against the tire's static line."""
+    found = []
+    for load, deflection in zip(run.loads.mean(axis=1), run.deflections.mean(axis=1), strict=True):
+        expected = float(load) / run.scenario.tire.radial_stiffness
+        text = f"deflection at {load:.1f} N"
+        found.append(Outcome(quantity=text, value=float(deflection), unit="m", reference=expected))
+    return tuple(found)
+
+
+def _sweep_of_gravity(design: RoverDesign) -> ScenarioRun:
+    """Gravity scaled to each mean wheel load; one sample for each, at the end of its settling."""
+    single = replace(LOAD_SWEEP, composed=None)
+    runs = [
+        run_scenario(single, replace(design, gravity=design.gravity * load / mean_static_load(design)))
+        for load in SWEEP
+    ]
+    kept: dict[str, Any] = {name: np.concatenate([getattr(run.motion, name)[-1:] for run in runs]) for name in SAMPLED}
+    kept["times"] = (single.settles + single.lasts) * np.arange(1.0, len(runs) + 1.0)
+    stopped = next((run.stopped for run in runs if run.stopped), None)
+    return ScenarioRun(scenario=LOAD_SWEEP, design=design, motion=replace(runs[-1].motion, **kept), stopped=stopped)
+
+
+def _straight(run: ScenarioRun) -> tuple[Outcome, ...]:
+    times, speed = run.motion.times, run.motion.velocities[:, 0, 0]
+    window = (times >= 15.0) & (times <= 35.0)
+    loads = run.loads[window]
+    wheel = _observed(run)
+    return (
+        Outcome(
+            quantity="mean speed between 15 and 35 s", value=float(speed[window].mean()), unit="m/s", reference=SPEED
+        ),
+        Outcome(quantity="distance", value=float(run.place[-1, 0] - run.place[0, 0]), unit="m", reference=35.0 * SPEED),
+        Outcome(quantity="sideways drift", value=float(np.abs(run.place[:, 1] - run.place[0, 1]).max()), unit="m"),
+        Outcome(quantity="smallest wheel load between 15 and 35 s", value=float(loads.min()), unit="N"),
+        Outcome(quantity="largest wheel load between 15 and 35 s", value=float(loads.max()), unit="N"),
+        Outcome(
+            quantity=f"deflection between 15 and 35 s, {run.design.legs[wheel].name.replace('_', ' ')}",
+            value=float(run.deflections[window, wheel].mean()),
+            unit="m",
+        ),
+    )
+
+
+def _torques(design: RoverDesign) -> Actuators:
+    """The thesis' torque on every drive from time zero; the wheels are free before."""
+    return Actuators(torques={f"drive_{leg.name}": lambda t: TORQUE if t > 0.0 else 0.0 for leg in design.legs})
+
+
+def _observed(run: ScenarioRun) -> int:
+    """Row of the wheel the thesis observes, or the first one."""
+    names = [leg.name for leg in run.design.legs]
+    return names.index(OBSERVED) if OBSERVED in names else 0
+
+
+def _traction(run: ScenarioRun) -> tuple[Outcome, ...]:
+    wheel = _observed(run)
+    last = run.motion.times >= run.motion.times[-1] - 5.0
+    force, name = float(run.tractive[last, wheel].mean()), run.design.legs[wheel].name.replace("_", " ")
+    grip = float((run.tractive[last, wheel] / run.loads[last, wheel]).mean())
+    return (
+        Outcome(quantity=f"tractive force of the last 5 s, {name}", value=force, unit="N"),
+        Outcome(quantity="the same by the wheel's load", value=grip, unit="-"),
+        Outcome(quantity="speed at the end", value=float(run.motion.velocities[-1, 0, 0]), unit="m/s"),
+    )
+
+
+STATIC = Scenario(
+    name="static",
+    title="static equilibrium on level ground, wheels free",
+    source="Fig. 15",
+    lasts=2.0,
+    judge=_static,
+    study=_loads_against_offset,
+)
+DROP = Scenario(
+    name="drop",
+    title="drop of 10 mm, drives held",
+    source="Figs 18, 19",
+    settles=0.0,
+    lasts=6.0,
+    every=0.01,
+    closer=(0.04, 0.10, 5e-5),
+    height=DROP_HEIGHT,
+    actuators=lambda design: all_drives(design, Hold()),
+    judge=_drop,
+    study=_drop_as_printed,
+)
+LOAD_SWEEP = Scenario(
+    name="load_sweep",
+    title="mean wheel load from 160 to 250 N by scaled gravity, one sample at the end of each settling",
+    source="Fig. 20",
+    lasts=1.0,
+    judge=_sweep,
+    composed=_sweep_of_gravity,
+)
+STRAIGHT = Scenario(
+    name="straight",
+    title="straight path at 70 m/h, 5 s to accelerate, the last 5 s to stop",
+    source="Figs 23, 24",
+    lasts=40.0,
+    actuators=lambda design: drive_forward(design, ends=40.0),
+    judge=_straight,
+)
+TRACTION = Scenario(
+    name="traction",
+    title="3.5 N m on each drive for 10 s after 5 s of settling, friction 0.6",
+    source="Fig. 25",
+    lasts=10.0,
+    actuators=_torques,
+    tire=replace(THESIS_BRUSH, friction_min=0.6, friction_max=0.6),
+    judge=_traction,
+)
+LEVEL_GROUND = (STATIC, DROP, LOAD_SWEEP, STRAIGHT, TRACTION)

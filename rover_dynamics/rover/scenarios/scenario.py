@@ -1,0 +1,224 @@
+"""A scenario as a record: the vehicle it makes of a rover, its times, and what is read from its motion.
+
+Every scenario starts at rest on the ground: the wheels are pressed in by the mean static deflection, so that nothing
+falls, and the rover settles with the drives held before time zero. A slope is a tilt of gravity; the ground stays
+level.
+
+Verified by tests/unit/test_rover_scenarios.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import ConvergenceError, InputError
+from contracts.series import TimeSeries
+from contracts.terrain import Plane, Terrain
+from rover_dynamics.brush_settings import BrushSettings
+from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
+from rover_dynamics.rover.rover import Actuators, build_rover
+from rover_dynamics.rover.rover_file import RoverDesign
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
+
+__all__ = ["SAMPLED", "Judge", "Scenario", "ScenarioRun", "Tilt", "mean_static_load", "run_scenario", "scenario_series"]
+
+FloatArray = NDArray[np.float64]
+_PENETRATION, _LOAD, _TRACTIVE, _LATERAL = 0, 1, 7, 8
+"""Columns of `rover_dynamics.brush_force.OUTPUT_SIZE`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tilt:
+    """A slope: gravity turned by ``angle`` [rad] so that it pulls towards ``heading`` [rad], from +x about +z."""
+
+    angle: float = 0.0
+    heading: float = 0.0
+
+    def gravity(self, size: float) -> tuple[float, float, float]:
+        """Acceleration in the ground's frame, z its normal [m/s^2]."""
+        pull = size * math.sin(self.angle)
+        return pull * math.cos(self.heading), pull * math.sin(self.heading), -size * math.cos(self.angle)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ScenarioRun:
+    """A scenario's motion from time zero on.
+
+    Attributes
+    ----------
+    scenario, design : what moved
+    motion : settling left out, times from 0 s
+    stopped : why it ended before its time, or None
+    """
+
+    scenario: Scenario
+    design: RoverDesign
+    motion: VehicleMotion
+    stopped: str | None = None
+
+    @property
+    def loads(self) -> FloatArray:
+        """Wheel loads (n, n_w) [N], in the order of the design's legs."""
+        return self.motion.tires[:, :, _LOAD]
+
+    @property
+    def deflections(self) -> FloatArray:
+        """Radial deflections (n, n_w) [m]."""
+        return self.motion.tires[:, :, _PENETRATION]
+
+    @property
+    def tractive(self) -> FloatArray:
+        """Tractive forces (n, n_w) [N], ground on wheel, forwards."""
+        return self.motion.tires[:, :, _TRACTIVE]
+
+    @property
+    def place(self) -> FloatArray:
+        """Centre of the first body (n, 3) [m]."""
+        return self.motion.positions[:, 0]
+
+    @property
+    def wheels(self) -> FloatArray:
+        """Centres of the wheels (n, n_w, 3) [m]."""
+        first = len(self.design.bodies)
+        return self.motion.positions[:, first + 2 :: 3]
+
+    @property
+    def lean(self) -> FloatArray:
+        """Angle (n,) [rad] between the first body's upright axis and the ground's normal."""
+        return np.arccos(np.clip(self.motion.rotations[:, 0, 2, 2], -1.0, 1.0))
+
+
+SAMPLED = ("times", "positions", "rotations", "velocities", "tires", "wrenches", "efforts")
+"""Arrays of a `VehicleMotion` with one row for each time."""
+Judge = Callable[[ScenarioRun], tuple[Outcome, ...]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scenario:
+    """One thing the rover does.
+
+    Attributes
+    ----------
+    name, title : as on the command line, and in words
+    source : figure or section of the thesis
+    lasts : duration after settling [s]
+    judge : reads the outcomes from the motion
+    settles : time at rest before time zero [s]
+    every : spacing of the samples [s]
+    closer : begin, end and spacing [s] of more samples, or None
+    height : lowest points of the wheels over the ground [m]; None for the mean static deflection below it
+    actuators, terrain : of a rover's design
+    tilt : of gravity
+    tire, settings : of all wheels
+    study : more outcomes by more runs (a table, a bisection), or None
+    composed : makes the run out of several, or None
+    """
+
+    name: str
+    title: str
+    source: str
+    lasts: float
+    judge: Judge
+    settles: float = 5.0
+    every: float = 0.05
+    closer: tuple[float, float, float] | None = None
+    height: float | None = None
+    actuators: Callable[[RoverDesign], Actuators] = field(default=lambda _: Actuators())
+    terrain: Callable[[RoverDesign], Terrain] = field(default=lambda _: Plane())
+    tilt: Tilt = field(default_factory=Tilt)
+    tire: BrushTireParameters = THESIS_BRUSH
+    settings: BrushSettings = field(default_factory=BrushSettings)
+    study: Callable[[RoverDesign], tuple[Outcome, ...]] | None = None
+    composed: Callable[[RoverDesign], ScenarioRun] | None = None
+
+    def __post_init__(self) -> None:
+        for what, value in (("duration", self.lasts), ("spacing of samples", self.every)):
+            if not (math.isfinite(value) and value > 0.0):
+                raise InputError(
+                    f"{what} of scenario {self.name}", f"{value:g} s", "must be finite and > 0", "lengthen it"
+                )
+        if not (math.isfinite(self.settles) and self.settles >= 0.0):
+            rule = "must be finite and >= 0"
+            raise InputError(f"settling of scenario {self.name}", f"{self.settles:g} s", rule, "give e.g. 5 s")
+
+    def vehicle(self, design: RoverDesign) -> Vehicle:
+        """The rover at the scenario's start."""
+        height = self.height
+        if height is None:
+            height = -mean_static_load(design) * math.cos(self.tilt.angle) / self.tire.radial_stiffness
+        vehicle = build_rover(
+            design,
+            terrain=self.terrain(design),
+            actuators=self.actuators(design),
+            height=height,
+            tire=self.tire,
+            settings=self.settings,
+        )
+        return replace(vehicle, model=replace(vehicle.model, gravity=self.tilt.gravity(design.gravity)))
+
+    def times(self) -> FloatArray:
+        """Samples from the start of the settling to the end [s]."""
+        after = np.linspace(0.0, self.lasts, max(2, round(self.lasts / self.every) + 1))
+        if self.closer is not None:
+            more = np.arange(*self.closer)
+            after = np.concatenate([more, after[(after < more[0]) | (after > more[-1])]])
+            after.sort()
+        return after if self.settles == 0.0 else np.concatenate([[-self.settles], after])
+
+
+def mean_static_load(design: RoverDesign) -> float:
+    """Weight divided by the number of wheels [N]."""
+    return design.mass * design.gravity / len(design.legs)
+
+
+def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
+    """Drive the scenario; a motion that stops early is kept and says why.
+
+    Raises
+    ------
+    ConvergenceError
+        If it stops before time zero, or its numbers overflow.
+    """
+    if scenario.composed is not None:
+        return scenario.composed(design)
+    times, stopped = scenario.times(), None
+    try:
+        motion = drive_vehicle(scenario.vehicle(design), times)
+    except ConvergenceError as error:
+        if not isinstance(error.last_good, VehicleMotion) or error.last_good.times[-1] < 0.0:
+            raise
+        motion, stopped = error.last_good, str(error)
+    except np.linalg.LinAlgError as error:  # a fall whose numbers overflow within a step
+        message = f"motion of scenario {scenario.name} cannot be followed: a step's numbers overflow, as in a fall"
+        raise ConvergenceError(message, []) from error
+    begin = int(np.searchsorted(motion.times, 0.0))
+    kept = {name: getattr(motion, name)[begin:] for name in SAMPLED}
+    return ScenarioRun(scenario=scenario, design=design, motion=replace(motion, **kept), stopped=stopped)
+
+
+def scenario_series(run: ScenarioRun) -> TimeSeries:
+    """First body and wheels against time."""
+    columns = {f"body_{axis}_m": run.place[:, k] for k, axis in enumerate("xyz")}
+    columns |= {f"body_v{axis}_m_s": run.motion.velocities[:, 0, k] for k, axis in enumerate("xyz")}
+    columns["body_lean_rad"] = run.lean
+    for k, leg in enumerate(run.design.legs):
+        outputs = run.motion.tires[:, k]
+        columns[f"{leg.name}_load_N"] = outputs[:, _LOAD]
+        columns[f"{leg.name}_deflection_m"] = outputs[:, _PENETRATION]
+        columns[f"{leg.name}_tractive_N"] = outputs[:, _TRACTIVE]
+        columns[f"{leg.name}_lateral_N"] = outputs[:, _LATERAL]
+    return TimeSeries(
+        scenario=run.scenario.name,
+        tire="brush",
+        time=run.motion.times,
+        columns=columns,
+        source=f"{run.design.name}: {run.scenario.title} ({run.scenario.source}); brush tire; x forward, y left, "
+        "z normal to the ground, world; tractive and lateral forces of the ground on the wheel",
+        partial=run.stopped is not None,
+    )

@@ -1,0 +1,106 @@
+"""Slopes of 25 degrees up, down and across: driven at 70 m/h, and the steepest that is.
+
+A slope is a tilt of gravity on level ground. It counts as driven if over the last 5 s the rover's velocity along the
+ground differs from 70 m/h ahead by no more than a fifth (slip and drift together), and the body stays within 30 degrees
+of the ground's normal. Both bounds are choices; the mission names the angle only.
+
+Verified by tests/unit/test_rover_scenarios.py and tests/verification/test_rover_statics.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from contracts.errors import ConvergenceError
+from rover_dynamics.rover.rover_file import RoverDesign
+from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, run_scenario
+
+__all__ = ["ALLOWED_LOSS", "SLOPES", "is_driven", "largest_passed", "velocity_loss"]
+
+REQUIRED = math.radians(25.0)
+ALLOWED_LOSS = 0.2
+ALLOWED_LEAN = math.radians(30.0)
+
+
+def velocity_loss(run: ScenarioRun) -> float:
+    """Mean velocity of the last 5 s less 70 m/h ahead, in the ground's plane, by 70 m/h [-]."""
+    times = run.motion.times
+    begin = int(np.searchsorted(times, times[-1] - 5.0))
+    velocity = (run.place[-1, :2] - run.place[begin, :2]) / (times[-1] - times[begin])
+    return float(np.hypot(velocity[0] - SPEED, velocity[1]) / SPEED)
+
+
+def is_driven(run: ScenarioRun) -> bool:
+    """Whether a slope counts as driven."""
+    return run.stopped is None and velocity_loss(run) <= ALLOWED_LOSS and bool(run.lean.max() <= ALLOWED_LEAN)
+
+
+def largest_passed(passes: Callable[[float], bool], low: float, high: float, width: float) -> float:
+    """By bisection, the largest value that passes, from below within ``width``; low must pass, high must not.
+
+    ``low`` is taken to pass; where ``high`` passes too, it is the answer.
+    """
+    if passes(high):
+        return high
+    while high - low > width:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if passes(middle) else (low, middle)
+    return low
+
+
+def _judge(run: ScenarioRun) -> tuple[Outcome, ...]:
+    angle = math.degrees(run.scenario.tilt.angle)
+    return (
+        Outcome(
+            quantity=f"slip and drift on {angle:g} degrees",
+            value=velocity_loss(run),
+            unit="-",
+            limit=ALLOWED_LOSS,
+            at_least=False,
+        ),
+        Outcome(quantity="smallest wheel load", value=float(run.loads.min()), unit="N"),
+        Outcome(quantity="largest wheel load", value=float(run.loads.max()), unit="N"),
+        Outcome(quantity="speed ahead at the end", value=float(run.motion.velocities[-1, 0, 0]), unit="m/s"),
+        Outcome(quantity="sideways drift", value=float(run.place[-1, 1] - run.place[0, 1]), unit="m"),
+    )
+
+
+def _steepest(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
+    """The mission's requirement: the steepest slope that is driven, to a quarter of a degree."""
+
+    def passes(degrees: float) -> bool:
+        tilt = replace(scenario.tilt, angle=math.radians(degrees))
+        try:
+            return is_driven(run_scenario(replace(scenario, tilt=tilt, every=1.0), design))
+        except ConvergenceError:
+            return False
+
+    steepest = largest_passed(passes, 0.0, 50.0, 0.2)
+    required = math.degrees(REQUIRED)
+    return (Outcome(quantity="steepest slope driven", value=steepest, unit="deg", limit=required),)
+
+
+def _slope(name: str, words: str, heading: float) -> Scenario:
+    scenario = Scenario(
+        name=f"slope_{name}",
+        title=f"slope of 25 degrees {words} at 70 m/h, as tilted gravity",
+        source="mission requirements, section 1",
+        lasts=20.0,
+        actuators=drive_forward,
+        tilt=Tilt(angle=REQUIRED, heading=heading),
+        judge=_judge,
+    )
+    return replace(scenario, study=lambda design: _steepest(scenario, design))
+
+
+SLOPES = (
+    _slope("up", "upwards", math.pi),
+    _slope("down", "downwards", 0.0),
+    _slope("across", "across, uphill side on the left", -0.5 * math.pi),
+)
