@@ -162,6 +162,24 @@ def calibrate_ancf(
 
 
 @app.command()
+def rover(
+    scenario: Annotated[
+        str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)
+    ] = None,
+    tire: Annotated[str, typer.Option(help="brush; rigid and ancf are to come.")] = "brush",
+    rover_file: Annotated[
+        Path | None, typer.Option("--rover", help="Rover file (TOML); the thesis' if left out.", show_default=False)
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/rover"),
+    names: Annotated[bool, typer.Option("--list", help="Show the scenarios.")] = False,
+) -> None:
+    """One scenario of the rover: its time series, and what it ends with."""
+    from workbench.command_rover import list_scenarios, run_rover
+
+    raise typer.Exit(list_scenarios() if names else run_rover(scenario, tire, rover_file, out))
+
+
+@app.command()
 def compare(
     curve: Annotated[Path, typer.Argument(help="CSV with deflection_m,load_N.", show_default=False)],
     reference: Annotated[Path, typer.Argument(help="CSV it is held against.", show_default=False)],

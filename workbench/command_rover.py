@@ -1,0 +1,90 @@
+"""``workbench rover``: one scenario of the rover, its series and a short table.
+
+Verified by tests/end_to_end/test_rover.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from contracts.errors import InputError
+from contracts.series import write_series
+from rover_dynamics.rover.rover_file import EXOMARS_ROVER, read_rover
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.rover.scenarios.scenario import run_scenario, scenario_series
+from workbench.errors import RunError
+from workbench.number_format import displayed
+from workbench.outputs import check_folder, check_targets
+from workbench.series import SERIES_FOLDER, series_file
+
+__all__ = ["list_scenarios", "run_rover"]
+
+console = Console()
+_TIRES = ("rigid", "brush", "ancf")
+
+
+def list_scenarios() -> int:
+    """Print every scenario's name, what it is and its source."""
+    table = Table(title="scenarios of the rover", title_justify="left")
+    for column in ("scenario", "what happens", "source"):
+        table.add_column(column, overflow="fold")
+    for scenario in SCENARIOS.values():
+        table.add_row(scenario.name, scenario.title, scenario.source)
+    console.print(table)
+    return 0
+
+
+def run_rover(name: str | None, tire: str, rover: Path | None, out: Path) -> int:
+    """Run one scenario, write its series, print what it ends with.
+
+    Raises
+    ------
+    InputError
+        For a scenario, tire or rover that cannot be used.
+    RunError
+        If the motion stops early; its series is written, marked partial.
+    """
+    _check_tire(tire)
+    if name is None:
+        raise InputError("scenario", "nothing", "is missing", f"give one of {', '.join(SCENARIOS)}")
+    scenario, design = scenario_named(name), read_rover(rover or EXOMARS_ROVER)
+    check_folder(out)
+    with console.status(f"{scenario.name}: {scenario.title}"):
+        run = run_scenario(scenario, design)
+        series = scenario_series(run)
+        file = f"{SERIES_FOLDER}/{series_file(series)}"
+        check_targets(out, [file])
+        write_series(series, out / file)
+        if run.stopped is None:
+            outcomes = scenario.judge(run) + (scenario.study(design) if scenario.study else ())
+    if run.stopped is not None:
+        raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
+    _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)
+    console.print(f"series: {out / file}", highlight=False, markup=False, soft_wrap=True)
+    return 0
+
+
+def _check_tire(tire: str) -> None:
+    if tire not in _TIRES:
+        raise InputError("tire", repr(tire), "is not known", "give brush")
+    if tire != "brush":
+        raise InputError("tire", repr(tire), "does not carry the rover in this version", "give brush")
+
+
+def _print_outcomes(title: str, outcomes: Sequence[Outcome]) -> None:
+    table = Table(title=title, title_justify="left")
+    table.add_column("quantity", overflow="fold")
+    for column in ("value", "reference", "required", "margin", "verdict"):
+        table.add_column(column, justify="right")
+    for one in outcomes:
+        sign = ">=" if one.at_least else "<="
+        required = "" if one.limit is None else f"{sign} {displayed(one.limit, one.unit)}"
+        verdict = {None: "", True: "met", False: "not met"}[one.met]
+        numbers = ["" if v is None else displayed(v, one.unit) for v in (one.value, one.reference, one.margin)]
+        table.add_row(one.quantity, numbers[0], numbers[1], required, numbers[2], verdict)
+    console.print(table)
