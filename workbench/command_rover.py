@@ -61,7 +61,8 @@ def run_rover(name: str | None, tire: str, rover: Path | None, out: Path) -> int
         check_targets(out, [file])
         write_series(series, out / file)
         if run.stopped is None:
-            outcomes = scenario.judge(run) + (scenario.study(design) if scenario.study else ())
+            more = [part(design) for part in (scenario.study, scenario.search) if part]
+            outcomes = [*scenario.judge(run), *(outcome for part in more for outcome in part)]
     if run.stopped is not None:
         raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
     _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)

@@ -73,7 +73,7 @@ def step(height: float) -> Scenario:
         actuators=drive_forward,
         terrain=lambda design: Step(rise=height, edge_radius=EDGE, position=_first_edge(design)),
         judge=partial(_judge, width=0.0),
-        study=partial(_largest, make=step, quantity="highest step climbed", limit=STEP_HEIGHT),
+        search=partial(_largest, make=step, quantity="highest step climbed", limit=STEP_HEIGHT),
     )
 
 
@@ -88,7 +88,7 @@ def crevasse(width: float) -> Scenario:
         actuators=drive_forward,
         terrain=lambda design: Crevasse(width=width, depth=DEPTH, edge_radius=EDGE, position=_first_edge(design)),
         judge=partial(_judge, width=width),
-        study=partial(_largest, make=crevasse, quantity="widest crevasse crossed", limit=CREVASSE_WIDTH),
+        search=partial(_largest, make=crevasse, quantity="widest crevasse crossed", limit=CREVASSE_WIDTH),
     )
 
 

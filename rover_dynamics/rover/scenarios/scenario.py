@@ -97,6 +97,7 @@ class ScenarioRun:
 SAMPLED = ("times", "positions", "rotations", "velocities", "tires", "wrenches", "efforts")
 """Arrays of a `VehicleMotion` with one row for each time."""
 Judge = Callable[[ScenarioRun], tuple[Outcome, ...]]
+Study = Callable[[RoverDesign], tuple[Outcome, ...]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -116,7 +117,8 @@ class Scenario:
     actuators, terrain : of a rover's design
     tilt : of gravity
     tire, settings : of all wheels
-    study : more outcomes by more runs (a table, a bisection), or None
+    study : more outcomes by more runs, a few seconds, or None
+    search : how far the requirement could be raised, by bisection (up to a minute), or None
     composed : makes the run out of several, or None
     """
 
@@ -134,7 +136,8 @@ class Scenario:
     tilt: Tilt = field(default_factory=Tilt)
     tire: BrushTireParameters = THESIS_BRUSH
     settings: BrushSettings = field(default_factory=BrushSettings)
-    study: Callable[[RoverDesign], tuple[Outcome, ...]] | None = None
+    study: Study | None = None
+    search: Study | None = None
     composed: Callable[[RoverDesign], ScenarioRun] | None = None
 
     def __post_init__(self) -> None:

@@ -96,7 +96,7 @@ def _slope(name: str, words: str, heading: float) -> Scenario:
         tilt=Tilt(angle=REQUIRED, heading=heading),
         judge=_judge,
     )
-    return replace(scenario, study=lambda design: _steepest(scenario, design))
+    return replace(scenario, search=lambda design: _steepest(scenario, design))
 
 
 SLOPES = (

@@ -62,14 +62,14 @@ def smallest_tilt(design: RoverDesign, fails: Fails) -> tuple[float, float]:
     A direction that holds at the smallest tilt so far needs no search of its own.
     """
     smallest, worst = STEEPEST, 0.0
-    for heading in np.arange(DIRECTIONS) * (360.0 / DIRECTIONS):
-        if not fails(design, smallest, float(heading)):
+    for heading in _headings():
+        if not fails(design, smallest, heading):
             continue
         low, high = 0.0, smallest
         while high - low > WIDTH:
             middle = 0.5 * (low + high)
-            low, high = (low, middle) if fails(design, middle, float(heading)) else (middle, high)
-        smallest, worst = low, float(heading)
+            low, high = (low, middle) if fails(design, middle, heading) else (middle, high)
+        smallest, worst = low, heading
     return smallest, worst
 
 
@@ -78,6 +78,22 @@ def _judge(run: ScenarioRun) -> tuple[Outcome, ...]:
         Outcome(quantity="smallest wheel load at the end", value=float(run.loads[-1].min()), unit="N"),
         Outcome(quantity="largest wheel load at the end", value=float(run.loads[-1].max()), unit="N"),
         Outcome(quantity="lean of the body at the end", value=math.degrees(float(run.lean[-1])), unit="deg"),
+    )
+
+
+def _headings() -> list[float]:
+    return [float(heading) for heading in np.arange(DIRECTIONS) * (360.0 / DIRECTIONS)]
+
+
+def _at_the_required_tilt(design: RoverDesign) -> tuple[Outcome, ...]:
+    """In how many directions it fails at 40 degrees."""
+    runs = [_settled(design, REQUIRED, heading) for heading in _headings()]
+    lifted = sum(run is None or bool(run.loads[-1].min() <= 0.0) for run in runs)
+    fallen = sum(run is None or bool(run.lean[-1] > OVERTURNED) for run in runs)
+    words = f"directions of {DIRECTIONS} in which at 40 degrees"
+    return tuple(
+        Outcome(quantity=f"{words} {what}", value=float(count), unit="-", limit=0.0, at_least=False)
+        for what, count in (("a wheel is unloaded", lifted), ("the rover overturns", fallen))
     )
 
 
@@ -100,5 +116,6 @@ STABILITY = Scenario(
     tire=replace(THESIS_BRUSH, friction_min=10.0, friction_max=10.0),
     tilt=Tilt(angle=math.radians(REQUIRED), heading=math.radians(45.0)),
     judge=_judge,
-    study=_all_directions,
+    study=_at_the_required_tilt,
+    search=_all_directions,
 )
