@@ -215,6 +215,7 @@ STRAIGHT = Scenario(
     title="straight path at 70 m/h, 5 s to accelerate, the last 5 s to stop",
     source="Figs 23, 24",
     lasts=40.0,
+    every=0.1,
     actuators=lambda design: drive_forward(design, ends=40.0),
     judge=_straight,
 )

@@ -90,7 +90,7 @@ POINT_TURN = Scenario(
     title="quarter turn on the spot: steering to the tangents, then all wheels driven",
     source="mission requirements, section 1",
     lasts=100.0,
-    every=0.1,
+    every=0.2,
     actuators=turn_actuators,
     judge=_judge,
 )
