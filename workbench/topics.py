@@ -12,6 +12,7 @@ from workbench.topic_environment import ENVIRONMENT
 from workbench.topic_hub import HUB
 from workbench.topic_mesh_study import MESH_STUDY
 from workbench.topic_orientations import ORIENTATIONS
+from workbench.topic_rover import ROVER
 from workbench.topic_section import SECTION
 from workbench.topic_speed import SPEED
 from workbench.topic_strength import STRENGTH
@@ -30,6 +31,7 @@ TOPICS: tuple[Topic, ...] = (
     ANCF_FIT,
     ANCF_MESH,
     ANCF_DYNAMICS,
+    ROVER,
     VERIFICATION,
     SPEED,
 )

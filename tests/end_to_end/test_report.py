@@ -16,6 +16,7 @@ import pytest
 
 from contracts.curves import read_curve
 from contracts.series import read_series
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from tests.end_to_end.small_study import run, small_study_text
 
 TASKS = {
@@ -26,6 +27,7 @@ TASKS = {
     *("ancf_as_it_is", "ancf_fit_four_spokes", "ancf_fit_six_spokes", "ancf_fit_three_spokes"),
     *("ancf_plates_x1", "ancf_plates_x2", "ancf_plates_x4", "ancf_plates_x8"),
     *("ancf_drop", "ancf_drop_share", "ancf_ride"),
+    *(f"rover_{name}" for name in SCENARIOS),
 }
 
 type Finished = subprocess.CompletedProcess[str]
@@ -89,10 +91,11 @@ def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished
 def test_time_series_are_csv_and_linked(first_report: Finished, workspace: Path) -> None:
     """Named ``{scenario}_{tire}.csv``; the page holds each whole, behind a link of its section."""
     folder = workspace / "report" / "series"
-    assert {p.name for p in folder.iterdir()} == {"drop_ancf.csv", "drop_share_ancf.csv", "half_round_ancf.csv"}
+    wheel = {"drop_ancf.csv", "drop_share_ancf.csv", "half_round_ancf.csv"}
+    assert {p.name for p in folder.iterdir()} == wheel | {f"{name}_brush.csv" for name in SCENARIOS}
     page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
     section = page[page.index('<section id="ancf_dynamics">') :].partition("</section>")[0]
-    for path in folder.iterdir():
+    for path in (folder / name for name in wheel):
         text = path.read_text(encoding="utf-8")
         assert text.startswith("# source: ANCF tire with ")
         header = next(line for line in text.splitlines() if not line.startswith("#"))
@@ -104,6 +107,19 @@ def test_time_series_are_csv_and_linked(first_report: Finished, workspace: Path)
         link = re.search(rf'href="data:text/csv;base64,([^"]+)" download="{path.name}"', section)
         assert link, path.name
         assert base64.b64decode(link[1]).decode("utf-8") == text
+
+
+def test_the_rover_has_its_section_and_its_series(first_report: Finished, workspace: Path) -> None:
+    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    section = page[page.index('<section id="rover">') :].partition("</section>")[0]
+    for name in SCENARIOS:
+        path = workspace / "report" / "series" / f"{name}_brush.csv"
+        assert not read_series(path, name, "brush").partial
+        link = re.search(rf'href="data:text/csv;base64,([^"]+)" download="{path.name}"', section)
+        assert link, name
+        assert base64.b64decode(link[1]).decode("utf-8") == path.read_text(encoding="utf-8")
+    for text in ("Figs 18, 19", "Fig. 25", "not met", "197.92"):
+        assert text in section
 
 
 def test_page_is_self_contained_and_shows_everything(first_report: Finished, workspace: Path) -> None:

@@ -1,0 +1,83 @@
+"""The topic of the rover: tasks, files, checks, figures, section."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import workbench.report
+from contracts.records import Check
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
+from workbench.result_files import read_result
+from workbench.series import series_files
+from workbench.study_file import built_in_study, read_study
+from workbench.tasks_rover import drive_rover
+from workbench.topic_rover import MISSION, ROVER, THESIS, RoverResults
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> RoverResults:
+    """Computed as the report does; stability without its directions."""
+    study, folders = read_study(built_in_study()), dict[str, Path]()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(SCENARIOS, "stability", replace(SCENARIOS["stability"], study=None))
+        for task in ROVER.tasks(study):
+            folders[task.name] = tmp_path_factory.mktemp(task.name)
+            assert drive_rover(task.inputs, {}, folders[task.name], lambda fraction: None) == 6 * 22
+    found = ROVER.read(study, folders)
+    assert isinstance(found, RoverResults)
+    return found
+
+
+def _checks(results: RoverResults) -> dict[str, Check]:
+    checks = ROVER.checks(read_study(built_in_study()), None, results)  # type: ignore[arg-type]
+    return {check.id: check for check in checks}
+
+
+def test_every_scenario_of_the_catalogue_is_in_the_report() -> None:
+    assert list(SCENARIOS) == [*THESIS, *MISSION]
+
+
+def test_gate_and_closed_forms_hold(results: RoverResults) -> None:
+    checks = _checks(results)
+    assert [name for name, check in checks.items() if check.role == "gate"] == ["rover.load"]
+    for name in ("load", "drop_printed", "drop", "speed", "traction"):
+        assert checks[f"rover.{name}"].status == "pass", name
+
+
+def test_each_requirement_is_a_finding_and_one_without_a_number_an_error(results: RoverResults) -> None:
+    checks = _checks(results)
+    assert {f"rover.mission_{name}" for name in MISSION} < set(checks)
+    assert checks["rover.mission_step"].value == 6.0
+    assert checks["rover.mission_stability"].status == "error"  # its study was left out here
+
+
+def test_a_requirement_that_is_missed_is_said_so(results: RoverResults) -> None:
+    """Negative control."""
+    step = results["step"]
+    four = tuple(replace(o, value=4.0) if o.limit is not None else o for o in step.outcomes)
+    damaged = replace(results, by_name={**results.by_name, "step": replace(step, outcomes=four)})
+    check = _checks(damaged)["rover.mission_step"]
+    assert (check.status, check.role) == ("fail", "finding")
+    light = results["static"]
+    wrong = tuple(replace(o, value=0.99 * o.value) for o in light.outcomes)
+    damaged = replace(results, by_name={**results.by_name, "static": replace(light, outcomes=wrong)})
+    assert _checks(damaged)["rover.load"].status == "fail"
+
+
+def test_series_and_figures_of_the_section_exist(results: RoverResults) -> None:
+    study = read_study(built_in_study())
+    published = series_files(ROVER.series(study, results))
+    assert set(published) == {f"{name}_brush.csv" for name in SCENARIOS}
+    text = (Path(workbench.report.__file__).parent / "templates" / "section_rover.html.j2").read_text(encoding="utf-8")
+    assert set(re.findall(r"figures\.(\w+)", text)) == set(ROVER.figures(study, results))
+
+
+def test_a_task_writes_its_outcomes(tmp_path: Path) -> None:
+    drive_rover({"scenario": "traction"}, {}, tmp_path, lambda fraction: None)
+    result = read_result(tmp_path)
+    assert result["failure"] is None
+    assert result["outcomes"][0]["unit"] == "N"

@@ -1,0 +1,164 @@
+"""Topic: the rover on brush tires. The thesis' scenarios and the mission's requirements, with their figures.
+
+Verified by tests/unit/test_workbench_rover.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contracts.errors import InputError
+from contracts.records import Check, Role
+from contracts.series import TimeSeries, read_series
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from workbench.check_rules import Claim, at_least, at_most, near
+from workbench.graph_fe import FILES
+from workbench.result_files import FAILURE, read_result
+from workbench.study import Study
+from workbench.task import Task
+from workbench.topic import Topic
+
+if TYPE_CHECKING:
+    from workbench.comparison import Comparison
+
+__all__ = ["ROVER", "RoverResult", "RoverResults"]
+
+THESIS = {
+    "static": ("static equilibrium", "Fig. 15"),
+    "drop": ("drop of 10 mm", "Figs 18, 19"),
+    "load_sweep": ("wheel load from 160 to 250 N", "Fig. 20"),
+    "straight": ("straight path at 70 m/h", "Figs 23, 24"),
+    "traction": ("3.5 N m on each drive", "Fig. 25"),
+}
+MISSION = {
+    "slope_up": "slope of 25 degrees, upwards",
+    "slope_down": "slope of 25 degrees, downwards",
+    "slope_across": "slope of 25 degrees, across",
+    "step": "step of 0.25 m",
+    "crevasse": "crevasse of 0.15 m",
+    "point_turn": "quarter turn on the spot",
+    "stability": "static stability, 40 degrees",
+}
+"""Scenario -> what it is called; names as in `rover_dynamics.rover.scenarios.catalogue`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoverResult:
+    """One scenario: its outcomes, its series, why it ended early or None."""
+
+    outcomes: tuple[Outcome, ...]
+    series: TimeSeries
+    stopped: str | None
+
+    def value(self, quantity: str) -> float:
+        """Of the first outcome that begins so; raises InputError if there is none, as in a run that stopped."""
+        return self.outcome(quantity).value
+
+    def outcome(self, quantity: str) -> Outcome:
+        """The first outcome that begins so."""
+        for outcome in self.outcomes:
+            if outcome.quantity.startswith(quantity):
+                return outcome
+        raise InputError("outcome", quantity, "was not computed", self.stopped or "look at the scenario")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoverResults:
+    """All scenarios by name."""
+
+    by_name: Mapping[str, RoverResult]
+
+    def __getitem__(self, name: str) -> RoverResult:
+        return self.by_name[name]
+
+    @property
+    def requirements(self) -> list[tuple[str, Outcome]]:
+        """The mission's: title of the scenario, outcome with its limit."""
+        return [(title, o) for name, title in MISSION.items() for o in self[name].outcomes if o.limit is not None]
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    return [
+        Task(
+            name=f"rover_{name}",
+            function="workbench.tasks_rover:drive_rover",
+            inputs={"scenario": name},
+            sources=(*FILES, "rover_dynamics"),
+            libraries=("numpy", "numba", "scipy"),
+            cost=2.0,
+        )
+        for name in (*THESIS, *MISSION)
+    ]
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> RoverResults:
+    found = {}
+    for name in (*THESIS, *MISSION):
+        folder = folders[f"rover_{name}"]
+        result = read_result(folder)
+        found[name] = RoverResult(
+            outcomes=tuple(Outcome(**row) for row in result["outcomes"]),
+            series=read_series(folder / "series.csv", name, "brush"),
+            stopped=result[FAILURE],
+        )
+    return RoverResults(by_name=found)
+
+
+def _claim(name: str, title: str, outcome: str, unit: str, source: str, *, gate: bool = False) -> Claim:
+    role: Role = "gate" if gate else "finding"
+    return Claim(id=f"rover.{name}", title=f"Rover, {title}", quantity=outcome, unit=unit, role=role, source=source)
+
+
+def _checks(study: Study, found: Comparison, results: RoverResults) -> Sequence[Check]:
+    static, drop, straight, traction = (results[name] for name in ("static", "drop", "straight", "traction"))
+    load, peak, speed = "mean wheel load at the end", "largest wheel load, damper", "mean speed between 15 and 35 s"
+    thesis = "Samarini 2020, section 3.3"
+    force = _claim("traction", "3.5 N m: tractive force over load, friction 0.6", "force / load", "-", thesis)
+    printed = _claim(
+        "drop_printed", "drop of 10 mm: peak, damper as printed", "wheel load", "N", "c sqrt(2 g h) at first touch"
+    )
+    gradual = _claim(
+        "drop", "drop of 10 mm: peak, damper that builds up, below that of the printed one", "wheel load", "N", thesis
+    )
+    weight = _claim("load", "static equilibrium", "mean wheel load", "N", "320 kg on Mars, six wheels", gate=True)
+    path = _claim("speed", "straight path: speed between 15 and 35 s", "speed", "m/s", thesis)
+    checks = [
+        near(weight, lambda: static.value(load), 197.92, 1e-3),
+        near(printed, lambda: drop.value(f"{peak} as printed"), 2217.6, 0.02),
+        at_most(gradual, lambda: drop.value(f"{peak} builds up"), 2217.6),
+        near(path, lambda: straight.value(speed), 70.0 / 3600.0, 0.01),
+        at_most(force, lambda: traction.value("the same by the wheel's load"), 0.6),
+    ]
+    return [*checks, *(check for name in MISSION for check in _requirements(name, results[name]))]
+
+
+def _requirements(name: str, result: RoverResult) -> list[Check]:
+    """One check for each number the scenario has a limit for; without any, one that could not be evaluated."""
+    source = "mission requirements, Samarini 2020, section 1"
+    limited = [outcome for outcome in result.outcomes if outcome.limit is not None]
+    if not limited:
+        claim = _claim(f"mission_{name}", MISSION[name], "requirement", "-", source)
+        return [at_least(claim, lambda: result.value("requirement"), 0.0)]
+    checks = []
+    for k, one in enumerate(limited):
+        end = f"_{k + 1}" if k else ""
+        claim = _claim(f"mission_{name}{end}", f"{MISSION[name]}: {one.quantity}", one.quantity, one.unit, source)
+        rule = at_least if one.at_least else at_most
+        checks.append(rule(claim, lambda value=one.value: value, float(one.limit or 0.0)))  # type: ignore[misc]
+    return checks
+
+
+def _figures(study: Study, results: RoverResults) -> Mapping[str, str]:
+    from workbench.figures_rover import rover_figures
+
+    return rover_figures({name: result.series for name, result in results.by_name.items()})
+
+
+def _series(study: Study, results: RoverResults) -> Sequence[TimeSeries]:
+    return [result.series for result in results.by_name.values()]
+
+
+ROVER = Topic(name="rover", title="Rover", tasks=_tasks, read=_read, checks=_checks, figures=_figures, series=_series)
