@@ -1,10 +1,11 @@
-"""Stills of meshes: parts in colour, deformed shape with stress. The one module that imports PyVista; needs no display.
+"""Stills of meshes, and frames of bodies in motion. The one module that imports PyVista; needs no display.
 
-Verified by tests/end_to_end/test_report.py.
+Verified by tests/end_to_end/test_report.py and tests/unit/test_workbench_rover_animation.py.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,8 +17,9 @@ from numpy.typing import NDArray
 from contracts.mesh import TaggedMesh
 from geometry.hexahedra import face_nodes
 from workbench.palette import ABOVE_YIELD, PART_COLOURS
+from workbench.solids import WORLD, Solid
 
-__all__ = ["Scene", "draw_deformed", "draw_parts", "facet_parts", "surface"]
+__all__ = ["Scene", "View", "draw_deformed", "draw_motion", "draw_parts", "facet_parts", "surface"]
 
 Array = NDArray[np.float64]
 _SIZE = (1600, 1200)
@@ -46,6 +48,25 @@ class Scene:
     eye: tuple[float, float, float] = (0.62, -1.0, 0.42)
     zoom: float = 1.3
     shift: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class View:
+    """A parallel projection, true to scale.
+
+    Attributes
+    ----------
+    eye, up : directions, towards the eye and upwards on the picture, at right angles, world
+    centre : what stands in the middle [m]
+    scale : pixels in a metre
+    size : width and height [pixels]
+    """
+
+    eye: tuple[float, float, float]
+    up: tuple[float, float, float]
+    centre: tuple[float, float, float]
+    scale: float
+    size: tuple[int, int]
 
 
 def facet_parts(mesh: TaggedMesh) -> NDArray[np.int64]:
@@ -128,6 +149,48 @@ def draw_deformed(
     _save(plotter, path, scene or Scene(eye=(0.35, -1.0, 0.22), zoom=1.45, shift=0.12))
 
 
+def draw_motion(solids: Sequence[Solid], positions: Array, rotations: Array, view: View) -> Iterator[NDArray[np.uint8]]:
+    """Frames of bodies in motion, each (height, width, 3) uint8.
+
+    Parameters
+    ----------
+    solids : what is drawn
+    positions, rotations : (n, n_b, 3) float [m] and (n, n_b, 3, 3) float, of all bodies, body to world
+    view : where from
+    """
+    plotter = _plotter(view.size)
+    moving = []
+    for solid in solids:
+        faces = np.column_stack([np.full(len(solid.quads), 4), solid.quads]).ravel()
+        drawn, own = pv.PolyData(solid.points, faces=faces), isinstance(solid.colours, str)
+        if not own:
+            drawn.cell_data["colour"] = solid.colours
+        style = {"color": solid.colours} if own else {"scalars": "colour", "rgb": True}
+        actor = plotter.add_mesh(drawn, **style, **_MATTE)
+        if solid.body != WORLD:
+            moving.append((actor, solid.body))
+    _look(plotter, view)
+    for r, R in zip(positions, rotations, strict=True):
+        for actor, body in moving:
+            pose = np.eye(4)
+            pose[:3, :3], pose[:3, 3] = R[body], r[body]
+            actor.user_matrix = pose
+        plotter.render()
+        yield np.asarray(plotter.screenshot(return_img=True))
+    plotter.close()
+
+
+def _look(plotter: Any, view: View) -> None:
+    """Set the camera; the clipping range holds all that moves within the view."""
+    reach = max(view.size) / view.scale
+    plotter.enable_parallel_projection()
+    plotter.camera.focal_point = view.centre
+    plotter.camera.position = tuple(np.array(view.centre) + 4.0 * reach * np.array(view.eye))
+    plotter.camera.up = view.up
+    plotter.camera.parallel_scale = 0.5 * view.size[1] / view.scale
+    plotter.camera.clipping_range = (0.1 * reach, 8.0 * reach)
+
+
 def _ground(points: Array, direction_h: Array) -> pv.PolyData:
     """A slab of ground under the lowest point of the deformed wheel."""
     depth = float((points @ direction_h).max())
@@ -144,9 +207,9 @@ def _whole_width(mesh: TaggedMesh, drawn: pv.PolyData) -> pv.PolyData:
     return both
 
 
-def _plotter() -> Any:
+def _plotter(size: tuple[int, int] = _SIZE) -> Any:
     """An off-screen plotter; PyVista's decorated methods have no usable types."""
-    plotter: Any = pv.Plotter(off_screen=True, window_size=list(_SIZE), lighting="light kit")
+    plotter: Any = pv.Plotter(off_screen=True, window_size=list(size), lighting="light kit")
     plotter.set_background("white")
     plotter.enable_anti_aliasing("ssaa")
     return plotter
