@@ -1,1 +1,1 @@
-"""The companion solver of the rover: so far a multibody engine and the static radial line of the brush tire."""
+"""The companion solver of the rover: a multibody engine, the brush tire, vehicles, the rover."""

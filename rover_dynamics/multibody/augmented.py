@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.sparse import block_array, csr_array
 from scipy.sparse.linalg import splu
 
+from contracts.errors import ConvergenceError
 from rover_dynamics.multibody.assembly import ITERATIONS, POSITION_TOLERANCE, assembly, cannot_be_assembled
 from rover_dynamics.multibody.constraints import ConstraintValues
 from rover_dynamics.multibody.force import BodyMotions
@@ -115,16 +116,19 @@ class AugmentedEquations:
         return np.asarray(R @ self._inertias @ R.swapaxes(1, 2))
 
     def _solver(self, J: FloatArray, C_u: csr_array) -> Callable[[FloatArray], FloatArray]:
-        """Sparse factors of the matrix of 2.26."""
+        """Sparse factors of the matrix of 2.26; ConvergenceError where it is singular."""
         n = len(self._masses)
         blocks = np.zeros((n, 6, 6))
         blocks[:, (0, 1, 2), (0, 1, 2)] = self._masses[:, None]
         blocks[:, 3:, 3:] = J
         rows = np.broadcast_to(6 * np.arange(n)[:, None, None] + np.arange(6)[:, None], blocks.shape)
         M = csr_array((blocks.ravel(), (rows.ravel(), rows.swapaxes(1, 2).ravel())), shape=(6 * n, 6 * n))
-        if not C_u.shape[0]:
-            return splu(M.tocsc()).solve
-        return splu(block_array([[M, C_u.T], [C_u, None]], format="csc")).solve
+        matrix = block_array([[M, C_u.T], [C_u, None]], format="csc") if C_u.shape[0] else M.tocsc()
+        try:
+            return splu(matrix).solve
+        except RuntimeError as error:
+            message = "equations of motion are singular: equations have become redundant here; start elsewhere"
+            raise ConvergenceError(message, []) from error
 
 
 def applied_wrenches(model: MultibodyModel, t: float, state: State) -> FloatArray:

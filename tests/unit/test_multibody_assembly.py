@@ -8,9 +8,11 @@ import pytest
 from contracts.errors import ConvergenceError, InputError
 from rover_dynamics.multibody.assembly import assembly
 from rover_dynamics.multibody.body import Frame, body
+from rover_dynamics.multibody.formulation import AbsoluteCoordinates, packed
 from rover_dynamics.multibody.joint import Joint, JointKind, revolute
 from rover_dynamics.multibody.model import Drive, MultibodyModel
 from rover_dynamics.multibody.motion_law import Hold, Turn, UserLaw
+from rover_dynamics.multibody.state import State
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
 from rover_dynamics.multibody.verification.mechanisms import constraint_defects, n_four_bar, slider_crank
 
@@ -92,3 +94,17 @@ def test_a_hinge_between_free_bodies_needs_no_ground() -> None:
     a, b = body("a", 1.0, J), body("b", 1.0, J, (1, 0, 0))
     model = MultibodyModel(bodies=(a, b), joints=(revolute("hinge", a, b, at=(0.5, 0, 0), axis=Z),))
     assert int(TreeCoordinates(model).tree.v_at[-1]) == 7
+
+
+def test_a_position_with_one_more_freedom_is_named() -> None:
+    """Both windows folded flat: the equations that were independent upright are not any more."""
+    formulation = AbsoluteCoordinates(n_four_bar(2))
+    flat = [np.sqrt(0.5), 0.0, 0.0, -np.sqrt(0.5)]
+    cranks, couplers = [[k + 0.5, 0, 0] for k in range(3)], [[k + 1.5, 0, 0] for k in range(2)]
+    folded = State(
+        positions=np.array(cranks + couplers, dtype=np.float64),
+        orientations=np.array([flat] * 3 + [[1.0, 0, 0, 0]] * 2),
+        velocities=np.zeros((5, 6)),
+    )
+    with pytest.raises(ConvergenceError, match="equations of motion are singular"):
+        formulation.rates(0.0, packed(folded))
