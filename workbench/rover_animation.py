@@ -37,7 +37,7 @@ IntArray = NDArray[np.int64]
 Direction = tuple[float, float, float]
 
 _PAGE = Path(__file__).parent / "templates" / "animation.html"
-_FRAMES = 300
+_FRAMES = 270
 _WIDTH, _TALLEST, _BORDER = 960, 640, 12
 _QUALITY = 50
 _ASIDE = (-0.55, -1.0, 0.45)
@@ -60,7 +60,7 @@ def write_animation(
 
     Parameters
     ----------
-    motion : of the vehicle `build_rover` makes of ``design``; at most 300 of its times are drawn, evenly spread
+    motion : of the vehicle `build_rover` makes of ``design``; at most 270 of its times are drawn, evenly spread
     terrain : the ground; drawn as far as 0.25 m beyond the wheels
     path : HTML file
     title : heading of the page
