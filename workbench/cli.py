@@ -171,12 +171,13 @@ def rover(
         Path | None, typer.Option("--rover", help="Rover file (TOML); the thesis' if left out.", show_default=False)
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/rover"),
+    animate: Annotated[bool, typer.Option("--animate", help="Write a page that plays it; about a minute.")] = False,
     names: Annotated[bool, typer.Option("--list", help="Show the scenarios.")] = False,
 ) -> None:
     """One scenario of the rover: its time series, and what it ends with."""
     from workbench.command_rover import list_scenarios, run_rover
 
-    raise typer.Exit(list_scenarios() if names else run_rover(scenario, tire, rover_file, out))
+    raise typer.Exit(list_scenarios() if names else run_rover(scenario, tire, rover_file, out, animate=animate))
 
 
 @app.command()

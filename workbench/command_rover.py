@@ -13,10 +13,10 @@ from rich.table import Table
 
 from contracts.errors import InputError
 from contracts.series import write_series
-from rover_dynamics.rover.rover_file import EXOMARS_ROVER, read_rover
+from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from rover_dynamics.rover.scenarios.scenario import run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from workbench.errors import RunError
 from workbench.number_format import displayed
 from workbench.outputs import check_folder, check_targets
@@ -39,8 +39,8 @@ def list_scenarios() -> int:
     return 0
 
 
-def run_rover(name: str | None, tire: str, rover: Path | None, out: Path) -> int:
-    """Run one scenario, write its series, print what it ends with.
+def run_rover(name: str | None, tire: str, rover: Path | None, out: Path, *, animate: bool = False) -> int:
+    """Run one scenario, write its series and, if wanted, a page that plays it; print what it ends with.
 
     Raises
     ------
@@ -58,16 +58,27 @@ def run_rover(name: str | None, tire: str, rover: Path | None, out: Path) -> int
         run = run_scenario(scenario, design)
         series = scenario_series(run)
         file = f"{SERIES_FOLDER}/{series_file(series)}"
-        check_targets(out, [file])
+        page = out / f"{scenario.name}.html"
+        check_targets(out, [file, page.name] if animate else [file])
         write_series(series, out / file)
+        if animate:
+            _animate(scenario, design, run, page)
         if run.stopped is None:
             more = [part(design) for part in (scenario.study, scenario.search) if part]
             outcomes = [*scenario.judge(run), *(outcome for part in more for outcome in part)]
     if run.stopped is not None:
         raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
     _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)
-    console.print(f"series: {out / file}", highlight=False, markup=False, soft_wrap=True)
+    for what, path in [("series", out / file), *([("animation", page)] if animate else [])]:
+        console.print(f"{what}: {path}", highlight=False, markup=False, soft_wrap=True)
     return 0
+
+
+def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Path) -> None:
+    from workbench.rover_animation import write_animation
+
+    x, y, z = scenario.tilt.gravity(1.0)
+    write_animation(run.motion, design, scenario.terrain(design), page, title=scenario.title, up=(-x, -y, -z))
 
 
 def _check_tire(tire: str) -> None:

@@ -47,6 +47,14 @@ def test_a_requirement_is_shown_with_its_margin(tmp_path: Path) -> None:
     assert "met" in row
 
 
+def test_a_motion_can_be_played(tmp_path: Path) -> None:
+    ended = run("rover", "static", "--animate", "--out", tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    page = (tmp_path / "static.html").read_text(encoding="utf-8")
+    assert "static equilibrium" in page
+    assert page.count("data:image/") > 3
+
+
 def test_the_list_names_every_scenario() -> None:
     ended = run("rover", "--list")
     assert ended.returncode == 0, ended.stderr
