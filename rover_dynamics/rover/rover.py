@@ -1,6 +1,6 @@
 """The rover as a vehicle: bodies, hinges and actuators of a `RoverDesign`, standing on a terrain.
 
-Verified by tests/unit/test_rover.py and tests/verification/test_rover_loads.py.
+Verified by tests/unit/test_rover_model.py and tests/verification/test_rover_loads.py.
 """
 
 from __future__ import annotations
