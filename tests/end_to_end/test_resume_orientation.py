@@ -45,7 +45,7 @@ def killed(study: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         stderr=subprocess.DEVNULL,
     )
     start = time.monotonic()
-    while not list((folder / "store").glob("checkpoints/*.npz")):
+    while not _kept(folder):
         assert process.poll() is None, "the run ended before it could be killed"
         assert time.monotonic() - start < DEADLINE
         time.sleep(0.01)
@@ -55,7 +55,7 @@ def killed(study: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_it_goes_on_behind_its_last_increment(study: Path, killed: Path, tmp_path: Path) -> None:
-    (checkpoint,) = (p for p in (killed / "store" / "checkpoints").iterdir() if not p.name.startswith("."))
+    (checkpoint,) = _kept(killed)
     with np.load(checkpoint, allow_pickle=False) as archive:
         kept = dict(archive)
     kept["recorded/wall_s"] = kept["recorded/wall_s"] + MARK_S
@@ -66,6 +66,11 @@ def test_it_goes_on_behind_its_last_increment(study: Path, killed: Path, tmp_pat
     assert (killed / "out" / name).read_bytes() == (tmp_path / "out" / name).read_bytes()
     assert _solve_time(killed) > MARK_S > _solve_time(tmp_path)
     assert list((killed / "store" / "checkpoints").iterdir()) == []
+
+
+def _kept(folder: Path) -> list[Path]:
+    """Checkpoints of a store; files that begin with a dot are still being written."""
+    return [path for path in (folder / "store").glob("checkpoints/*.npz") if not path.name.startswith(".")]
 
 
 def _solve_time(folder: Path) -> float:
