@@ -1,4 +1,4 @@
-"""Compilation of the brush tire's loops, and the vectors they are written in.
+"""Compilation of the brush tire's loops, and the vectors they and the trees of bodies are written in.
 
 A vector is a tuple (x, y, z), which numba keeps in registers: nothing is allocated.
 """

@@ -13,6 +13,7 @@ from rover_dynamics.multibody.compiled import (
     rotation_quaternion,
 )
 from rover_dynamics.multibody.formulation import quaternion_rates
+from rover_dynamics.multibody.rows import matrix, times, times_matrix, transposed_times, turn_matrix
 
 
 def test_matrix_product_and_rotation_vector_are_scipys() -> None:
@@ -29,6 +30,16 @@ def test_matrix_product_and_rotation_vector_are_scipys() -> None:
     cross(vector, R[0], out)
     np.testing.assert_allclose(out, np.cross(vector, R[0]), atol=1e-15)
     np.testing.assert_allclose(abs(quaternion_of(R) @ p), 1.0, atol=1e-15)
+
+
+def test_matrices_in_registers_are_numpys() -> None:
+    A, B = np.random.default_rng(3).normal(size=(2, 3, 3))
+    a, b, x = matrix(np.array([A, B]), 0), matrix(np.array([A, B]), 1), (0.3, -0.5, 2.0)
+    np.testing.assert_allclose(times(a, x), A @ x, atol=1e-15)
+    np.testing.assert_allclose(transposed_times(a, x), x @ A, atol=1e-15)
+    np.testing.assert_allclose(times_matrix(a, b), A @ B, atol=1e-14)
+    axis = A[0] / np.linalg.norm(A[0])
+    np.testing.assert_allclose(turn_matrix(tuple(axis), 2.4), Rotation.from_rotvec(2.4 * axis).as_matrix(), atol=1e-15)
 
 
 def test_a_rotation_of_nothing_is_one() -> None:

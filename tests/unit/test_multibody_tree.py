@@ -10,8 +10,9 @@ from rover_dynamics.multibody.joint import cylindrical, fixed, planar, prismatic
 from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.spanning_tree import spanning_tree
 from rover_dynamics.multibody.state import State
+from rover_dynamics.multibody.tree_forces import needed_efforts
 from rover_dynamics.multibody.tree_jacobians import body_jacobian
-from rover_dynamics.multibody.tree_kernels import bias_and_mass, coordinate_rates, tree_motion
+from rover_dynamics.multibody.tree_kernels import bias_and_mass, coordinate_rates, move_tree, tree_motion
 from rover_dynamics.multibody.tree_start import joint_coordinates, zero_coordinates
 from rover_dynamics.multibody.verification.mechanisms import n_four_bar
 
@@ -94,8 +95,18 @@ def test_mass_matrix_and_bias_are_those_of_newton_and_euler() -> None:
     force = TREE.masses[:, None] * (a[:, :3] - gravity) - applied[:, :3]
     moment = np.einsum("nij,nj->ni", J, a[:, 3:]) + np.cross(w, np.einsum("nij,nj->ni", J, w)) - applied[:, 3:]
     expected_h = np.einsum("niv,ni->v", B[:, :3], force) + np.einsum("niv,ni->v", B[:, 3:], moment)
-    np.testing.assert_allclose(M, expected_M, atol=1e-11)
-    np.testing.assert_allclose(h, expected_h, atol=1e-11)
+    np.testing.assert_allclose(M, expected_M, rtol=0.0, atol=1e-12 * np.max(np.abs(expected_M)))
+    np.testing.assert_allclose(h, expected_h, rtol=0.0, atol=1e-12 * np.max(np.abs(expected_h)))
+    needed = needed_efforts(TREE, motion, V_DOT, applied, gravity)
+    expected = expected_M @ V_DOT + expected_h
+    np.testing.assert_allclose(needed, expected, rtol=0.0, atol=1e-12 * np.max(np.abs(expected)))
+
+
+def test_a_motion_written_over_another_keeps_nothing_of_it() -> None:
+    over = tree_motion(TREE, Q[::-1].copy(), V_DOT)
+    move_tree(TREE, Q, V, over)
+    for found, fresh in zip(over, tree_motion(TREE, Q, V), strict=True):
+        np.testing.assert_array_equal(found, fresh)
 
 
 def test_joint_coordinates_of_a_known_state_give_it_back() -> None:
