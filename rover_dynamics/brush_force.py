@@ -15,7 +15,7 @@ lever R: |r| by itself, the rest because F_x shifts the rim by F_x / k against t
 The power of the wrench on the hub's motion is that of spring, damper, slip and rolling resistance, and nothing else.
 
 State of a wheel: u_x, u_y [m] for each piece of terrain in turn; out of contact u fades with the retardation time, and
-over the first 0.1 mm of deflection its rate goes over into that of the contact.
+over the first 0.1 mm of deflection (``touch_depth``) its rate goes over into that of the contact.
 
 Verified by tests/verification/test_brush_drive.py and tests/unit/test_brush_force.py.
 """
@@ -50,8 +50,6 @@ __all__ = [
 FloatArray = NDArray[np.float64]
 OUTPUT_SIZE = 10
 """Outputs of a wheel: penetration, load, slip (2), patch point (3), tractive force, lateral force, 1 if beside."""
-TOUCH = 1e-4
-"""Deflection over which the bristles' rate goes over from fading to that of the contact [m]."""
 
 
 class HubMotions(NamedTuple):
@@ -162,7 +160,7 @@ def wheel_answer(
     largest = 0.0
     for k in range(contacts.shape[0]):
         u, contact = (state[2 * k], state[2 * k + 1]), contacts[k]
-        w = ramp(contact[0] / TOUCH)
+        w = ramp(contact[0] / numbers.touch_depth)
         rate = 0.0, 0.0
         if contact[0] > 0.0:
             load, rate, slip = _add_contact(motion, u, numbers, contact, result.wrench[i], result.output[i])

@@ -44,6 +44,7 @@ class BrushSettings:
         one is sigma_y = C_alpha / k_t
     contact_half_length : a, half the length of the patch, for the brush's aligning moment [m]
     retardation_time : tau of the bristles, which damps oscillations at standstill and nothing in steady rolling [s]
+    touch_depth : deflection over which the bristles' rate goes over from fading to that of the contact [m]
     standstill_speed : below it the wheel counts as standing for friction falling with slip, and the rolling
         resistance passes smoothly through zero [m/s]
 
@@ -64,9 +65,17 @@ class BrushSettings:
     contact_half_length: float = 0.03
     retardation_time: float = 0.005
     standstill_speed: float = 0.001
+    touch_depth: float = 1e-4
 
     def __post_init__(self) -> None:
-        for name in ("wheel_radius", "wheel_width", "damping_ramp", "relaxation_length", "contact_half_length"):
+        for name in (
+            "wheel_radius",
+            "wheel_width",
+            "damping_ramp",
+            "relaxation_length",
+            "contact_half_length",
+            "touch_depth",
+        ):
             _positive(name, getattr(self, name), "m")
         _positive("retardation_time", self.retardation_time, "s")
         _positive("standstill_speed", self.standstill_speed, "m/s")
@@ -92,6 +101,7 @@ class WheelNumbers(NamedTuple):
     half_length: float
     retardation_time: float
     standstill_speed: float
+    touch_depth: float
     law: float
 
 
@@ -116,6 +126,7 @@ def wheel_numbers(parameters: BrushTireParameters, settings: BrushSettings) -> W
         half_length=settings.contact_half_length,
         retardation_time=settings.retardation_time,
         standstill_speed=settings.standstill_speed,
+        touch_depth=settings.touch_depth,
         law=float(settings.slip_law),
     )
 
