@@ -37,5 +37,6 @@ def check_covered(terrain: Terrain, path: NDArray[np.float64], margin: float = 0
         beside = np.any((places < low + margin - 1e-9) | (places > high - margin + 1e-9), axis=1)
         if beside.any():
             x, y = places[beside][0]
-            rule = f"must lie {margin:g} m inside the terrain, x {low[0]:g}..{high[0]:g} m, y {low[1]:g}..{high[1]:g} m"
+            (left, right), (near, far) = ((f"{end:.9g}" for end in ends) for ends in zip(low, high, strict=True))
+            rule = f"must lie {margin:g} m inside the terrain, x {left}..{right} m, y {near}..{far} m"
             raise InputError("path", f"x, y = {x:g}, {y:g} m", rule, "give a larger field or another start")

@@ -166,18 +166,33 @@ def rover(
     scenario: Annotated[
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)
     ] = None,
-    tire: Annotated[str, typer.Option(help="brush; rigid and ancf are to come.")] = "brush",
+    tire: Annotated[str, typer.Option(help="brush or rigid; ancf is to come.")] = "brush",
     rover_file: Annotated[
         Path | None, typer.Option("--rover", help="Rover file (TOML); the thesis' if left out.", show_default=False)
     ] = None,
+    gravity: Annotated[
+        str | None, typer.Option(help="mars or earth; the rover file's if left out.", show_default=False)
+    ] = None,
+    terrain: Annotated[
+        Path | None,
+        typer.Option(help="Height field to drive on (.npz, .tif), in metres, x ahead.", show_default=False),
+    ] = None,
+    start: Annotated[
+        tuple[float, float] | None,
+        typer.Option(help="Where on the height field the rover starts, x y [m]; 0 0 if left out.", show_default=False),
+    ] = None,
+    rocks: Annotated[int | None, typer.Option(help="Seed of random rocks to drive on.", show_default=False)] = None,
     out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/rover"),
     animate: Annotated[bool, typer.Option("--animate", help="Write a page that plays it; about a minute.")] = False,
     names: Annotated[bool, typer.Option("--list", help="Show the scenarios.")] = False,
 ) -> None:
     """One scenario of the rover: its time series, and what it ends with."""
-    from workbench.command_rover import list_scenarios, run_rover
+    from workbench.command_rover import RoverChoices, list_scenarios, run_rover
 
-    raise typer.Exit(list_scenarios() if names else run_rover(scenario, tire, rover_file, out, animate=animate))
+    choices = RoverChoices(
+        tire=tire, rover=rover_file, gravity=gravity, terrain=terrain, start=start, rocks=rocks, animate=animate
+    )
+    raise typer.Exit(list_scenarios() if names else run_rover(scenario, out, choices))
 
 
 @app.command()

@@ -1,4 +1,4 @@
-"""``workbench rover``: one scenario of the rover, its series and a short table.
+"""``workbench rover``: one scenario of the rover on the tires and the ground asked for, its series, a short table.
 
 Verified by tests/end_to_end/test_rover.py.
 """
@@ -6,6 +6,7 @@ Verified by tests/end_to_end/test_rover.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rich.console import Console
@@ -13,8 +14,9 @@ from rich.table import Table
 
 from contracts.errors import InputError
 from contracts.series import write_series
-from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, read_rover
+from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, gravity_named, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
+from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from workbench.errors import RunError
@@ -22,7 +24,7 @@ from workbench.number_format import displayed
 from workbench.outputs import check_folder, check_targets
 from workbench.series import SERIES_FOLDER, series_file
 
-__all__ = ["list_scenarios", "run_rover"]
+__all__ = ["RoverChoices", "list_scenarios", "run_rover"]
 
 console = Console()
 _TIRES = ("rigid", "brush", "ancf")
@@ -39,37 +41,58 @@ def list_scenarios() -> int:
     return 0
 
 
-def run_rover(name: str | None, tire: str, rover: Path | None, out: Path, *, animate: bool = False) -> int:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoverChoices:
+    """What a user may choose beside the scenario.
+
+    Attributes
+    ----------
+    tire : brush or rigid
+    rover : rover file, or None for the thesis' rover
+    gravity : mars or earth, or None for the rover file's
+    terrain : file of a height field to drive on, or None
+    start : where on it the rover starts, x and y in the file's coordinates [m]; None for its origin
+    rocks : seed of random rocks to drive on, or None
+    animate : whether to write a page that plays the motion
+    """
+
+    tire: str = "brush"
+    rover: Path | None = None
+    gravity: str | None = None
+    terrain: Path | None = None
+    start: tuple[float, float] | None = None
+    rocks: int | None = None
+    animate: bool = False
+
+
+def run_rover(name: str | None, out: Path, choices: RoverChoices) -> int:
     """Run one scenario, write its series and, if wanted, a page that plays it; print what it ends with.
 
     Raises
     ------
     InputError
-        For a scenario, tire or rover that cannot be used.
+        For a scenario, tire, rover or ground that cannot be used.
     RunError
         If the motion stops early; its series is written, marked partial.
     """
-    _check_tire(tire)
-    if name is None:
-        raise InputError("scenario", "nothing", "is missing", f"give one of {', '.join(SCENARIOS)}")
-    scenario, design = scenario_named(name), read_rover(rover or EXOMARS_ROVER)
+    scenario, design = _chosen(name, choices)
     check_folder(out)
     with console.status(f"{scenario.name}: {scenario.title}"):
         run = run_scenario(scenario, design)
         series = scenario_series(run)
         file = f"{SERIES_FOLDER}/{series_file(series)}"
         page = out / f"{scenario.name}.html"
-        check_targets(out, [file, page.name] if animate else [file])
+        check_targets(out, [file, page.name] if choices.animate else [file])
         write_series(series, out / file)
-        if animate:
+        if choices.animate:
             _animate(scenario, design, run, page)
         if run.stopped is None:
-            more = [part(design) for part in (scenario.study, scenario.search) if part]
+            more = [part(scenario, design) for part in (scenario.study, scenario.search) if part]
             outcomes = [*scenario.judge(run), *(outcome for part in more for outcome in part)]
     if run.stopped is not None:
         raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
     _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)
-    for what, path in [("series", out / file), *([("animation", page)] if animate else [])]:
+    for what, path in [("series", out / file), *([("animation", page)] if choices.animate else [])]:
         console.print(f"{what}: {path}", highlight=False, markup=False, soft_wrap=True)
     return 0
 
@@ -81,11 +104,43 @@ def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Pa
     write_animation(run.motion, design, scenario.terrain(design), page, title=scenario.title, up=(-x, -y, -z))
 
 
+def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDesign]:
+    """The scenario with the tires and on the ground asked for, and the rover."""
+    _check_tire(choices.tire)
+    if name is None:
+        raise InputError("scenario", "nothing", "is missing", f"give one of {', '.join(SCENARIOS)}")
+    scenario, design = scenario_named(name), read_rover(choices.rover or EXOMARS_ROVER)
+    if choices.gravity is not None:
+        design = replace(design, gravity=gravity_named(choices.gravity))
+    if choices.tire == "rigid":
+        scenario = on_rigid_tires(scenario)
+    return _on_ground(scenario, design, choices), design
+
+
+def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -> Scenario:
+    if choices.terrain is not None and choices.rocks is not None:
+        raise InputError("terrain", f"{choices.terrain} and rocks", "are two grounds", "give --terrain or --rocks")
+    if choices.start is not None and choices.terrain is None:
+        raise InputError(
+            "start", f"{choices.start} m", "is a place on a height field", "give --terrain, or leave it out"
+        )
+    if choices.rocks is not None:
+        rocks = rocks_on_the_way(scenario, design, choices.rocks)
+        return on_terrain(scenario, design, rocks, f"random rocks, seed {choices.rocks}")
+    if choices.terrain is None:
+        return scenario
+    from workbench.terrain_file import read_height_field
+
+    field = read_height_field(choices.terrain)
+    x, y = (place - begin for place, begin in zip(field.origin, choices.start or (0.0, 0.0), strict=True))
+    return on_terrain(scenario, design, replace(field, origin=(x, y)), choices.terrain.name)
+
+
 def _check_tire(tire: str) -> None:
     if tire not in _TIRES:
-        raise InputError("tire", repr(tire), "is not known", "give brush")
-    if tire != "brush":
-        raise InputError("tire", repr(tire), "does not carry the rover in this version", "give brush")
+        raise InputError("tire", repr(tire), "is not known", "give brush or rigid")
+    if tire == "ancf":
+        raise InputError("tire", repr(tire), "does not carry the rover in this version", "give brush or rigid")
 
 
 def _print_outcomes(title: str, outcomes: Sequence[Outcome]) -> None:

@@ -26,6 +26,6 @@ def drive_rover(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path,
     run = run_scenario(scenario, design)
     progress(0.5)
     write_series(scenario_series(run), out / "series.csv")
-    outcomes = () if run.stopped else scenario.judge(run) + (scenario.study(design) if scenario.study else ())
+    outcomes = () if run.stopped else scenario.judge(run) + (scenario.study(scenario, design) if scenario.study else ())
     write_result(out, {"outcomes": [asdict(outcome) for outcome in outcomes], FAILURE: run.stopped})
     return 6 * len(run.motion.positions[0])

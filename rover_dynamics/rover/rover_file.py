@@ -15,11 +15,23 @@ import numpy as np
 
 from contracts.errors import InputError
 
-__all__ = ["EXOMARS_ROVER", "SIDES", "BodyRow", "Leg", "PivotRow", "RoverDesign", "read_rover"]
+__all__ = [
+    "EXOMARS_ROVER",
+    "GRAVITIES",
+    "SIDES",
+    "BodyRow",
+    "Leg",
+    "PivotRow",
+    "RoverDesign",
+    "gravity_named",
+    "read_rover",
+]
 
 EXOMARS_ROVER = Path(__file__).with_name("exomars_rover.toml")
 SIDES = {"left": 1.0, "right": -1.0}
 """Sign of y on each side."""
+GRAVITIES = {"mars": 3.711, "earth": 9.81}
+"""[m/s^2]."""
 _LEG_BODIES = ("arm", "spindle", "wheel")
 
 
@@ -89,6 +101,13 @@ class RoverDesign:
         return sum(body.mass for body in self.bodies) + len(self.legs) * sum(body.mass for body in self.leg_bodies)
 
 
+def gravity_named(name: str, what: str = "gravity") -> float:
+    """Gravity of a planet [m/s^2]; raises InputError for one that is not known."""
+    if name not in GRAVITIES:
+        raise InputError(what, repr(name), "is not known", f"give {' or '.join(GRAVITIES)}")
+    return GRAVITIES[name]
+
+
 def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
     """Read a rover's file.
 
@@ -107,7 +126,7 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
     wheel, legs = rover.table("wheel"), rover.rows("legs")
     design = RoverDesign(
         name=rover.word("name"),
-        gravity=rover.number("gravity"),
+        gravity=rover.gravity("gravity"),
         wheel_radius=wheel.number("radius"),
         wheel_width=wheel.number("width"),
         bodies=tuple(body for row in rover.rows("bodies") for body in _bodies(row)),
@@ -140,6 +159,14 @@ class _Reader:
         value = float(self.get(key, (int, float), "a number"))
         if not np.isfinite(value):
             raise InputError(f"{self.place}: {key}", value, "must be finite", "give a number")
+        return value
+
+    def gravity(self, key: str) -> float:
+        if isinstance(self.content.get(key), str):
+            return gravity_named(self.word(key), f"{self.place}: {key}")
+        value = self.number(key)
+        if value <= 0.0:
+            raise InputError(f"{self.place}: {key}", f"{value:g} m/s^2", "must be > 0", "give e.g. 3.711 or 'mars'")
         return value
 
     def word(self, key: str) -> str:

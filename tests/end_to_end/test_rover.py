@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from contracts.series import read_series
@@ -21,6 +22,39 @@ def test_the_drop_writes_its_series_and_names_both_damper_laws(tmp_path: Path) -
     assert series["rear_left_load_N"][0] == 0.0
     assert 1000.0 < series["rear_left_load_N"].max() < 1200.0
     assert "Figs 18, 19" in series.source
+
+
+def test_a_drive_over_a_terrain_of_ones_own(tmp_path: Path) -> None:
+    """A ramp of 5 degrees from a file in a map's coordinates, on rigid tires; what does not carry the path is said."""
+    x = np.arange(0.0, 4.01, 0.05)
+    heights = np.repeat(np.tan(np.radians(5.0)) * x[:, None], 60, axis=1)
+    np.savez(tmp_path / "ramp.npz", heights=heights, spacing=(0.05, 0.05), origin=(5000.0, 300.0))
+    drive = ("rover", "straight", "--terrain", tmp_path / "ramp.npz", "--out", tmp_path)
+    ended = run(*drive, "--start", "5001", "301.5", "--tire", "rigid")
+    assert ended.returncode == 0, ended.stderr
+    series = read_series(tmp_path / "series" / "straight_rigid.csv", "straight", "rigid")
+    way = np.array([series[f"body_{axis}_m"][-1] - series[f"body_{axis}_m"][0] for axis in "xyz"])
+    assert way[2] / way[0] == pytest.approx(np.tan(np.radians(5.0)), rel=1e-3)
+    slip = 320.0 * 3.711 * np.sin(np.radians(5.0)) / (6.0 * 8250.0)
+    assert np.linalg.norm(way) == pytest.approx((1.0 - slip) * 35.0 * 70.0 / 3600.0, rel=5e-4)
+    beside = run(*drive)
+    assert (beside.returncode, beside.stderr.count("\n")) == (2, 1)
+    assert "must lie 0.1425 m inside the terrain, x 5000..5004 m" in beside.stderr
+    heights[3, 3] = np.nan
+    np.savez(tmp_path / "ramp.npz", heights=heights, spacing=(0.05, 0.05))
+    gap = run(*drive)
+    assert (gap.returncode, gap.stderr.count("\n")) == (2, 1)
+    assert "NaN" in gap.stderr
+
+
+def test_rocks_and_gravity_by_name(tmp_path: Path) -> None:
+    ended = run("rover", "straight", "--rocks", "1", "--gravity", "earth", "--out", tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert "random rocks, seed 1" in " ".join(ended.stdout.split())
+    series = read_series(tmp_path / "series" / "straight_brush.csv", "straight", "brush")
+    loads = [series[f"{end}_{side}_load_N"] for end in ("front", "center", "rear") for side in ("left", "right")]
+    assert np.sum(loads, axis=0).mean() == pytest.approx(320.0 * 9.81, rel=0.01)
+    assert np.ptp(loads) > 100.0
 
 
 def test_traction_of_a_rover_of_ones_own_beside_an_earlier_series(tmp_path: Path) -> None:
@@ -70,6 +104,12 @@ def test_the_list_names_every_scenario() -> None:
         (["drop", "--tire", "ancf"], "does not carry the rover"),
         (["drop", "--tire", "rubber"], "'rubber': is not known"),
         (["drop", "--rover", "none.toml"], "none.toml: cannot be read"),
+        (["drop", "--gravity", "moon"], "'moon': is not known; give mars or earth"),
+        (["straight", "--terrain", "none.npz"], "none.npz: does not exist"),
+        (["straight", "--terrain", "none.npz", "--rocks", "1"], "two grounds"),
+        (["straight", "--rocks", "-1"], "rock seed = -1"),
+        (["straight", "--start", "1", "1"], "start = (1.0, 1.0) m"),
+        (["step", "--rocks", "1"], "has a ground of its own"),
     ],
 )
 def test_bad_input_is_one_message(tmp_path: Path, arguments: list[str], text: str) -> None:

@@ -32,7 +32,7 @@ def test_mirrored_rows_stand_on_both_sides() -> None:
     ("old", "new", "words"),
     [
         ("gravity = 3.711", "", "gravity = nothing: is missing"),
-        ("gravity = 3.711", "gravity = 'Mars'", "gravity = Mars: must be a number"),
+        ("gravity = 3.711", "gravity = 'Moon'", "gravity = 'Moon': is not known; give mars or earth"),
         ("gravity = 3.711", "gravity = nan", "must be finite"),
         ("gravity = 3.711", "gravity = true", "must be a number"),
         ("gravity = 3.711", "gravity = 3.711\ngravitation = 1", "gravitation = 1: is not a known key"),
@@ -65,3 +65,14 @@ def test_rows_must_be_tables(tmp_path: Path) -> None:
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot be read"):
         read_rover(tmp_path / "none.toml")
+
+
+def test_gravity_may_be_a_planet(tmp_path: Path) -> None:
+    text = EXOMARS_ROVER.read_text(encoding="utf-8")
+    for value, gravity in (('"earth"', 9.81), ('"mars"', 3.711), ("1.62", 1.62)):
+        (tmp_path / "rover.toml").write_text(text.replace("gravity = 3.711", f"gravity = {value}"), encoding="utf-8")
+        assert read_rover(tmp_path / "rover.toml").gravity == gravity
+    for value, words in (('"moon"', "give mars or earth"), ("0.0", "must be > 0"), ("-3.7", "must be > 0")):
+        (tmp_path / "rover.toml").write_text(text.replace("gravity = 3.711", f"gravity = {value}"), encoding="utf-8")
+        with pytest.raises(InputError, match=words):
+            read_rover(tmp_path / "rover.toml")

@@ -95,10 +95,10 @@ def test_bisections_find_a_known_edge(design: RoverDesign) -> None:
     assert 0.29 < largest_passed(lambda x: x < 0.3, 0.0, 1.0, 0.01) < 0.3
     assert largest_passed(lambda x: x < 2.0, 0.0, 1.0, 0.01) == 1.0
 
-    def fails(_: RoverDesign, tilt: float, heading: float) -> bool:
+    def fails(_: object, __: RoverDesign, tilt: float, heading: float) -> bool:
         return tilt > 50.0 - 10.0 * (heading == 135.0)
 
-    tilt, heading = smallest_tilt(design, fails)
+    tilt, heading = smallest_tilt(SCENARIOS["stability"], design, fails)
     assert heading == 135.0
     assert 39.75 <= tilt <= 40.0
 
@@ -120,7 +120,7 @@ def test_a_motion_whose_numbers_overflow_is_one_message(design: RoverDesign, mon
     monkeypatch.setattr("rover_dynamics.rover.scenarios.scenario.drive_vehicle", overflow)
     with pytest.raises(ConvergenceError, match="scenario drop cannot be followed"):
         run_scenario(SCENARIOS["drop"], design)
-    assert overturned(design, 40.0, 0.0)
+    assert overturned(SCENARIOS["stability"], design, 40.0, 0.0)
 
 
 def test_nothing_falls_at_the_start(design: RoverDesign) -> None:

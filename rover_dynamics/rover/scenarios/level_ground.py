@@ -6,22 +6,25 @@ Verified by tests/unit/test_rover_scenarios.py and tests/verification/test_rover
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contracts.errors import InputError
-from rover_dynamics.brush_settings import BrushSettings, DamperLaw
+from rover_dynamics.brush_settings import DamperLaw
 from rover_dynamics.brush_tire import THESIS_BRUSH
 from rover_dynamics.multibody.motion_law import Hold, MotionLaw, SpeedTrapezoid
 from rover_dynamics.rover.rover import Actuators
-from rover_dynamics.rover.rover_file import RoverDesign
+from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import SAMPLED, Scenario, ScenarioRun, mean_static_load, run_scenario
 
-__all__ = ["LEVEL_GROUND", "SPEED", "all_drives", "drive_forward"]
+__all__ = ["LEVEL_GROUND", "SPEED", "all_drives", "drive_forward", "straight_ahead"]
 
+FloatArray = NDArray[np.float64]
 SPEED = 70.0 / 3600.0
 """70 m/h [m/s]."""
 OBSERVED = "front_right"
@@ -32,7 +35,7 @@ OFFSETS = (
     (0.10, 206.2, 181.3),
     (0.14, 215.0, 163.7),
 )
-"""Centre of mass ahead of the principal body's frame [m]; load of a front or centre wheel and of a rear wheel [N].
+"""Centre of mass ahead of the principal body's frame [m]; load on Mars of a front or centre, and of a rear wheel [N].
 
 Statics of the rover on rigid wheels; the tires' deflection pitches the rover and shifts its weight further.
 """
@@ -54,6 +57,16 @@ def drive_forward(design: RoverDesign, ends: float = float("inf"), ramp: float =
     return all_drives(design, law)
 
 
+def straight_ahead(way: float) -> Callable[[RoverDesign], FloatArray]:
+    """Of a design, the places of its wheels at the start and ``way`` [m] ahead, (n, 2) [m]."""
+
+    def places(design: RoverDesign) -> FloatArray:
+        start = np.array([leg.drive[:2] for leg in design.legs])
+        return np.concatenate([start, start + np.array([way, 0.0])])
+
+    return places
+
+
 def _mean_load(run: ScenarioRun) -> Outcome:
     reference = mean_static_load(run.design)
     value = float(run.loads[-1].mean())
@@ -68,17 +81,21 @@ def _static(run: ScenarioRun) -> tuple[Outcome, ...]:
     return (_mean_load(run), *each, Outcome(quantity="deflection", value=float(run.deflections[-1].mean()), unit="m"))
 
 
-def _loads_against_offset(design: RoverDesign) -> tuple[Outcome, ...]:
-    """Wheel loads with the principal body's centre of mass moved, wheels free."""
-    found = []
+def _loads_against_offset(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
+    """Wheel loads with the principal body's centre of mass moved, wheels free; references for the rover that ships."""
+    shipped, found = read_rover(), []
+    same = replace(design, name=shipped.name, gravity=shipped.gravity) == shipped
+    scale = design.gravity / shipped.gravity
     for offset, front, rear in OFFSETS:
-        run = run_scenario(replace(STATIC, settles=8.0, lasts=0.1), _with_offset(design, offset))
+        run = run_scenario(replace(scenario, settles=8.0, lasts=0.1), _with_offset(design, offset))
         for end, reference in (("front", front), ("center", front), ("rear", rear)):
             at = [k for k, leg in enumerate(design.legs) if leg.name.startswith(end)]
             if at:
                 value = float(run.loads[-1, at].mean())
                 text = f"load of a {end} wheel, centre of mass {1e3 * offset:g} mm ahead of the frame"
-                found.append(Outcome(quantity=text, value=value, unit="N", reference=reference))
+                found.append(
+                    Outcome(quantity=text, value=value, unit="N", reference=scale * reference if same else None)
+                )
     return tuple(found)
 
 
@@ -109,9 +126,9 @@ def _drop(run: ScenarioRun) -> tuple[Outcome, ...]:
     )
 
 
-def _drop_as_printed(design: RoverDesign) -> tuple[Outcome, ...]:
-    settings = BrushSettings(damper_law=DamperLaw.AS_PRINTED)
-    return _drop(run_scenario(replace(DROP, settings=settings, study=None), design))
+def _drop_as_printed(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
+    settings = replace(scenario.settings, damper_law=DamperLaw.AS_PRINTED)
+    return _drop(run_scenario(replace(scenario, settings=settings), design))
 
 
 def _sweep(run: ScenarioRun) -> tuple[Outcome, ...]:
@@ -124,9 +141,9 @@ def _sweep(run: ScenarioRun) -> tuple[Outcome, ...]:
     return tuple(found)
 
 
-def _sweep_of_gravity(design: RoverDesign) -> ScenarioRun:
+def _sweep_of_gravity(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
     """Gravity scaled to each mean wheel load; one sample for each, at the end of its settling."""
-    single = replace(LOAD_SWEEP, composed=None)
+    single = replace(scenario, composed=None)
     runs = [
         run_scenario(single, replace(design, gravity=design.gravity * load / mean_static_load(design)))
         for load in SWEEP
@@ -134,7 +151,7 @@ def _sweep_of_gravity(design: RoverDesign) -> ScenarioRun:
     kept: dict[str, Any] = {name: np.concatenate([getattr(run.motion, name)[-1:] for run in runs]) for name in SAMPLED}
     kept["times"] = (single.settles + single.lasts) * np.arange(1.0, len(runs) + 1.0)
     stopped = next((run.stopped for run in runs if run.stopped), None)
-    return ScenarioRun(scenario=LOAD_SWEEP, design=design, motion=replace(runs[-1].motion, **kept), stopped=stopped)
+    return ScenarioRun(scenario=scenario, design=design, motion=replace(runs[-1].motion, **kept), stopped=stopped)
 
 
 def _straight(run: ScenarioRun) -> tuple[Outcome, ...]:
@@ -217,6 +234,7 @@ STRAIGHT = Scenario(
     lasts=40.0,
     every=0.1,
     actuators=lambda design: drive_forward(design, ends=40.0),
+    path=straight_ahead(35.0 * SPEED),
     judge=_straight,
 )
 TRACTION = Scenario(
@@ -225,6 +243,7 @@ TRACTION = Scenario(
     source="Fig. 25",
     lasts=10.0,
     actuators=_torques,
+    path=straight_ahead(20.0),
     tire=replace(THESIS_BRUSH, friction_min=0.6, friction_max=0.6),
     judge=_traction,
 )

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -93,13 +94,14 @@ def crevasse(width: float) -> Scenario:
 
 
 def _largest(
-    design: RoverDesign, make: Callable[[float], Scenario], quantity: str, limit: float
+    scenario: Scenario, design: RoverDesign, *, make: Callable[[float], Scenario], quantity: str, limit: float
 ) -> tuple[Outcome, ...]:
     """The largest obstacle that is passed, by bisection from 10 to 490 mm, to 16 mm."""
 
     def passes(size: float) -> bool:
         try:
-            run = run_scenario(make(size), design)
+            sized = make(size)
+            run = run_scenario(replace(scenario, terrain=sized.terrain, judge=sized.judge), design)
         except ConvergenceError:
             return False
         return run.stopped is None and all(outcome.met is not False for outcome in run.scenario.judge(run))

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from rover_dynamics.multibody.motion_law import SpeedTrapezoid, Turn
@@ -23,6 +24,7 @@ from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun
 
 __all__ = ["POINT_TURN", "tangents", "turn_actuators"]
 
+FloatArray = NDArray[np.float64]
 ANGLE = 0.5 * math.pi
 STEERS, PAUSES, RAMP = 10.0, 2.0, 5.0
 """Durations of steering, of standing behind it, of each change of speed [s]."""
@@ -70,6 +72,12 @@ def turn_actuators(design: RoverDesign) -> Actuators:
     return Actuators(laws=laws)
 
 
+def _circle(design: RoverDesign) -> FloatArray:
+    """Corners of the square about the circle of the outermost wheels."""
+    reach = max(abs(distance) for _, distance in tangents(design).values())
+    return np.array(_centre(design)) + reach * np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)])
+
+
 def _judge(run: ScenarioRun) -> tuple[Outcome, ...]:
     R = run.motion.rotations[:, 0]
     yaw = np.unwrap(np.arctan2(R[:, 1, 0], R[:, 0, 0]))
@@ -92,5 +100,6 @@ POINT_TURN = Scenario(
     lasts=100.0,
     every=0.2,
     actuators=turn_actuators,
+    path=_circle,
     judge=_judge,
 )

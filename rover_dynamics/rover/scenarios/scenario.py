@@ -29,7 +29,7 @@ from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 __all__ = ["SAMPLED", "Judge", "Scenario", "ScenarioRun", "Tilt", "mean_static_load", "run_scenario", "scenario_series"]
 
 FloatArray = NDArray[np.float64]
-_PENETRATION, _LOAD, _TRACTIVE, _LATERAL = 0, 1, 7, 8
+_PENETRATION, _LOAD, _PATCH, _TRACTIVE, _LATERAL, _BESIDE = 0, 1, 4, 7, 8, 9
 """Columns of `rover_dynamics.brush_force.OUTPUT_SIZE`."""
 
 
@@ -97,7 +97,7 @@ class ScenarioRun:
 SAMPLED = ("times", "positions", "rotations", "velocities", "tires", "wrenches", "efforts")
 """Arrays of a `VehicleMotion` with one row for each time."""
 Judge = Callable[[ScenarioRun], tuple[Outcome, ...]]
-Study = Callable[[RoverDesign], tuple[Outcome, ...]]
+Study = Callable[["Scenario", RoverDesign], tuple[Outcome, ...]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,6 +117,8 @@ class Scenario:
     actuators, terrain : of a rover's design
     tilt : of gravity
     tire, settings : of all wheels
+    tire_model : what series and files call them
+    path : places (n, 2) [m] the wheels are to reach, or None for a scenario that has a ground of its own
     study : more outcomes by more runs, a few seconds, or None
     search : how far the requirement could be raised, by bisection (up to a minute), or None
     composed : makes the run out of several, or None
@@ -136,9 +138,11 @@ class Scenario:
     tilt: Tilt = field(default_factory=Tilt)
     tire: BrushTireParameters = THESIS_BRUSH
     settings: BrushSettings = field(default_factory=BrushSettings)
+    tire_model: str = "brush"
+    path: Callable[[RoverDesign], FloatArray] | None = None
     study: Study | None = None
     search: Study | None = None
-    composed: Callable[[RoverDesign], ScenarioRun] | None = None
+    composed: Callable[[Scenario, RoverDesign], ScenarioRun] | None = None
 
     def __post_init__(self) -> None:
         for what, value in (("duration", self.lasts), ("spacing of samples", self.every)):
@@ -187,9 +191,11 @@ def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
     ------
     ConvergenceError
         If it stops before time zero, or its numbers overflow.
+    InputError
+        If a wheel leaves the terrain's height field.
     """
     if scenario.composed is not None:
-        return scenario.composed(design)
+        return scenario.composed(scenario, design)
     times, stopped = scenario.times(), None
     try:
         motion = drive_vehicle(scenario.vehicle(design), times)
@@ -200,9 +206,20 @@ def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
     except np.linalg.LinAlgError as error:  # a fall whose numbers overflow within a step
         message = f"motion of scenario {scenario.name} cannot be followed: a step's numbers overflow, as in a fall"
         raise ConvergenceError(message, []) from error
+    _check_covered(motion)
     begin = int(np.searchsorted(motion.times, 0.0))
     kept = {name: getattr(motion, name)[begin:] for name in SAMPLED}
     return ScenarioRun(scenario=scenario, design=design, motion=replace(motion, **kept), stopped=stopped)
+
+
+def _check_covered(motion: VehicleMotion) -> None:
+    """Refuse a motion in which a hub came to lie beside the terrain's height field."""
+    times, wheels = np.nonzero(motion.tires[:, :, _BESIDE])
+    if times.size:
+        x, y = motion.tires[times[0], wheels[0], _PATCH : _PATCH + 2]
+        place, when = f"x, y = {x:g}, {y:g} m", motion.times[times[0]]
+        rule = f"lies beside the terrain, which the rover left by t = {when:g} s"
+        raise InputError("path", place, rule, "give a larger field or another start")
 
 
 def scenario_series(run: ScenarioRun) -> TimeSeries:
@@ -218,10 +235,10 @@ def scenario_series(run: ScenarioRun) -> TimeSeries:
         columns[f"{leg.name}_lateral_N"] = outputs[:, _LATERAL]
     return TimeSeries(
         scenario=run.scenario.name,
-        tire="brush",
+        tire=run.scenario.tire_model,
         time=run.motion.times,
         columns=columns,
-        source=f"{run.design.name}: {run.scenario.title} ({run.scenario.source}); brush tire; x forward, y left, "
-        "z normal to the ground, world; tractive and lateral forces of the ground on the wheel",
+        source=f"{run.design.name}: {run.scenario.title} ({run.scenario.source}); {run.scenario.tire_model} tire; "
+        "x forward, y left, z normal to the ground, world; tractive and lateral forces of the ground on the wheel",
         partial=run.stopped is not None,
     )

@@ -17,7 +17,7 @@ import numpy as np
 
 from contracts.errors import ConvergenceError
 from rover_dynamics.rover.rover_file import RoverDesign
-from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward
+from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward, straight_ahead
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, run_scenario
 
@@ -87,16 +87,17 @@ def _steepest(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
 
 
 def _slope(name: str, words: str, heading: float) -> Scenario:
-    scenario = Scenario(
+    return Scenario(
         name=f"slope_{name}",
         title=f"slope of 25 degrees {words} at 70 m/h, as tilted gravity",
         source="mission requirements, section 1",
         lasts=20.0,
         actuators=drive_forward,
+        path=straight_ahead(20.0 * SPEED),
         tilt=Tilt(angle=REQUIRED, heading=heading),
         judge=_judge,
+        search=_steepest,
     )
-    return replace(scenario, search=lambda design: _steepest(scenario, design))
 
 
 SLOPES = (

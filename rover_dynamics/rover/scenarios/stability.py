@@ -26,7 +26,7 @@ from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt,
 
 __all__ = ["DIRECTIONS", "STABILITY", "overturned", "smallest_tilt", "wheel_lifted"]
 
-Fails = Callable[[RoverDesign, float, float], bool]
+Fails = Callable[[Scenario, RoverDesign, float, float], bool]
 REQUIRED, STEEPEST, WIDTH = 40.0, 60.0, 0.25
 """Required tilt, end of the search, and its accuracy [deg]."""
 DIRECTIONS = 24
@@ -34,41 +34,41 @@ OVERTURNED = math.radians(20.0)
 """Lean of the body against the ground at which the rover counts as overturned; its tires alone allow some 5 degrees."""
 
 
-def _settled(design: RoverDesign, degrees: float, heading: float) -> ScenarioRun | None:
+def _settled(scenario: Scenario, design: RoverDesign, degrees: float, heading: float) -> ScenarioRun | None:
     """The rover after 8 s on a tilt; None if its motion cannot be followed, as in a fall."""
     tilt = Tilt(angle=math.radians(degrees), heading=math.radians(heading))
     try:
-        run = run_scenario(replace(STABILITY, tilt=tilt, lasts=0.1, every=0.1), design)
+        run = run_scenario(replace(scenario, tilt=tilt, lasts=0.1, every=0.1), design)
     except ConvergenceError:
         return None
     return None if run.stopped else run
 
 
-def overturned(design: RoverDesign, degrees: float, heading: float) -> bool:
+def overturned(scenario: Scenario, design: RoverDesign, degrees: float, heading: float) -> bool:
     """Whether the rover falls within 8 s on a tilt towards a heading [deg]."""
-    run = _settled(design, degrees, heading)
+    run = _settled(scenario, design, degrees, heading)
     return run is None or bool(run.lean[-1] > OVERTURNED)
 
 
-def wheel_lifted(design: RoverDesign, degrees: float, heading: float) -> bool:
+def wheel_lifted(scenario: Scenario, design: RoverDesign, degrees: float, heading: float) -> bool:
     """Whether a wheel carries nothing after 8 s on a tilt towards a heading [deg]."""
-    run = _settled(design, degrees, heading)
+    run = _settled(scenario, design, degrees, heading)
     return run is None or bool(run.loads[-1].min() <= 0.0)
 
 
-def smallest_tilt(design: RoverDesign, fails: Fails) -> tuple[float, float]:
+def smallest_tilt(scenario: Scenario, design: RoverDesign, fails: Fails) -> tuple[float, float]:
     """Smallest tilt at which ``fails`` in any direction, from below, and that direction [deg].
 
     A direction that holds at the smallest tilt so far needs no search of its own.
     """
     smallest, worst = STEEPEST, 0.0
     for heading in _headings():
-        if not fails(design, smallest, heading):
+        if not fails(scenario, design, smallest, heading):
             continue
         low, high = 0.0, smallest
         while high - low > WIDTH:
             middle = 0.5 * (low + high)
-            low, high = (low, middle) if fails(design, middle, heading) else (middle, high)
+            low, high = (low, middle) if fails(scenario, design, middle, heading) else (middle, high)
         smallest, worst = low, heading
     return smallest, worst
 
@@ -85,9 +85,9 @@ def _headings() -> list[float]:
     return [float(heading) for heading in np.arange(DIRECTIONS) * (360.0 / DIRECTIONS)]
 
 
-def _at_the_required_tilt(design: RoverDesign) -> tuple[Outcome, ...]:
+def _at_the_required_tilt(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
     """In how many directions it fails at 40 degrees."""
-    runs = [_settled(design, REQUIRED, heading) for heading in _headings()]
+    runs = [_settled(scenario, design, REQUIRED, heading) for heading in _headings()]
     lifted = sum(run is None or bool(run.loads[-1].min() <= 0.0) for run in runs)
     fallen = sum(run is None or bool(run.lean[-1] > OVERTURNED) for run in runs)
     words = f"directions of {DIRECTIONS} in which at 40 degrees"
@@ -97,10 +97,10 @@ def _at_the_required_tilt(design: RoverDesign) -> tuple[Outcome, ...]:
     )
 
 
-def _all_directions(design: RoverDesign) -> tuple[Outcome, ...]:
+def _all_directions(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
     found: list[Outcome] = []
     for words, fails in (("a wheel is unloaded", wheel_lifted), ("the rover overturns", overturned)):
-        tilt, heading = smallest_tilt(design, fails)
+        tilt, heading = smallest_tilt(scenario, design, fails)
         found.append(Outcome(quantity=f"smallest tilt before {words}", value=tilt, unit="deg", limit=REQUIRED))
         found.append(Outcome(quantity=f"its direction when {words}, from ahead to the left", value=heading, unit="deg"))
     return tuple(found)
