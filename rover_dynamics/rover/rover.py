@@ -17,7 +17,8 @@ from rover_dynamics.multibody.joint import Joint, revolute
 from rover_dynamics.multibody.model import Drive, MultibodyModel
 from rover_dynamics.multibody.motion_law import Hold, MotionLaw
 from rover_dynamics.rover.rover_file import Leg, RoverDesign
-from rover_dynamics.vehicle.vehicle import JointEffort, Vehicle
+from rover_dynamics.vehicle.joint_actions import JointEffort
+from rover_dynamics.vehicle.vehicle import Vehicle
 
 __all__ = ["Actuators", "build_rover", "degrees_of_freedom", "wheel_names"]
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Known", "Method", "Moment", "generalised_alpha", "rescaled"]
+__all__ = ["Known", "Method", "Moment", "generalised_alpha", "implicit_euler", "rescaled"]
 
 FloatArray = NDArray[np.float64]
 
@@ -49,6 +49,11 @@ def generalised_alpha(spectral_radius: float, tolerance: float, iterations: int)
     beta = 0.25 * (gamma + 0.5) ** 2
     error = abs(beta - 1.0 / 6.0 + 0.5 * (alpha_m - alpha_f))
     return Method(alpha_m, alpha_f, beta, gamma, error, tolerance, iterations)
+
+
+def implicit_euler(tolerance: float, iterations: int) -> Method:
+    """The implicit Euler method as coefficients: order one, damps every frequency; for settling, not for motions."""
+    return Method(0.0, 0.0, 1.0, 1.0, 0.0, tolerance, iterations)
 
 
 class Known(NamedTuple):

@@ -5,7 +5,6 @@ Verified by tests/verification/test_vehicle_step.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,9 +17,9 @@ from rover_dynamics.brush_force import BrushResult, brush_scratch
 from rover_dynamics.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.multibody.model import MultibodyModel
-from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
 from rover_dynamics.vehicle.implicit_kernels import evaluate, implicit_step
-from rover_dynamics.vehicle.implicit_method import Known, Moment, generalised_alpha, rescaled
+from rover_dynamics.vehicle.implicit_method import Moment, generalised_alpha, rescaled
+from rover_dynamics.vehicle.joint_actions import JointActions, JointEffort
 from rover_dynamics.vehicle.steps import VehicleSteps
 from rover_dynamics.vehicle.system import System, Tires, work_for
 
@@ -31,20 +30,6 @@ ITERATIONS = 8
 """Newton iterations of a step before it is tried shorter."""
 NEWTON_SHARE = 0.01
 """Change at which they end, over the error allowed in the step."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class JointEffort:
-    """A torque about a hinge, or a force along a slider, as a function of time.
-
-    Attributes
-    ----------
-    joint : name of a joint of the tree that no drive moves
-    effort : of time [s]; on the joint's second body [N m, N]
-    """
-
-    joint: str
-    effort: Callable[[float], float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -140,11 +125,7 @@ class _Run:
 
     def __init__(self, vehicle: Vehicle, times: FloatArray, steps: VehicleSteps) -> None:
         self.vehicle, self.times, self.steps = vehicle, times, steps
-        self.coordinates = TreeCoordinates(vehicle.model)
-        if self.coordinates.spanning.cut:
-            loops = ", ".join(self.coordinates.spanning.cut)
-            raise InputError("joints of the vehicle", loops, "close loops", "integrate it by multibody.motion")
-        self.efforts: list[tuple[int, JointEffort]] = []
+        self.actions = JointActions(vehicle.model, vehicle.efforts)
         self.system = self._system()
         self.work = work_for(self.system)
         self.result: BrushResult = self.work.result
@@ -153,42 +134,20 @@ class _Run:
         self.rows: list[tuple[FloatArray, ...]] = []
 
     def _system(self) -> System:
-        """Arrays for the compiled calls; notes where joint efforts act."""
-        vehicle, tree, links = self.vehicle, self.coordinates.tree, self.coordinates.spanning.joint_links
+        """Arrays for the compiled calls."""
+        vehicle, actions = self.vehicle, self.actions
         pieces = vehicle.terrain.pieces()
         wheels = np.array([vehicle.model.number(name) for name in vehicle.wheels], dtype=np.int64)
         numbers = wheel_numbers(vehicle.tire, vehicle.settings)
         tires = Tires(wheels, numbers, pieces, brush_scratch(pieces), derivative_result(pieces))
-        at = {(named.joint, named.coordinate): named.link for named in links}
-        driven = np.array([at[drive.joint, drive.coordinate] for drive in vehicle.model.drives], dtype=np.int64)
-        driven_v = tree.v_at[driven]
-        free = np.setdiff1d(np.arange(tree.v_at[-1]), driven_v)
-        if len(free) == 0:
-            raise InputError("joints of the vehicle", len(driven), "are all driven", "leave one free to move")
-        for effort in vehicle.efforts:
-            places = [int(tree.v_at[link]) for (joint, _), link in at.items() if joint == effort.joint]
-            if len(places) != 1 or places[0] in driven_v:
-                rule = "must be a hinge or a slider that no drive moves"
-                raise InputError("joint of an effort", repr(effort.joint), rule, "name another, or remove its drive")
-            self.efforts.append((places[0], effort))
         gravity = np.array(vehicle.model.gravity, dtype=np.float64)
-        return System(tree, tires, gravity, free, driven_v, tree.q_at[driven])
-
-    def known(self, t: float) -> Known:
-        """What drives and efforts prescribe at a time."""
-        laws = np.array([drive.law.at(t) for drive in self.vehicle.model.drives]).reshape(-1, 3)
-        tau = np.zeros(self.coordinates.tree.v_at[-1])
-        for place, effort in self.efforts:
-            tau[place] += effort.effort(t)
-        q, v, a = (np.ascontiguousarray(laws[:, k]) for k in range(3))
-        return Known(q, v, a, tau)
+        return System(actions.coordinates.tree, tires, gravity, actions.free, actions.driven, actions.driven_q)
 
     def start(self, t: float) -> Moment:
         """State and consistent accelerations; the method's own begin as these."""
-        n_q = int(self.coordinates.tree.q_at[-1])
-        y = self.coordinates.corrected(t, self.coordinates.start())
-        q, v, s = y[:n_q], y[n_q:], np.zeros_like(self.result.rate)
-        known, free = self.known(t), self.system.free
+        q, v = self.actions.start(t)
+        s = np.zeros_like(self.result.rate)
+        known, free = self.actions.known(t), self.system.free
         _, _, h, M = evaluate(self.system, q, v, s, self.result)
         a = np.zeros(len(h))
         a[self.system.driven] = known.a
@@ -218,7 +177,7 @@ class _Run:
     def _step(self, before: Moment, end: float, dt: float) -> tuple[float, Moment]:
         """Estimated error of a step, infinite if Newton's method fails, and the end of the step."""
         try:
-            found = implicit_step(self.system, before, self.known(end), dt, self.method, self.work)
+            found = implicit_step(self.system, before, self.actions.known(end), dt, self.method, self.work)
         except np.linalg.LinAlgError:  # a singular matrix: a shorter step has the mass matrix to rely on
             found = False, 0, np.inf, before
         converged, iterations, error, after = found
