@@ -22,6 +22,7 @@ def test_every_tutorial_is_run_here() -> None:
     assert sorted(path.name for path in DOCS.glob("tutorial_*.md")) == [
         "tutorial_ancf_tire.md",
         "tutorial_multibody.md",
+        "tutorial_rover.md",
     ]
 
 
@@ -46,3 +47,29 @@ def test_multibody(capsys: pytest.CaptureFixture[str]) -> None:
     assert 0.395 < high <= 0.4
     assert printed.count("left out:") == 3
     assert float(re.findall(r"crank (-[\d.]+) m", printed)[0]) == pytest.approx(-0.05, abs=1e-4)
+
+
+def test_rover(capsys: pytest.CaptureFixture[str]) -> None:
+    """It drives what its wheels roll, over rocks; at rest its loads are those of its lever; a short field is named.
+
+    The first step ends on the block with all wheels: 60 mm higher.
+    """
+    printed = run_blocks("tutorial_rover.md", capsys)
+    print(printed)
+    ahead, up = (float(value) for value in re.findall(r"([\d.]+) m ahead, (\d+) mm up", printed)[0])
+    assert ahead == pytest.approx(0.7 * 0.1425 * 19.5, rel=0.05)
+    assert up > 10.0
+    loads = [float(value) for value in re.findall(r"wheel loads: \[(.*?)\]", printed)[0].split()]
+    assert sum(loads) == pytest.approx(57.0 * 3.711, rel=0.01)
+    front = (40.0 * 0.3 + 5.0 * 0.8 + 6.0 * 0.8) / (57.0 * 0.8)
+    assert sum(loads[:2]) / sum(loads) == pytest.approx(front, abs=0.01)
+    assert "must lie 0.1425 m inside the terrain, x -1..4 m" in printed
+    assert float(re.findall(r"([\d.]+) m higher", printed)[0]) == pytest.approx(0.06, abs=1e-3)
+
+
+def test_the_four_wheel_rover_takes_twenty_lines() -> None:
+    """Statements, imports apart."""
+    text = (DOCS / "tutorial_rover.md").read_text(encoding="utf-8")
+    block = re.findall(r"```python\n(.*?)```", text, flags=re.S)[0]
+    lines = [line for line in block.splitlines() if line and not line.startswith(("import", "from"))]
+    assert len(lines) <= 20
