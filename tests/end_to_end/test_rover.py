@@ -15,8 +15,12 @@ from tests.end_to_end.small_study import run
 def test_the_drop_writes_its_series_and_names_both_damper_laws(tmp_path: Path) -> None:
     ended = run("rover", "drop", "--out", tmp_path)
     assert ended.returncode == 0, ended.stderr
-    for text in ("damper as printed", "damper builds up", "197.9 N", "2218 N"):
+    for text in ("damper builds up", "197.9 N", "1066 N"):
         assert text in ended.stdout
+    printed = run("rover", "drop_printed", "--out", tmp_path)
+    assert printed.returncode == 0, printed.stderr
+    for text in ("damper as printed", "2202 N"):
+        assert text in printed.stdout
     series = read_series(tmp_path / "series" / "drop_brush.csv", "drop", "brush")
     assert series.time[0] == 0.0
     assert series["rear_left_load_N"][0] == 0.0
@@ -77,7 +81,7 @@ def test_a_requirement_is_shown_with_its_margin(tmp_path: Path) -> None:
     assert ended.returncode == 0, ended.stderr
     row = next(line for line in ended.stdout.splitlines() if "angle turned" in line)
     assert "90 deg" in row
-    assert ">= 76.5 deg" in row
+    assert ">= 85.5 deg" in row
     assert "met" in row
 
 

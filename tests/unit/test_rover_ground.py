@@ -72,6 +72,7 @@ def test_a_field_too_short_is_refused_before_and_behind_the_start(design: RoverD
 def test_rigid_tires_change_the_radial_contact_only() -> None:
     before, after = SCENARIOS["traction"], on_rigid_tires(SCENARIOS["traction"])
     assert after.tire_model == "rigid"
+    assert on_rigid_tires(after) == after
     assert after.tire.radial_stiffness == 1e3 * THESIS_BRUSH.radial_stiffness
     radial = {"radial_stiffness": 1.0, "radial_damping": 1.0, "source": ""}
     assert replace(after.tire, **radial) == replace(before.tire, **radial)

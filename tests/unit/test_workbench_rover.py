@@ -15,7 +15,7 @@ from workbench.result_files import read_result
 from workbench.series import series_files
 from workbench.study_file import built_in_study, read_study
 from workbench.tasks_rover import drive_rover
-from workbench.topic_rover import MISSION, ROVER, THESIS, RoverResults
+from workbench.topic_rover import CLOSED_FORMS, MISSION, ROVER, THESIS, RoverResults
 
 
 @pytest.fixture(scope="module")
@@ -43,9 +43,21 @@ def test_every_scenario_of_the_catalogue_is_in_the_report() -> None:
 
 def test_gate_and_closed_forms_hold(results: RoverResults) -> None:
     checks = _checks(results)
-    assert [name for name, check in checks.items() if check.role == "gate"] == ["rover.load"]
-    for name in ("load", "drop_printed", "drop", "speed", "traction"):
+    gates = [name.removeprefix("rover.") for name, check in checks.items() if check.role == "gate"]
+    assert gates == ["load", "drop", "drop_printed", "traction", "traction_wheel", "table_rigid"]
+    for name in (*gates, "table_brush", "speed"):
         assert checks[f"rover.{name}"].status == "pass", name
+
+
+@pytest.mark.parametrize(("name", "scenario"), [(row[0], row[1]) for row in CLOSED_FORMS] + [("table_rigid", "static")])
+def test_two_percent_off_are_seen(results: RoverResults, name: str, scenario: str) -> None:
+    """Negative control of every gate."""
+    before = results[scenario]
+    off = tuple(replace(one, value=1.02 * one.value) for one in before.outcomes)
+    damaged = replace(results, by_name={**results.by_name, scenario: replace(before, outcomes=off)})
+    assert _checks(damaged)[f"rover.{name}"].status == "fail"
+    empty = replace(results, by_name={**results.by_name, scenario: replace(before, outcomes=(), stopped="fell")})
+    assert _checks(empty)[f"rover.{name}"].status == "error"
 
 
 def test_each_requirement_is_a_finding_and_one_without_a_number_an_error(results: RoverResults) -> None:

@@ -65,7 +65,9 @@ def rocks_on_the_way(scenario: Scenario, design: RoverDesign, seed: int) -> Terr
 
 
 def on_rigid_tires(scenario: Scenario) -> Scenario:
-    """The same on rigid wheels; see `rover_dynamics.rigid_tire`."""
+    """The same on rigid wheels, once; see `rover_dynamics.rigid_tire`."""
+    if scenario.tire_model == "rigid":
+        return scenario
     return replace(
         scenario,
         tire=rigid_parameters(scenario.tire),

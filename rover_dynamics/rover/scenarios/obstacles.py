@@ -1,8 +1,10 @@
 """The mission's step and crevasse at 70 m/h.
 
-A wheel has passed if its centre ends behind the obstacle and half a radius or more above the ground there. An obstacle
-counts as passed if all wheels have, and the body never leaned by 45 degrees. Drives, deployment and steering follow
-their laws whatever the ground does: no controller helps. Only wheels touch the ground: belly and arms pass through it.
+An obstacle counts as passed if at the end every wheel lies behind it with its whole rim, half a radius or more above
+the ground there, and carries at least half of its share of the weight; if the body never leaned by 30 degrees, which is
+less than it stands statically, and the centre of no body but the wheels came down to the ground. Drives, deployment and
+steering follow their laws whatever the ground does: no controller helps, no torque is limited; what they took is
+stated. Only wheels touch the ground: belly and arms would pass through it.
 
 Verified by tests/unit/test_rover_scenarios.py.
 """
@@ -21,15 +23,16 @@ from contracts.terrain_ridges import Crevasse, Step
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.level_ground import drive_forward
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.readings import largest_lean, stated
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, mean_static_load, run_scenario
 from rover_dynamics.rover.scenarios.slopes import largest_passed
 
-__all__ = ["OBSTACLES", "crevasse", "step", "wheels_passed"]
+__all__ = ["OBSTACLES", "crevasse", "smallest_clearance", "step", "wheels_passed"]
 
 STEP_HEIGHT, CREVASSE_WIDTH, EDGE, LARGEST = 0.25, 0.15, 0.005, 0.49
 DEPTH = 0.4
 """Of the crevasse [m]: deeper than a wheel's diameter."""
-ALLOWED_LEAN = math.radians(45.0)
+ALLOWED_LEAN = math.radians(30.0)
 SOURCE = "mission requirements, section 1"
 
 
@@ -39,27 +42,30 @@ def _first_edge(design: RoverDesign) -> float:
 
 
 def wheels_passed(run: ScenarioRun, width: float) -> int:
-    """How many wheels end behind an obstacle of that width [m]; none if the body leaned too far."""
-    if run.lean.max() > ALLOWED_LEAN:
-        return 0
-    ends = run.wheels[-1]
+    """How many wheels end with their whole rim behind an obstacle of that width [m]."""
+    ends, radius = run.wheels[-1], run.design.wheel_radius
     ground = run.scenario.terrain(run.design).height(ends[:, 0], ends[:, 1])
-    above = ends[:, 2] >= ground + 0.5 * run.design.wheel_radius
-    return int(np.sum(above & (ends[:, 0] >= _first_edge(run.design) + width)))
+    return int(np.sum((ends[:, 2] >= ground + 0.5 * radius) & (ends[:, 0] - radius >= _first_edge(run.design) + width)))
+
+
+def smallest_clearance(run: ScenarioRun) -> float:
+    """Smallest height of a body's centre over the ground below it, wheels apart [m]."""
+    first = len(run.design.bodies)
+    others = np.delete(run.motion.positions, np.s_[first + 2 :: 3], axis=1)
+    ground = run.scenario.terrain(run.design).height(others[..., 0], others[..., 1])
+    return float(np.min(others[..., 2] - ground))
 
 
 def _judge(run: ScenarioRun, width: float) -> tuple[Outcome, ...]:
-    count = Outcome(
-        quantity="wheels behind the obstacle",
-        value=float(wheels_passed(run, width)),
-        unit="-",
-        limit=float(len(run.design.legs)),
-    )
+    behind = run.wheels[-1, :, 0].min() - run.design.wheel_radius - _first_edge(run.design) - width
+    count, share = float(wheels_passed(run, width)), 0.5 * mean_static_load(run.design)
     return (
-        count,
-        Outcome(quantity="largest lean of the body", value=math.degrees(float(run.lean.max())), unit="deg"),
-        Outcome(quantity="largest wheel load", value=float(run.loads.max()), unit="N"),
-        Outcome(quantity="smallest wheel load", value=float(run.loads.min()), unit="N"),
+        Outcome(quantity="wheels behind the obstacle", value=count, unit="-", limit=float(len(run.design.legs))),
+        Outcome(quantity="last wheel's rim behind the obstacle", value=float(behind), unit="m", limit=0.0),
+        Outcome(quantity="smallest wheel load at the end", value=float(run.loads[-1].min()), unit="N", limit=share),
+        Outcome(quantity="lowest centre of a body over the ground", value=smallest_clearance(run), unit="m", limit=0.0),
+        largest_lean(run, ALLOWED_LEAN),
+        *stated(run),
     )
 
 
@@ -101,10 +107,9 @@ def _largest(
     def passes(size: float) -> bool:
         try:
             sized = make(size)
-            run = run_scenario(replace(scenario, terrain=sized.terrain, judge=sized.judge), design)
+            return run_scenario(replace(scenario, terrain=sized.terrain, judge=sized.judge), design).met
         except ConvergenceError:
             return False
-        return run.stopped is None and all(outcome.met is not False for outcome in run.scenario.judge(run))
 
     return (
         Outcome(

@@ -29,7 +29,7 @@ from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 __all__ = ["SAMPLED", "Judge", "Scenario", "ScenarioRun", "Tilt", "mean_static_load", "run_scenario", "scenario_series"]
 
 FloatArray = NDArray[np.float64]
-_PENETRATION, _LOAD, _PATCH, _TRACTIVE, _LATERAL, _BESIDE = 0, 1, 4, 7, 8, 9
+_PENETRATION, _LOAD, _SLIP, _PATCH, _TRACTIVE, _LATERAL, _BESIDE = 0, 1, 2, 4, 7, 8, 9
 """Columns of `rover_dynamics.brush_force.OUTPUT_SIZE`."""
 
 
@@ -87,6 +87,28 @@ class ScenarioRun:
         """Centres of the wheels (n, n_w, 3) [m]."""
         first = len(self.design.bodies)
         return self.motion.positions[:, first + 2 :: 3]
+
+    @property
+    def spins(self) -> FloatArray:
+        """Angular velocities of the wheels about their axles (n, n_w) [rad/s], positive rolling forwards."""
+        first = len(self.design.bodies)
+        axles = self.motion.rotations[:, first + 2 :: 3, :, 1]
+        return np.asarray(np.sum(axles * self.motion.velocities[:, first + 2 :: 3, 3:], axis=-1))
+
+    @property
+    def slips(self) -> FloatArray:
+        """Longitudinal and lateral slips of the wheels (n, n_w, 2) [-]."""
+        return self.motion.tires[:, :, _SLIP : _SLIP + 2]
+
+    @property
+    def met(self) -> bool:
+        """Whether the motion came to its end and misses no requirement."""
+        return self.stopped is None and all(one.met is not False for one in self.scenario.judge(self))
+
+    def torques(self, kind: str) -> FloatArray:
+        """Of all actuators whose names begin so, such as ``drive`` (n, n_a) [N m], as they move or hold."""
+        drives = self.scenario.vehicle(self.design).model.drives
+        return self.motion.efforts[:, [k for k, drive in enumerate(drives) if drive.joint.startswith(f"{kind}_")]]
 
     @property
     def lean(self) -> FloatArray:
