@@ -29,10 +29,10 @@ from benchmarks.output.run import Run, add_option  # noqa: E402
 from benchmarks.peer_codes.rover_exudyn import SAMPLED, run_exudyn  # noqa: E402
 from contracts.terrain import Plane, Terrain  # noqa: E402
 from contracts.terrain_rocks import RandomRocks  # noqa: E402
+from rover_dynamics.multibody.implicit_steps import ImplicitSteps  # noqa: E402
 from rover_dynamics.multibody.motion_law import SpeedTrapezoid  # noqa: E402
 from rover_dynamics.rover.rover import Actuators, build_rover  # noqa: E402
 from rover_dynamics.rover.rover_file import read_rover  # noqa: E402
-from rover_dynamics.vehicle.steps import VehicleSteps  # noqa: E402
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle  # noqa: E402
 
 FloatArray = NDArray[np.float64]
@@ -42,8 +42,8 @@ STRAIGHT = SpeedTrapezoid(speed=SPEED, accelerates=5.0, decelerates=5.0, ends=40
 ON = SpeedTrapezoid(speed=SPEED, accelerates=5.0)
 ROCKS = RandomRocks(seed=1, size=(6.0, 4.0), origin=(-1.5, -2.0), clear=(0.0, 0.0, 1.0), abundance=0.2)
 """A rock in the path lifts a wheel by 67 mm."""
-STEPS = VehicleSteps()
-FINE = VehicleSteps(tolerance=0.01 * STEPS.tolerance, longest=0.2 * STEPS.longest)
+STEPS = ImplicitSteps()
+FINE = ImplicitSteps(tolerance=0.01 * STEPS.tolerance, longest=0.2 * STEPS.longest)
 REAL_TIME, RATIO = 20.0, 2.0
 """Aims: faster than real time, and than EXUDYN."""
 WINDOW = 4.0

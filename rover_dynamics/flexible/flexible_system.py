@@ -14,8 +14,9 @@ from rover_dynamics.brush_force import HubMotions, brush_forces, brush_result, b
 from rover_dynamics.brush_settings import wheel_numbers
 from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle
 from rover_dynamics.flexible.hub_kernels import HubMotion, hub_motion, hub_wrenches, wheel_jacobians
+from rover_dynamics.multibody.generalised_alpha import Method
 from rover_dynamics.multibody.tree_kernels import TreeMotion, advance, bias_and_mass, tree_motion
-from rover_dynamics.vehicle.implicit_method import Known, Method
+from rover_dynamics.vehicle.implicit_method import Known
 from rover_dynamics.vehicle.joint_actions import JointActions
 
 __all__ = ["FlexibleSystem", "Instant", "node_jacobians"]

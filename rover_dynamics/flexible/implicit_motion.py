@@ -22,7 +22,7 @@ from rover_dynamics.flexible.even_steps import EvenSteps
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, FlexibleVehicle
 from rover_dynamics.flexible.linear_solves import CondensedTires, condense
-from rover_dynamics.vehicle.implicit_method import Method, generalised_alpha, implicit_euler
+from rover_dynamics.multibody.generalised_alpha import Method, generalised_alpha, implicit_euler
 
 __all__ = ["drive_on_flexible_tires"]
 

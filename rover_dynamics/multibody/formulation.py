@@ -20,7 +20,7 @@ from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.reactions import Reactions
 from rover_dynamics.multibody.state import State
 
-__all__ = ["AbsoluteCoordinates", "Course", "Formulation", "SingularPosition", "packed"]
+__all__ = ["AbsoluteCoordinates", "Course", "Formulation", "NoStep", "SingularPosition", "packed"]
 
 FloatArray = NDArray[np.float64]
 Course = Callable[[float], FloatArray]
@@ -44,8 +44,8 @@ class Formulation(Protocol):
     def state(self, t: float, y: FloatArray) -> State:
         """Positions and velocities of all bodies."""
 
-    def accepted(self, t: float, y: FloatArray, course: Course) -> None:
-        """Be told that a step ended at t with y, already corrected, and its course."""
+    def accepted(self, t: float, y: FloatArray, course: Course | None) -> None:
+        """Be told that a step ended at t with y, already corrected, and its course; None if y needs no better guess."""
 
     def margin(self, t: float, y: FloatArray) -> float:
         """Smallest over largest singular value of the loops' equations [-]; its sign changes where it is zero."""
@@ -64,6 +64,10 @@ class SingularPosition(Exception):  # noqa: N818  (tells the integrator to step 
     def __init__(self, t: float, margin: float) -> None:
         self.time, self.margin = t, margin
         super().__init__(f"singular position at t = {t:g} s")
+
+
+class NoStep(Exception):  # noqa: N818  (the integrator makes it an error, with the motion so far)
+    """No further step can be taken; says why."""
 
 
 class AbsoluteCoordinates:
@@ -92,7 +96,7 @@ class AbsoluteCoordinates:
         """See `Formulation`."""
         return packed(self.equations.corrected(t, self.state(t, y)))
 
-    def accepted(self, t: float, y: FloatArray, course: Course) -> None:
+    def accepted(self, t: float, y: FloatArray, course: Course | None) -> None:
         """See `Formulation`; no use is made of it."""
 
     def reactions(self, t: float, y: FloatArray) -> Reactions:

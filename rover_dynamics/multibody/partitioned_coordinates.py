@@ -83,7 +83,7 @@ class PartitionedCoordinates(AbsoluteCoordinates):
             state = moved(state, change[:, 0].reshape(-1, 6))
         raise cannot_be_assembled(self.equations.constraints, values.defects, t, history)
 
-    def accepted(self, t: float, y: FloatArray, course: Course) -> None:
+    def accepted(self, t: float, y: FloatArray, course: Course | None) -> None:
         """See `Formulation`; here the dependent velocities may be chosen anew."""
         C_u = self._jacobian(t, self.state(t, y))
         if self._gain(C_u) > _WORSE * self._best_gain:

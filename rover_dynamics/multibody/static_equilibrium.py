@@ -121,8 +121,7 @@ class _AtRest:
         self._equations, self._t = TreeCoordinates(model), t
         self._n_q = int(self._equations.tree.q_at[-1])
         self._still = np.zeros(int(self._equations.tree.v_at[-1]))
-        loops = self._equations.loops
-        self._independent = np.setdiff1d(self._equations.free, loops.dependent)
+        self._independent = self._equations.independent
 
     def start(self) -> FloatArray:
         return self._equations.corrected(self._t, self._equations.start())[: self._n_q]

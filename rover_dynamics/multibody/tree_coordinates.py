@@ -85,6 +85,11 @@ class TreeCoordinates:
         self.loops = Loops(self.tree, equations, self.free, self.motion(0.0, self._start))
         self.redundant = self.loops.redundant
 
+    @property
+    def independent(self) -> IntArray:
+        """Joint velocities from which all others follow."""
+        return np.setdiff1d(self.free, self.loops.dependent)
+
     # The formulation -------------------------------------------------------------------------------------------------
 
     def start(self) -> FloatArray:
@@ -105,7 +110,7 @@ class TreeCoordinates:
         q = _normalised(self.tree, q)
         return np.concatenate(self.loops.close(t, q, v) if self.loops else (q, v))
 
-    def accepted(self, t: float, y: FloatArray, course: Course) -> None:
+    def accepted(self, t: float, y: FloatArray, course: Course | None) -> None:
         """See `Formulation`."""
         if self.loops:
             self.loops.accepted(self.motion(t, y), course)

@@ -109,7 +109,7 @@ class Loops:
             q = advance(self._tree, q, step, motion.frames)
         raise cannot_be_assembled(self.constraints, rows.defects, t, history)
 
-    def accepted(self, motion: TreeMotion, course: Course) -> None:
+    def accepted(self, motion: TreeMotion, course: Course | None) -> None:
         """Guess dependent coordinates from the course of the last step; choose them anew where others are better."""
         self._course = course
         J = self.rows(0.0, motion).jacobian

@@ -1,12 +1,11 @@
 """One step of the generalised-alpha method for a tree of bodies on tires, compiled.
 
 Unknown are the accelerations a of the joint velocities v, M a + h = tau with the tires' wrenches in h, and the rates of
-the tires' own states, s' = g. The method (Chung and Hulbert 1993; Arnold and Bruels 2007; in joint
-coordinates: quaternions are turned by rotation vectors) has accelerations A and rates B of its own:
+the tires' own states, s' = g. The method (`rover_dynamics.multibody.generalised_alpha`) has accelerations A of its
+own, and rates B for the states:
 
-    step = dt v_n + dt^2 (1/2 - beta) A_n + dt^2 beta A,    v = v_n + dt (1 - gamma) A_n + dt gamma A
     s = s_n + dt (1 - gamma) B_n + dt gamma B
-    (1 - alpha_m) A + alpha_m A_n = (1 - alpha_f) a + alpha_f a_n,    the same for B and s'
+    (1 - alpha_m) B + alpha_m B_n = (1 - alpha_f) s' + alpha_f s'_n
 
 Newton's matrix is c M - sum J^T E J with c = (1 - alpha_m) / (1 - alpha_f), where J takes v to the hub's velocity and E
 holds the derivatives of a tire's wrench by the hub's motion, the tire's states eliminated. Derivatives of M, h and J
@@ -24,8 +23,9 @@ from numpy.typing import NDArray
 from rover_dynamics.brush_derivatives import brush_derivatives
 from rover_dynamics.brush_force import BrushResult, HubMotions, brush_forces
 from rover_dynamics.multibody.compiled import compiled, cross
-from rover_dynamics.multibody.tree_kernels import LinkKind, Tree, TreeMotion, advance, bias_and_mass, tree_motion
-from rover_dynamics.vehicle.implicit_method import Known, Method, Moment
+from rover_dynamics.multibody.generalised_alpha import Method, newmark, step_frames
+from rover_dynamics.multibody.tree_kernels import Tree, TreeMotion, bias_and_mass, tree_motion
+from rover_dynamics.vehicle.implicit_method import Known, Moment
 from rover_dynamics.vehicle.system import Newton, System, Work
 
 __all__ = ["evaluate", "implicit_step"]
@@ -33,7 +33,6 @@ __all__ = ["evaluate", "implicit_step"]
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-_SPHERICAL = int(LinkKind.SPHERICAL)
 _FRESH = 3
 """Iterations after which Newton's matrix is computed anew."""
 _OLD = 0.1
@@ -130,24 +129,6 @@ def _fits(newton: Newton, dt: float, loads: FloatArray) -> bool:
 
 
 @compiled
-def _start(tree: Tree, before: Moment) -> tuple[FloatArray, FloatArray]:
-    """Joint frames, (n_l, 3, 3), and the factor of dt^2 in the step, (n_v,), where frames turn with their carriers.
-
-    The rate of F^T w is F^T (w' - W x w), with W the carrier's angular velocity, and not F^T w'. Only ball joints have
-    such frames: free links hang on the ground, and hinges and sliders need none.
-    """
-    turning = np.zeros_like(before.v)
-    if not np.any(tree.kinds == _SPHERICAL):
-        return tree.turns, turning
-    motion = tree_motion(tree, before.q, before.v)
-    for k in range(len(tree.parents)):
-        if tree.kinds[k] == _SPHERICAL:
-            at = tree.v_at[k]
-            cross(-0.5 * motion.V[tree.parents[k], :3], before.v[at : at + 3], turning[at : at + 3])
-    return motion.frames, turning
-
-
-@compiled
 def _end(
     system: System,
     before: Moment,
@@ -156,17 +137,14 @@ def _end(
     known: Known,
     step_of: tuple[float, Method],
 ) -> Moment:
-    """The end of a step for the method's A and B; ``start`` is what `_start` returns."""
+    """The end of a step for the method's A and B; ``start`` is what `step_frames` returns."""
     A, B = method_rates
-    frames, turning = start
     dt, method = step_of
-    m, f, beta, gamma = method.alpha_m, method.alpha_f, method.beta, method.gamma
+    m, f, gamma = method.alpha_m, method.alpha_f, method.gamma
     a = ((1.0 - m) * A + m * before.A - f * before.a) / (1.0 - f)
     s_rate = ((1.0 - m) * B + m * before.B - f * before.s_rate) / (1.0 - f)
-    v = before.v + dt * ((1.0 - gamma) * before.A + gamma * A)
-    step = dt * before.v + dt * dt * ((0.5 - beta) * before.A + beta * A) + dt * dt * turning
+    q, v = newmark(system.tree, (before.q, before.v, before.A), A, start, step_of)
     s = before.s + dt * ((1.0 - gamma) * before.B + gamma * B)
-    q = advance(system.tree, before.q, step, frames)
     for k in range(len(system.driven)):
         i = system.driven[k]
         q[system.driven_q[k]], v[i], a[i], A[i] = known.q[k], known.v[k], known.a[k], known.a[k]
@@ -214,7 +192,7 @@ def implicit_step(
     weights = (1.0 - method.alpha_m) / (1.0 - method.alpha_f), dt * method.gamma, dt * dt * method.beta
     tires, result, step_of, limit = system.tires, work.result, (dt, method), _OLD * method.tolerance
     A, B = before.a.copy(), before.s_rate.copy()  # predictor: accelerations stay
-    start = _start(system.tree, before)
+    start = step_frames(system.tree, before.q, before.v)
     after = _end(system, before, start, (A, B), known, step_of)
     last, iteration = np.inf, 0
     while iteration < method.iterations and last >= limit:

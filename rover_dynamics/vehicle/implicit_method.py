@@ -1,9 +1,7 @@
-"""Coefficients of the generalised-alpha method, and what it carries from step to step.
+"""What the generalised-alpha method carries from step to step of a vehicle.
 
-The method is written down in `rover_dynamics.vehicle.implicit_kernels`.
-
-A_n belongs to the time t_n + (alpha_m - alpha_f) dt, so that a step of another length needs A_n moved to its own
-(`rescaled`): without it the order falls to one where the step changes (Bruels and Arnold 2008).
+The method is written down in `rover_dynamics.multibody.generalised_alpha` and, with the tires' states, in
+`rover_dynamics.vehicle.implicit_kernels`.
 
 Verified by tests/verification/test_vehicle_step.py.
 """
@@ -15,45 +13,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Known", "Method", "Moment", "generalised_alpha", "implicit_euler", "rescaled"]
+from rover_dynamics.multibody.generalised_alpha import rescaled_rates
+
+__all__ = ["Known", "Moment", "rescaled"]
 
 FloatArray = NDArray[np.float64]
-
-
-class Method(NamedTuple):
-    """Coefficients of the generalised-alpha method, and when its iteration ends.
-
-    Attributes
-    ----------
-    alpha_m, alpha_f, beta, gamma : [-]
-    error : factor of dt^2 max |A - A_n| in the local error of the coordinates, dt^3 q''' (beta - 1/6 + (alpha_m -
-        alpha_f) / 2) [-]
-    tolerance : largest dt^2 times the change of A in the last iteration [m, rad]
-    iterations : at most
-    """
-
-    alpha_m: float
-    alpha_f: float
-    beta: float
-    gamma: float
-    error: float
-    tolerance: float
-    iterations: int
-
-
-def generalised_alpha(spectral_radius: float, tolerance: float, iterations: int) -> Method:
-    """Coefficients of order two for a spectral radius at infinity (Chung and Hulbert 1993, eqs 17, 20 and 25)."""
-    rho = spectral_radius
-    alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
-    gamma = 0.5 - alpha_m + alpha_f
-    beta = 0.25 * (gamma + 0.5) ** 2
-    error = abs(beta - 1.0 / 6.0 + 0.5 * (alpha_m - alpha_f))
-    return Method(alpha_m, alpha_f, beta, gamma, error, tolerance, iterations)
-
-
-def implicit_euler(tolerance: float, iterations: int) -> Method:
-    """The implicit Euler method as coefficients: order one, damps every frequency; for settling, not for motions."""
-    return Method(0.0, 0.0, 1.0, 1.0, 0.0, tolerance, iterations)
 
 
 class Known(NamedTuple):
@@ -92,5 +56,5 @@ class Moment(NamedTuple):
 
 def rescaled(moment: Moment, ratio: float) -> Moment:
     """The moment with A and B at the time that belongs to a next step ``ratio`` times as long as the last one."""
-    A = moment.a + ratio * (moment.A - moment.a)
-    return moment._replace(A=A, B=moment.s_rate + ratio * (moment.B - moment.s_rate))
+    A, B = rescaled_rates(moment.a, moment.A, ratio), rescaled_rates(moment.s_rate, moment.B, ratio)
+    return moment._replace(A=A, B=B)

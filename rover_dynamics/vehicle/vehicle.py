@@ -16,14 +16,15 @@ from rover_dynamics.brush_derivatives import derivative_result
 from rover_dynamics.brush_force import BrushResult, brush_scratch
 from rover_dynamics.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
+from rover_dynamics.multibody.generalised_alpha import generalised_alpha
+from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.vehicle.implicit_kernels import evaluate, implicit_step
-from rover_dynamics.vehicle.implicit_method import Moment, generalised_alpha, rescaled
+from rover_dynamics.vehicle.implicit_method import Moment, rescaled
 from rover_dynamics.vehicle.joint_actions import JointActions, JointEffort
-from rover_dynamics.vehicle.steps import VehicleSteps
 from rover_dynamics.vehicle.system import System, Tires, work_for
 
-__all__ = ["JointEffort", "Vehicle", "VehicleMotion", "VehicleSteps", "drive_vehicle"]
+__all__ = ["JointEffort", "Vehicle", "VehicleMotion", "drive_vehicle"]
 
 FloatArray = NDArray[np.float64]
 ITERATIONS = 8
@@ -92,7 +93,7 @@ class VehicleMotion:
     rejected: int
 
 
-def drive_vehicle(vehicle: Vehicle, times: FloatArray, steps: VehicleSteps | None = None) -> VehicleMotion:
+def drive_vehicle(vehicle: Vehicle, times: FloatArray, steps: ImplicitSteps | None = None) -> VehicleMotion:
     """Integrate from the model's start at ``times[0]`` by the generalised-alpha method with adaptive steps.
 
     Parameters
@@ -109,7 +110,7 @@ def drive_vehicle(vehicle: Vehicle, times: FloatArray, steps: VehicleSteps | Non
         If the times do not ascend; if the bodies form loops, which need `multibody.motion.integrate`; if every joint is
         driven; or for a joint effort at a joint that is driven, or neither a hinge nor a slider.
     """
-    return _Run(vehicle, _ascending(times), steps or VehicleSteps()).to_its_end()
+    return _Run(vehicle, _ascending(times), steps or ImplicitSteps()).to_its_end()
 
 
 def _ascending(times: FloatArray) -> FloatArray:
@@ -123,7 +124,7 @@ def _ascending(times: FloatArray) -> FloatArray:
 class _Run:
     """One motion under way."""
 
-    def __init__(self, vehicle: Vehicle, times: FloatArray, steps: VehicleSteps) -> None:
+    def __init__(self, vehicle: Vehicle, times: FloatArray, steps: ImplicitSteps) -> None:
         self.vehicle, self.times, self.steps = vehicle, times, steps
         self.actions = JointActions(vehicle.model, vehicle.efforts)
         self.system = self._system()

@@ -22,6 +22,7 @@ import rover_dynamics.vehicle.vehicle as vehicle_module
 from contracts.terrain import Plane
 from rover_dynamics.brush_settings import BrushSettings, DamperLaw
 from rover_dynamics.multibody.body import GROUND, body
+from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 from rover_dynamics.multibody.joint import revolute, spherical
 from rover_dynamics.multibody.model import Drive, MultibodyModel
 from rover_dynamics.multibody.motion import StepControl, integrate
@@ -30,7 +31,6 @@ from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
 from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.vehicle.implicit_method import Moment
-from rover_dynamics.vehicle.steps import VehicleSteps
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 from tests.brush_rig import RADIUS, Rig
 
@@ -97,13 +97,13 @@ def order(errors: list[float]) -> float:
 def test_a_dropped_rolling_wheel_moves_as_by_explicit_integration(law: DamperLaw) -> None:
     times = np.linspace(0.0, 0.6, 61)
     vehicle = one_wheel(0.01, (0.2, 0.0, 0.0), 0.5, BrushSettings(damper_law=law))
-    found = drive_vehicle(vehicle, times, VehicleSteps(tolerance=1e-8))
+    found = drive_vehicle(vehicle, times, ImplicitSteps(tolerance=1e-8))
     expected = explicit(vehicle, times)
     np.testing.assert_allclose(found.positions[:, 0, 2], expected[:, 2], rtol=0, atol=1e-6)
     np.testing.assert_allclose(found.positions[:, 0, 0], expected[:, 0], rtol=0, atol=1e-6)
     np.testing.assert_allclose(found.velocities[:, 0, 0], expected[:, 3], rtol=0, atol=2e-5)
     other = BrushSettings(damper_law=DamperLaw(1 - law))
-    control = drive_vehicle(replace(vehicle, settings=other), times, VehicleSteps(tolerance=1e-8))
+    control = drive_vehicle(replace(vehicle, settings=other), times, ImplicitSteps(tolerance=1e-8))
     assert np.abs(control.positions[:, 0, 2] - expected[:, 2]).max() > 2e-4
     assert np.abs(explicit(vehicle, times, 0.5 * INERTIA)[:, 3] - expected[:, 3]).max() > 1e-3
 
@@ -114,7 +114,7 @@ def test_order_on_a_tire() -> None:
     expected = explicit(vehicle, times)[-1]
     errors = []
     for fixed in (4e-4, 2e-4, 1e-4):
-        found = drive_vehicle(vehicle, times, VehicleSteps(tolerance=1e-10, fixed=fixed))
+        found = drive_vehicle(vehicle, times, ImplicitSteps(tolerance=1e-10, fixed=fixed))
         errors.append(float(np.abs(found.velocities[-1, 0, :3] - expected[3:6]).max()))
     assert order(errors) == pytest.approx(2.0, abs=0.2)
 
@@ -128,7 +128,7 @@ def reference(vehicle: Vehicle, times: FloatArray) -> FloatArray:
 
 def test_a_swinging_tree_moves_as_by_explicit_integration() -> None:
     times, vehicle = np.linspace(0.0, 2.0, 41), swinging()
-    found = drive_vehicle(vehicle, times, VehicleSteps(tolerance=1e-9))
+    found = drive_vehicle(vehicle, times, ImplicitSteps(tolerance=1e-9))
     np.testing.assert_allclose(found.positions, reference(vehicle, times), rtol=0, atol=2e-5)
 
 
@@ -138,7 +138,7 @@ def errors_with_changing_steps(vehicle: Vehicle) -> list[float]:
     for n in (60, 120, 240):
         h = 0.6 / n / 1.25
         times = np.concatenate([[0.0], np.cumsum(np.tile([h, 0.25 * h], n))])
-        found = drive_vehicle(vehicle, times, VehicleSteps(tolerance=1e-10, fixed=1.0))
+        found = drive_vehicle(vehicle, times, ImplicitSteps(tolerance=1e-10, fixed=1.0))
         assert found.steps == 2 * n
         errors.append(float(np.abs(found.positions[-1] - expected).max()))
     return errors
@@ -160,7 +160,7 @@ def test_negative_control_accelerations_of_the_last_steps_time(monkeypatch: pyte
 
 def test_energy_of_the_swinging_tree_stays() -> None:
     vehicle = swinging()
-    found = drive_vehicle(vehicle, np.linspace(0.0, 2.0, 41), VehicleSteps(tolerance=1e-9, spectral_radius=1.0))
+    found = drive_vehicle(vehicle, np.linspace(0.0, 2.0, 41), ImplicitSteps(tolerance=1e-9, spectral_radius=1.0))
     total = energy(vehicle.model, found)
     swing = float(np.ptp(energy(replace(vehicle.model, gravity=(0.0, 0.0, 0.0)), found)))
     assert swing > 1.0
@@ -222,7 +222,7 @@ def moved_pendulum() -> Vehicle:
 def test_drive_efforts_are_those_of_inverse_dynamics() -> None:
     """The motor's torque is the rate of all angular momentum about its axis, less the moment of the weights."""
     vehicle, times = moved_pendulum(), np.linspace(0.0, 1.0, 2001)
-    found = drive_vehicle(vehicle, times, VehicleSteps(tolerance=1e-9))
+    found = drive_vehicle(vehicle, times, ImplicitSteps(tolerance=1e-9))
     momentum, weights = np.zeros(len(times)), np.zeros(len(times))
     for k, part in enumerate(vehicle.model.bodies):
         r, v, w = found.positions[:, k], found.velocities[:, k, :3], found.velocities[:, k, 4]

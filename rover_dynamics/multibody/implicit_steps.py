@@ -1,6 +1,6 @@
-"""Lengths of a vehicle's implicit steps.
+"""Lengths of implicit steps.
 
-Verified by tests/unit/test_vehicle_steps.py.
+Verified by tests/unit/test_multibody_implicit_steps.py.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 from contracts.errors import InputError
 
-__all__ = ["VehicleSteps"]
+__all__ = ["ImplicitSteps"]
 
 _SAFETY, _GROWTH, _FAILED = 0.85, 2.0, 0.25
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class VehicleSteps:
+class ImplicitSteps:
     """How steps are chosen: the local error of second-order steps grows with the third power of their length.
 
     Attributes

@@ -7,9 +7,9 @@ import math
 import pytest
 
 from contracts.errors import InputError
-from rover_dynamics.vehicle.steps import VehicleSteps
+from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 
-STEPS = VehicleSteps(tolerance=1e-6, first=1e-4, shortest=1e-9, longest=0.02)
+STEPS = ImplicitSteps(tolerance=1e-6, first=1e-4, shortest=1e-9, longest=0.02)
 
 
 def test_the_last_two_steps_to_an_output_share_what_is_left() -> None:
@@ -33,7 +33,7 @@ def test_a_step_cut_by_an_output_keeps_the_wish() -> None:
 
 
 def test_fixed_steps_are_judged_by_convergence_only() -> None:
-    fixed = VehicleSteps(fixed=0.3)
+    fixed = ImplicitSteps(fixed=0.3)
     assert fixed.towards(1.0, 1e-4) == 0.3
     assert fixed.towards(0.2, 1e-4) == 0.2
     assert fixed.accepts(1e3)
@@ -55,4 +55,4 @@ def test_fixed_steps_are_judged_by_convergence_only() -> None:
 )
 def test_numbers_out_of_range_are_refused(wrong: dict[str, float], words: str) -> None:
     with pytest.raises(InputError, match=words):
-        VehicleSteps(**wrong)
+        ImplicitSteps(**wrong)
