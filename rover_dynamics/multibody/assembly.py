@@ -81,8 +81,15 @@ def _check_drives(every: Constraints, values: ConstraintValues, driven: NDArray[
         if np.linalg.norm(rest) < 1e-6:
             rule = "moves what the joints and the other drives already hold"
             hint = "remove the drive, or leave the mechanism one more freedom"
-            raise InputError("drive", f"joint '{every.equations[k].joint}'", rule, hint)
+            raise InputError(f"drive of joint '{every.equations[k].joint}'", _asked(every.equations[k]), rule, hint)
         basis = np.vstack([basis, rest / np.linalg.norm(rest)])
+
+
+def _asked(equation: Equation) -> str:
+    """Value and rate of a drive's law at the start."""
+    assert equation.drive is not None
+    value, rate, _ = equation.drive.law.at(0.0)
+    return f"{value:g} {equation.unit}, {rate:g} {equation.unit}/s"
 
 
 def _row_space(rows: FloatArray) -> FloatArray:
@@ -108,7 +115,8 @@ def _with_velocities(every: Constraints, values: ConstraintValues, state: State)
     if len(open_rates) and np.max(np.abs(open_rates)) > _RATE_TOLERANCE * max(1.0, float(np.max(np.abs(values.rates)))):
         worst = every.equations[int(np.argmax(np.abs(open_rates)))]
         rule = "no velocities of the bodies meet it together with the others"
-        raise InputError("velocity at the start", str(worst), rule, "check the drives' laws")
+        open_by = f"{worst}, open by {np.max(np.abs(open_rates)):.3g} {worst.unit}/s"
+        raise InputError("velocity at the start", open_by, rule, "check the drives' laws")
     return State(
         positions=state.positions,
         orientations=state.orientations,
@@ -123,7 +131,7 @@ def cannot_be_assembled(
     worst = int(np.argmax(np.abs(defects)))
     message = (
         f"bodies cannot be brought together at t = {t:g} s: after {len(history)} iterations "
-        f"{constraints.equations[worst]} is still open by {defects[worst]:.3g}; "
+        f"{constraints.equations[worst]} is still open by {defects[worst]:.3g} {constraints.equations[worst].unit}; "
         "start closer to a position the joints allow, or check lengths and drives"
     )
     record = IncrementRecord(target=t, step=0.0, converged=False, residuals=tuple(history))

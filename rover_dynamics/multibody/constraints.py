@@ -46,6 +46,11 @@ class Equation:
     axes: tuple[int, int]
     drive: Drive | None = None
 
+    @property
+    def unit(self) -> str:
+        """Of its defect; a right angle's is the cosine, to first order how far off it is."""
+        return {Row.TRANSLATION: "m", Row.ANGLE: "rad", Row.RIGHT_ANGLE: "rad"}[self.kind]
+
     def __str__(self) -> str:
         """What it locks, for messages."""
         along = "xyz"[self.axes[0]]

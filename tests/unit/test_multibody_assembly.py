@@ -9,8 +9,9 @@ from contracts.errors import ConvergenceError, InputError
 from rover_dynamics.multibody.assembly import assembly
 from rover_dynamics.multibody.body import Frame, body
 from rover_dynamics.multibody.formulation import AbsoluteCoordinates, packed
-from rover_dynamics.multibody.joint import Joint, JointKind, revolute
+from rover_dynamics.multibody.joint import Joint, JointKind, prismatic, revolute
 from rover_dynamics.multibody.model import Drive, MultibodyModel
+from rover_dynamics.multibody.motion import ImplicitSteps, Motion, StepControl, integrate
 from rover_dynamics.multibody.motion_law import Hold, Turn, UserLaw
 from rover_dynamics.multibody.state import State
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
@@ -57,7 +58,10 @@ def test_velocities_given_apart_are_made_to_fit() -> None:
 
 
 def test_an_unreachable_start_is_refused_and_the_open_joint_named() -> None:
-    with pytest.raises(ConvergenceError, match=r"cannot be brought together at t = 0 s.*still open"):
+    with pytest.raises(
+        ConvergenceError,
+        match=r"cannot be brought together at t = 0 s.*'top': no motion along .* is still open by .* m; start closer",
+    ):
         assembly(pinned_rod(1.0, 2.5))
 
 
@@ -76,7 +80,9 @@ def test_a_drive_that_fights_a_constraint_is_refused() -> None:
     """Two cranks of a parallelogram, each with a drive of its own."""
     model = n_four_bar(1)
     drives = (Drive(joint="base 0", law=Hold()), Drive(joint="base 1", law=Turn(end=1.0, lasts=1.0)))
-    with pytest.raises(InputError, match="drive = joint 'base 1': moves what the joints and the other drives already"):
+    with pytest.raises(
+        InputError, match="drive of joint 'base 1' = 0 rad, 0 rad/s: moves what the joints and the other"
+    ):
         assembly(MultibodyModel(bodies=model.bodies, joints=model.joints, drives=drives))
     assembly(MultibodyModel(bodies=model.bodies, joints=model.joints, drives=drives[1:]))
 
@@ -88,6 +94,22 @@ def test_a_drive_that_starts_against_a_dead_centre_is_refused() -> None:
     drive = Drive(joint="cylinder", law=law, coordinate="distance")
     with pytest.raises(InputError, match=r"drive|velocity at the start"):
         assembly(MultibodyModel(bodies=model.bodies, joints=model.joints, drives=(drive,)))
+
+
+@pytest.mark.parametrize("control", [StepControl(), ImplicitSteps()])
+def test_a_drive_that_leaves_the_mechanisms_reach_ends_the_motion_there(control: StepControl | ImplicitSteps) -> None:
+    """The second foot slides from 1.2 to 3 m off the first; two rods of 1 m reach 2 m, at 0.47 s."""
+    rods = pinned_rod(1.0, 1.2)
+    foot = body("foot", 1.0, J, (1.2, 0, 0))
+    rail = prismatic("rail", "ground", foot, at=(1.2, 0, 0), axis=(1, 0, 0))
+    on_foot = _hinge("foot b", "foot", "b", (0, 0, 0), (0, -0.5, 0))
+    joints = (rail, rods.joints[0], on_foot, rods.joints[2])
+    drive = Drive(joint="rail", law=Turn(end=1.8, lasts=1.0), coordinate="distance")
+    model = MultibodyModel(bodies=(*rods.bodies, foot), joints=joints, drives=(drive,))
+    with pytest.raises(ConvergenceError, match=r"motion stopped at t = 0\.4\d* s of 1 s: ") as found:
+        integrate(TreeCoordinates(model), np.linspace(0.0, 1.0, 11), control)
+    assert isinstance(found.value.last_good, Motion)
+    assert found.value.last_good.times[-1] == pytest.approx(0.4)
 
 
 def test_a_hinge_between_free_bodies_needs_no_ground() -> None:
