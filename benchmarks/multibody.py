@@ -1,10 +1,10 @@
 """Work and precision of the multibody engine on the IFToMM problems A01 to A03, with EXUDYN beside it on the first.
 
 ``make bench NAME=multibody`` prints the table and writes ``build/bench/multibody.json``. Each row is one error asked
-for in a step (ours) or one number of steps (EXUDYN, generalised-alpha, compiled): processor seconds of one thread
-without set-up, the shortest of three, and the error against the published solution: ours the largest over all times,
-EXUDYN's at the end. The ratio is EXUDYN's time over that of our fastest row that is at least as accurate. Without
-EXUDYN its rows are left out.
+for in a step, explicit or implicit (ours), or one number of steps (EXUDYN, generalised-alpha, compiled): processor
+seconds of one thread without set-up, the shortest of three (forty windows: of one), and the error against the published
+solution: ours the largest over all times, EXUDYN's at the end. The ratio is EXUDYN's time over that of our fastest row
+that is at least as accurate. Without EXUDYN its rows are left out.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ import argparse
 import sys
 import time
 import warnings
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -24,13 +23,13 @@ sys.path.insert(0, str(ROOT))
 from benchmarks.ancf_rows.clock import row  # noqa: E402
 from benchmarks.output.run import Run, add_option  # noqa: E402
 from contracts.published import published_table  # noqa: E402
-from rover_dynamics.multibody.motion import Motion, StepControl, integrate  # noqa: E402
-from rover_dynamics.multibody.tree_coordinates import TreeCoordinates  # noqa: E402
-from rover_dynamics.multibody.verification.andrews import andrews_rates, andrews_squeezer  # noqa: E402
-from rover_dynamics.multibody.verification.mechanisms import n_four_bar, pendulum, tip_of_four_bar  # noqa: E402
+from rover_dynamics.multibody.verification.mechanisms import pendulum  # noqa: E402
+from rover_dynamics.multibody.verification.work_precision import PROBLEMS, control_for, work  # noqa: E402
 
-ERRORS = (1e-4, 1e-6, 1e-8, 1e-10)
-"""Asked for in a step."""
+ASKED = {"explicit": (1e-4, 1e-6, 1e-8, 1e-10), "implicit": (1e-4, 1e-5, 1e-6)}
+"""Errors of a step."""
+RUNS = {"pendulum": 3, "four_bar_2": 3, "four_bar_40": 1, "andrews": 3}
+"""Of each; the shortest counts."""
 STEPS = (10_000, 100_000)
 """Of EXUDYN over ten seconds."""
 
@@ -41,9 +40,7 @@ def main() -> None:
     add_option(parser)
     options, run = parser.parse_args(), Run("multibody")
     rows: list[dict[str, object]] = []
-    ours = _measured("A01 pendulum, 10 s", _pendulum, rows)
-    _measured("A02 two four-bars, 10 s", _four_bar, rows)
-    _measured("A03 Andrews' squeezer, 0.03 s", _andrews, rows)
+    ours = {name: _measured(name, rows) for name in PROBLEMS}["pendulum"]
     rows += _exudyn_rows(ours)
     for r in rows:
         ratio = "" if r["ratio"] is None else f"   ratio {r['ratio']:.3g}"
@@ -54,49 +51,22 @@ def main() -> None:
         print(f"written: {path}")
 
 
-def _measured(
-    case: str, solve: Callable[[float], tuple[float, float, int]], rows: list[dict[str, object]]
-) -> list[tuple[float, float]]:
+def _measured(name: str, rows: list[dict[str, object]]) -> list[tuple[float, float]]:
     """Rows of one problem; seconds and error of each."""
-    found = []
-    for error in ERRORS:
-        runs = [solve(error) for _ in range(3)]
-        seconds, distance, steps = min(r[0] for r in runs), runs[0][1], runs[0][2]
-        rows += [
-            row(case, f"step error {error:g}: processor time", "s", seconds),
-            row(case, f"step error {error:g}: steps", "-", steps),
-            row(case, f"step error {error:g}: error of the result", "-", distance),
-        ]
-        found.append((seconds, distance))
+    problem, found = PROBLEMS[name], []
+    for method, asked in ASKED.items():
+        for allowed in asked:
+            runs = [work(problem, control_for(method, allowed)) for _ in range(RUNS[name])]
+            seconds, best, what = min(r.seconds for r in runs), runs[0], f"{method}, step error {allowed:g}"
+            rows += [
+                row(problem.title, f"{what}: processor time", "s", seconds),
+                row(problem.title, f"{what}: evaluations", "-", best.evaluations),
+                row(problem.title, f"{what}: error of the result", problem.unit, best.error),
+            ]
+            if best.energy is not None:
+                rows.append(row(problem.title, f"{what}: change of energy", "-", best.energy))
+            found.append((seconds, best.error))
     return found
-
-
-def _timed(equations: TreeCoordinates, times: np.ndarray, error: float) -> tuple[float, Motion]:
-    begun = time.process_time()
-    motion = integrate(equations, times, StepControl(relative=error, absolute=1e-2 * error))
-    return time.process_time() - begun, motion
-
-
-def _pendulum(error: float) -> tuple[float, float, int]:
-    table = published_table("iftomm_pendulum")
-    seconds, motion = _timed(TreeCoordinates(pendulum()), table["t"], error)
-    away = np.array([s.positions[0, :2] for s in motion.states]) - np.stack([table["x"], table["y"]], axis=1)
-    return seconds, float(np.max(np.abs(away))), motion.steps
-
-
-def _four_bar(error: float) -> tuple[float, float, int]:
-    table = published_table("iftomm_four_bar")
-    seconds, motion = _timed(TreeCoordinates(n_four_bar(2)), table["t"], error)
-    away = np.array([tip_of_four_bar(s)[:2] for s in motion.states]) - np.stack([table["B0x"], table["B0y"]], axis=1)
-    return seconds, float(np.max(np.abs(away))), motion.steps
-
-
-def _andrews(error: float) -> tuple[float, float, int]:
-    table = published_table("andrews_squeezer")
-    seconds, motion = _timed(TreeCoordinates(andrews_squeezer()), np.array([0.0, 0.03]), error)
-    rates, published = andrews_rates(motion.states[-1]), table["ydot_ref_t0.03"]
-    away = np.array([rates[name] for name in table.text("name")]) - published
-    return seconds, float(np.max(np.abs(away) / np.maximum(np.abs(published), 1.0))), motion.steps
 
 
 def _exudyn_rows(ours: list[tuple[float, float]]) -> list[dict[str, object]]:

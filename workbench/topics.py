@@ -11,6 +11,7 @@ from workbench.topic_contact import CONTACT
 from workbench.topic_environment import ENVIRONMENT
 from workbench.topic_hub import HUB
 from workbench.topic_mesh_study import MESH_STUDY
+from workbench.topic_multibody import MULTIBODY
 from workbench.topic_orientations import ORIENTATIONS
 from workbench.topic_rover import ROVER
 from workbench.topic_section import SECTION
@@ -31,6 +32,7 @@ TOPICS: tuple[Topic, ...] = (
     ANCF_FIT,
     ANCF_MESH,
     ANCF_DYNAMICS,
+    MULTIBODY,
     ROVER,
     VERIFICATION,
     SPEED,
