@@ -69,8 +69,8 @@ def build_rover(
     Raises
     ------
     InputError
-        For two bodies of one name, joints of bodies the design does not have, actuators the rover does not have, or
-        one that is both moved and loaded by a torque.
+        For two bodies of one name, a body that hangs on no other, joints of bodies the design does not have, actuators
+        the rover does not have, or one that is both moved and loaded by a torque.
     """
     actuators = actuators or Actuators()
     lift = design.wheel_radius + height
@@ -122,7 +122,12 @@ def _joints(design: RoverDesign, bodies: Mapping[str, RigidBody], lift: float) -
         _hinge(pivot.name, (pivot.first, pivot.second), pivot.position, pivot.axis, bodies, lift)
         for pivot in design.pivots
     ]
-    return joints + [joint for leg in design.legs for joint in _leg_joints(leg, bodies, lift)]
+    joints += [joint for leg in design.legs for joint in _leg_joints(leg, bodies, lift)]
+    hanging = {joint.second for joint in joints}
+    for name in list(bodies)[1:]:
+        if name not in hanging:
+            raise InputError("body", repr(name), "hangs on no other", "give it a pivot, as its second body")
+    return joints
 
 
 def _leg_joints(leg: Leg, bodies: Mapping[str, RigidBody], lift: float) -> list[Joint]:

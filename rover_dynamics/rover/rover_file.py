@@ -123,13 +123,13 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
             "rover file", path, f"cannot be read ({error})", "copy rover_dynamics' own and edit it"
         ) from error
     rover = _Reader(str(path), content)
-    wheel, legs = rover.table("wheel"), rover.rows("legs")
+    wheel, legs = rover.table("wheel"), rover.some_rows("legs")
     design = RoverDesign(
         name=rover.word("name"),
         gravity=rover.gravity("gravity"),
         wheel_radius=wheel.number("radius"),
         wheel_width=wheel.number("width"),
-        bodies=tuple(body for row in rover.rows("bodies") for body in _bodies(row)),
+        bodies=tuple(body for row in rover.some_rows("bodies") for body in _bodies(row)),
         pivots=tuple(pivot for row in rover.rows("pivots") for pivot in _pivots(row)),
         legs=tuple(leg for row in legs for leg in _legs(row, rover)),
         leg_bodies=tuple(_leg_body(name, rover.table("leg_bodies").table(name)) for name in _LEG_BODIES),
@@ -177,7 +177,7 @@ class _Reader:
 
     def three(self, key: str) -> tuple[float, float, float]:
         values = self.get(key, list, "three numbers")
-        if len(values) != 3 or not all(isinstance(v, (int, float)) and np.isfinite(v) for v in values):
+        if len(values) != 3 or not all(type(v) in (int, float) and np.isfinite(v) for v in values):
             raise InputError(f"{self.place}: {key}", values, "must be three finite numbers", "x, y, z in SI")
         x, y, z = (float(v) for v in values)
         return x, y, z
@@ -194,6 +194,12 @@ class _Reader:
                 raise InputError(f"{self.place}: {key}[{k}]", row, "must be a table", f"begin it with [[{key}]]")
             self.parts.setdefault(f"{key}[{k}]", _Reader(f"{self.place}: {key}[{k}]", row))
         return [self.parts[f"{key}[{k}]"] for k in range(len(found))]
+
+    def some_rows(self, key: str) -> list[_Reader]:
+        found = self.rows(key)
+        if not found:
+            raise InputError(f"{self.place}: {key}", "nothing", "must be one or more", f"give a table [[{key}]]")
+        return found
 
     def finished(self) -> None:
         """Refuse keys nobody asked for."""

@@ -40,6 +40,7 @@ def test_mirrored_rows_stand_on_both_sides() -> None:
         ("inertia = [51.0, 65.0, 98.0]", "inertia = [51.0, 65.0]", "must be three finite numbers"),
         ("inertia = [51.0, 65.0, 98.0]", "inertia = 51.0", "must be three numbers"),
         ("mirrored = true", "mirrored = 1", "must be true or false"),
+        ("inertia = [51.0, 65.0, 98.0]", "inertia = [true, 65.0, 98.0]", "must be three finite numbers"),
         ("[leg_bodies.arm]", "[leg_bodies.elbow]", "leg_bodies: arm = nothing: is missing"),
         ("name =", "name", "cannot be read"),
     ],
@@ -76,3 +77,10 @@ def test_gravity_may_be_a_planet(tmp_path: Path) -> None:
         (tmp_path / "rover.toml").write_text(text.replace("gravity = 3.711", f"gravity = {value}"), encoding="utf-8")
         with pytest.raises(InputError, match=words):
             read_rover(tmp_path / "rover.toml")
+
+
+def test_a_rover_needs_bodies_and_legs(tmp_path: Path) -> None:
+    legs = SHIPPED[SHIPPED.index("[[legs]]") : SHIPPED.index("[leg_bodies.arm]")]
+    (tmp_path / "rover.toml").write_text("legs = []\n" + SHIPPED.replace(legs, ""), encoding="utf-8")
+    with pytest.raises(InputError, match="legs = nothing: must be one or more"):
+        read_rover(tmp_path / "rover.toml")

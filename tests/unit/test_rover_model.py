@@ -82,3 +82,9 @@ def test_a_body_without_mass_is_refused() -> None:
     weightless = (replace(DESIGN.bodies[0], mass=0.0), *DESIGN.bodies[1:])
     with pytest.raises(InputError, match="mass"):
         build_rover(replace(DESIGN, bodies=weightless))
+
+
+def test_a_body_that_hangs_on_no_other_is_refused() -> None:
+    design = read_rover()
+    with pytest.raises(InputError, match="'pivot_rear': hangs on no other"):
+        build_rover(replace(design, pivots=design.pivots[:-1]))
