@@ -86,8 +86,7 @@ def write_animation(
     solids = [*rover, *ground_solids(terrain, places)]
     view = framing(solids, r, R, up)
     frames = [_webp(picture) for picture in draw_motion(solids, r, R, view)]
-    squares = square_size(places.min(axis=0), places.max(axis=0))
-    page = _page(motion, chosen, frames, view.size, (title, squares))
+    page = _page(motion, chosen, frames, view.size, (title, square_size(places)))
     path.write_text(page, encoding="utf-8")
 
 

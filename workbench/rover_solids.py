@@ -7,7 +7,7 @@ sketched. Verified by tests/unit/test_workbench_rover_animation.py.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from contracts.terrain import PieceKind, Terrain
 from rover_dynamics.multibody.body import RigidBody
@@ -61,7 +61,7 @@ def ground_solids(terrain: Terrain, places: FloatArray) -> list[Solid]:
     A height field ends where its heights end.
     """
     low, high = _covered(terrain, places.min(axis=0) - _MARGIN, places.max(axis=0) + _MARGIN)
-    square = square_size(low, high)
+    square = square_size(places)
     x, y = _grid(terrain, low, high, square)
     X, Y = np.meshgrid(x, y, indexing="ij")
     surface = np.stack([X, Y, terrain.height(X, Y)], axis=-1)
@@ -78,9 +78,9 @@ def ground_solids(terrain: Terrain, places: FloatArray) -> list[Solid]:
     ]
 
 
-def square_size(low: ArrayLike, high: ArrayLike) -> float:
-    """Side of a square of the ground [m], for a piece of ground between two corners [m]."""
-    return 0.25 if float(np.max(np.subtract(high, low))) < 8.0 else 1.0
+def square_size(places: FloatArray) -> float:
+    """Side of a square of the ground [m] under places (n, 2) [m]."""
+    return 0.25 if float(np.ptp(places, axis=0).max()) < 8.0 else 1.0
 
 
 def _bodies(design: RoverDesign) -> tuple[RigidBody, ...]:

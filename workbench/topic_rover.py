@@ -185,7 +185,7 @@ def _requirements(name: str, result: RoverResult) -> list[Check]:
         end = f"_{k + 1}" if k else ""
         claim = _claim(f"mission_{name}{end}", f"{MISSION[name]}: {one.quantity}", one.quantity, one.unit, source)
         rule = at_least if one.at_least else at_most
-        checks.append(rule(claim, lambda value=one.value: value, float(one.limit or 0.0)))  # type: ignore[misc]
+        checks.append(rule(claim, partial(float, one.value), one.limit or 0.0))
     return checks
 
 

@@ -50,8 +50,7 @@ def wheels_passed(run: ScenarioRun, width: float) -> int:
 
 def smallest_clearance(run: ScenarioRun) -> float:
     """Smallest height of a body's centre over the ground below it, wheels apart [m]."""
-    first = len(run.design.bodies)
-    others = np.delete(run.motion.positions, np.s_[first + 2 :: 3], axis=1)
+    others = np.delete(run.motion.positions, run.wheel_bodies, axis=1)
     ground = run.scenario.terrain(run.design).height(others[..., 0], others[..., 1])
     return float(np.min(others[..., 2] - ground))
 

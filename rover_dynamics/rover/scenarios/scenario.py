@@ -83,17 +83,20 @@ class ScenarioRun:
         return self.motion.positions[:, 0]
 
     @property
+    def wheel_bodies(self) -> slice:
+        """Rows of the wheels among the bodies: behind those of the design come arm, spindle and wheel of each leg."""
+        return slice(len(self.design.bodies) + 2, None, 3)
+
+    @property
     def wheels(self) -> FloatArray:
         """Centres of the wheels (n, n_w, 3) [m]."""
-        first = len(self.design.bodies)
-        return self.motion.positions[:, first + 2 :: 3]
+        return self.motion.positions[:, self.wheel_bodies]
 
     @property
     def spins(self) -> FloatArray:
         """Angular velocities of the wheels about their axles (n, n_w) [rad/s], positive rolling forwards."""
-        first = len(self.design.bodies)
-        axles = self.motion.rotations[:, first + 2 :: 3, :, 1]
-        return np.asarray(np.sum(axles * self.motion.velocities[:, first + 2 :: 3, 3:], axis=-1))
+        axles = self.motion.rotations[:, self.wheel_bodies, :, 1]
+        return np.asarray(np.sum(axles * self.motion.velocities[:, self.wheel_bodies, 3:], axis=-1))
 
     @property
     def slips(self) -> FloatArray:
