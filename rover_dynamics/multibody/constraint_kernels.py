@@ -80,7 +80,7 @@ def constraint_rows(
         if table.kinds[k] == _TRANSLATION:
             s_P, s_Q = R[P] @ table.points[k, 0], R[Q] @ table.points[k, 1]
             d = r[Q] + s_Q - r[P] - s_P
-            C[k], Q_c[k] = _translation(A[:, i].copy(), d, s_P, s_Q, u[P], u[Q], work, C_u[k])
+            C[k], Q_c[k] = _translation(A[:, i].copy(), d, (s_P, s_Q), (u[P], u[Q]), work, C_u[k])
         elif table.kinds[k] == _RIGHT_ANGLE:
             C[k], Q_c[k] = _right_angle(A[:, i].copy(), B[:, j].copy(), u[P], u[Q], work, C_u[k])
         else:
@@ -94,14 +94,13 @@ def constraint_rows(
 def _translation(
     a: FloatArray,
     d: FloatArray,
-    s_P: FloatArray,
-    s_Q: FloatArray,
-    u_P: FloatArray,
-    u_Q: FloatArray,
+    arms: tuple[FloatArray, FloatArray],
+    motions: tuple[FloatArray, FloatArray],
     work: FloatArray,
     C_u: FloatArray,
 ) -> tuple[float, float]:
-    """C = a . d, with a fixed to P and d between two points with the arms s."""
+    """C = a . d, with a fixed to P and d between two points with the arms s on P and Q, which move with u."""
+    (s_P, s_Q), (u_P, u_Q) = arms, motions
     turn_P, turn_Q, rate_a, second_a = work[0], work[1], work[2], work[3]
     centripetal_P, centripetal_Q, moment = work[4], work[5], work[6]
     w_P, w_Q = u_P[3:], u_Q[3:]
