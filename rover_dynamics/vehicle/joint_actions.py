@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from rover_dynamics.multibody.model import MultibodyModel
+from rover_dynamics.multibody.motion_law import Hold, MotionLaw
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
 from rover_dynamics.vehicle.implicit_method import Known
 
@@ -53,7 +54,7 @@ class JointActions:
     """
 
     def __init__(self, model: MultibodyModel, efforts: Sequence[JointEffort]) -> None:
-        self._model = model
+        self._held, self._moving = _laws(model)
         self.coordinates = TreeCoordinates(model)
         if self.coordinates.spanning.cut:
             loops = ", ".join(self.coordinates.spanning.cut)
@@ -76,11 +77,12 @@ class JointActions:
 
     def known(self, t: float) -> Known:
         """What is prescribed at a time."""
-        laws = np.array([drive.law.at(t) for drive in self._model.drives]).reshape(-1, 3)
+        q, v, a = self._held.copy()
+        for law, rows in self._moving:
+            q[rows], v[rows], a[rows] = law.at(t)
         tau = np.zeros(self.coordinates.tree.v_at[-1])
         for place, effort in self._efforts:
             tau[place] += effort.effort(t)
-        q, v, a = (np.ascontiguousarray(laws[:, k]) for k in range(3))
         return Known(q, v, a, tau)
 
     def start(self, t: float) -> tuple[FloatArray, FloatArray]:
@@ -88,3 +90,15 @@ class JointActions:
         n_q = int(self.coordinates.tree.q_at[-1])
         y = self.coordinates.corrected(t, self.coordinates.start())
         return y[:n_q], y[n_q:]
+
+
+def _laws(model: MultibodyModel) -> tuple[FloatArray, list[tuple[MotionLaw, IntArray]]]:
+    """Values, rates and accelerations of the held joints, (3, n_d), zero for others, and each law with its drives."""
+    held = np.zeros((3, len(model.drives)))
+    moving: dict[int, tuple[MotionLaw, list[int]]] = {}
+    for row, drive in enumerate(model.drives):
+        if isinstance(drive.law, Hold):
+            held[0, row] = drive.law.value
+        else:
+            moving.setdefault(id(drive.law), (drive.law, []))[1].append(row)
+    return held, [(law, np.array(rows, dtype=np.int64)) for law, rows in moving.values()]

@@ -58,20 +58,20 @@ class System(NamedTuple):
 
 
 class Newton(NamedTuple):
-    """One linearisation, of an earlier step if that had the same length and the same wheels touched the ground.
+    """One linearisation, which serves several steps, see `linearisation.changes`.
 
     Attributes
     ----------
-    matrix : (n_f, n_f) float, c M - sum J^T E J of the free velocities
+    inverse : (n_f, n_f) float, of c M - sum J^T E J of the free velocities
     carry : (n_w, n_v, n_s) float, what a residual of the states adds to that of the accelerations
-    follow, inverse : (n_w, n_s, n_v), (n_w, n_s, n_s) float, change of B for that of A, and for the states' residual
-    made_for : (1 + n_w,) float, length of the step [s], and 1 for each wheel that touches
+    follow, states : (n_w, n_v, n_s), (n_w, n_s, n_s) float, change of B for that of A, and for the states' residual
+    made_for : (2 + n_w,) float, length of the step [s], evaluations since, and 1 for each wheel that touches
     """
 
-    matrix: FloatArray
+    inverse: FloatArray
     carry: FloatArray
     follow: FloatArray
-    inverse: FloatArray
+    states: FloatArray
     made_for: FloatArray
 
 
@@ -98,8 +98,8 @@ def work_for(system: System) -> Work:
     newton = Newton(
         np.zeros((n_f, n_f)),
         np.zeros((n_w, n_v, n_s)),
-        np.zeros((n_w, n_s, n_v)),
+        np.zeros((n_w, n_v, n_s)),
         np.zeros((n_w, n_s, n_s)),
-        np.zeros(1 + n_w),
+        np.full(2 + n_w, -1.0),
     )
     return Work(result, newton, np.zeros((n_w, 6 + n_s, 12 + n_s)))

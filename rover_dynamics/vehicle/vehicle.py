@@ -5,6 +5,7 @@ Verified by tests/verification/test_vehicle_step.py.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -31,6 +32,8 @@ ITERATIONS = 8
 """Newton iterations of a step before it is tried shorter."""
 NEWTON_SHARE = 0.01
 """Change at which they end, over the error allowed in the step."""
+_EQUAL = 1e-12
+"""Relative difference of the lengths of equal steps, which is that of their rounding."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -164,7 +167,7 @@ class _Run:
         for target in self.times[1:].tolist():
             while t < target:
                 dt = self.steps.towards(target - t, length)
-                before = rescaled(now, dt / last) if last > 0.0 else now
+                before = now if last == 0.0 or math.isclose(dt, last, rel_tol=_EQUAL) else rescaled(now, dt / last)
                 error, after = self._step(before, t + dt, dt)
                 length = self.steps.after(dt, length, error)
                 if self.steps.accepts(error):
@@ -177,11 +180,8 @@ class _Run:
 
     def _step(self, before: Moment, end: float, dt: float) -> tuple[float, Moment]:
         """Estimated error of a step, infinite if Newton's method fails, and the end of the step."""
-        try:
-            found = implicit_step(self.system, before, self.actions.known(end), dt, self.method, self.work)
-        except np.linalg.LinAlgError:  # a singular matrix: a shorter step has the mass matrix to rely on
-            found = False, 0, np.inf, before
-        converged, iterations, error, after = found
+        known = self.actions.known(end)
+        converged, iterations, error, after = implicit_step(self.system, before, known, dt, self.method, self.work)
         self.iterations += iterations
         if not converged or not np.isfinite(error):
             error = np.inf

@@ -14,6 +14,7 @@ from rover_dynamics.multibody.compiled import (
 )
 from rover_dynamics.multibody.formulation import quaternion_rates
 from rover_dynamics.multibody.rows import matrix, times, times_matrix, transposed_times, turn_matrix
+from rover_dynamics.multibody.small_matrices import inverse, product
 
 
 def test_matrix_product_and_rotation_vector_are_scipys() -> None:
@@ -40,6 +41,15 @@ def test_matrices_in_registers_are_numpys() -> None:
     np.testing.assert_allclose(times_matrix(a, b), A @ B, atol=1e-14)
     axis = A[0] / np.linalg.norm(A[0])
     np.testing.assert_allclose(turn_matrix(tuple(axis), 2.4), Rotation.from_rotvec(2.4 * axis).as_matrix(), atol=1e-15)
+
+
+def test_inverse_exchanges_rows_and_is_not_finite_for_a_singular_matrix() -> None:
+    A = np.random.default_rng(5).normal(size=(9, 9))
+    A[0, 0] = 0.0
+    np.testing.assert_allclose(inverse(A) @ A, np.eye(9), atol=1e-13)
+    np.testing.assert_allclose(product(A, A[1]), A @ A[1], atol=1e-14)
+    A[3] = 0.0
+    assert not np.all(np.isfinite(inverse(A)))
 
 
 def test_a_rotation_of_nothing_is_one() -> None:
