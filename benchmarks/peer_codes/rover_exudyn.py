@@ -1,15 +1,21 @@
 """The rover on level ground in EXUDYN: the same bodies, hinges, masses and speed law, with its own rolling discs.
 
 Held actuators are welds and drives are stiff dampers to the law's speed, both EXUDYN's own compiled objects; only the
-speed itself is set from Python, once a step. Its disc on a plane has Table II's radial spring and damper, without the
-build-up of the damper, and the larger friction coefficient, proportional to the sliding speed below a threshold where
-our tire has bristles: masses and stiffnesses are the same, the slip law is simpler.
+speed itself is set from Python, once a step. Its build without range checks is taken, and of its linear solvers the one
+that is fastest here. Its disc on a plane has Table II's radial spring and damper, and friction in proportion to the
+sliding speed up to a threshold, where our tire has bristles. The threshold is that at which both are equally stiff
+against slip at the law's speed: mu N / v_0 = C_s / V. A tire without rolling resistance and with one coefficient of
+friction (`alike`) then drives as the disc does.
+
+The disc keeps its gap from the last step, and begins with none: left so, it carries nothing during the whole first
+step, and the rover falls by half g dt^2, with a velocity that its dampers need seconds to undo. It is given the gap.
 """
 
 from __future__ import annotations
 
+import sys
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,13 +25,11 @@ from rover_dynamics.brush_tire import BrushTireParameters
 from rover_dynamics.multibody.motion_law import MotionLaw
 from rover_dynamics.vehicle.vehicle import Vehicle
 
-__all__ = ["SAMPLED", "PeerRun", "run_exudyn"]
+__all__ = ["SAMPLED", "PeerRun", "alike", "run_exudyn"]
 
 FloatArray = NDArray[np.float64]
 DRIVE_DAMPING = 1e4
 """Of the drives to their speed [N m s]."""
-SLIDING = 1e-2
-"""Sliding speed at which friction is full [m/s]."""
 SAMPLED = 0.1
 """Time between places [s]."""
 
@@ -38,8 +42,15 @@ class PeerRun:
     places: FloatArray
 
 
-def run_exudyn(vehicle: Vehicle, law: MotionLaw, end: float, step: float) -> PeerRun:
-    """Integrate from 0 to ``end`` with fixed steps [s], one thread."""
+def alike(vehicle: Vehicle) -> Vehicle:
+    """The vehicle on tires that a rolling disc equals in steady driving."""
+    tire = replace(vehicle.tire, rolling_resistance=0.0, friction_min=vehicle.tire.friction_max)
+    return replace(vehicle, tire=tire)
+
+
+def run_exudyn(vehicle: Vehicle, law: MotionLaw, speed: float, end: float, step: float) -> PeerRun:
+    """Integrate from 0 to ``end`` with fixed steps [s], one thread; ``speed`` [m/s] is that of equal slip stiffness."""
+    sys.exudynFast = True  # type: ignore[attr-defined]
     import exudyn as exu
     from exudyn.utilities import SensorBody
 
@@ -48,7 +59,10 @@ def run_exudyn(vehicle: Vehicle, law: MotionLaw, end: float, step: float) -> Pee
     ground, bodies = system.CreateGround(), _bodies(system, vehicle)
     motors = _joints(system, vehicle, bodies)
     for wheel in vehicle.wheels:
-        _disc(system, ground, bodies[wheel], vehicle.model.bodies[vehicle.model.number(wheel)].position, vehicle)
+        disc = _disc(system, ground, bodies[wheel], vehicle, speed)
+        gap = vehicle.model.bodies[vehicle.model.number(wheel)].position[2] - vehicle.settings.wheel_radius
+        node = system.GetObjectParameter(disc, "nodeNumber")
+        system.SetNodeParameter(node, "initialCoordinates", [0.0, 0.0, float(gap)])
 
     def set_speed(own: Any, t: float) -> bool:
         for motor in motors:
@@ -100,9 +114,11 @@ def _joints(system: Any, vehicle: Vehicle, bodies: dict[str, Any]) -> list[Any]:
     return motors
 
 
-def _disc(system: Any, ground: Any, wheel: Any, at: FloatArray, vehicle: Vehicle) -> None:
+def _disc(system: Any, ground: Any, wheel: Any, vehicle: Vehicle, speed: float) -> Any:
     tire: BrushTireParameters = vehicle.tire
-    system.CreateRollingDiscPenalty(
+    weight = -sum(part.mass for part in vehicle.model.bodies) * vehicle.model.gravity[2]
+    full = tire.friction_max * weight / len(vehicle.wheels)
+    return system.CreateRollingDiscPenalty(
         bodyNumbers=[ground, wheel],
         axisPosition=[0.0, 0.0, 0.0],
         axisVector=[0.0, 1.0, 0.0],
@@ -111,7 +127,7 @@ def _disc(system: Any, ground: Any, wheel: Any, at: FloatArray, vehicle: Vehicle
         contactStiffness=tire.radial_stiffness,
         contactDamping=tire.radial_damping,
         dryFriction=[tire.friction_max, tire.friction_max],
-        dryFrictionProportionalZone=SLIDING,
+        dryFrictionProportionalZone=full * speed / tire.longitudinal_slip_stiffness,
         useLinearProportionalZone=True,
     )
 
