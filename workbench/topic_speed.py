@@ -1,7 +1,8 @@
-"""Topic of the report: what a Newton iteration, an increment, an orientation and an ANCF plate cost, and the aims.
+"""Topic of the report: what a Newton iteration, an orientation, an ANCF plate and a rover's motion cost, and the aims.
 
-Times beside other codes, on two processes and of the ANCF loops come from kept benchmark runs (`benchmark_record`),
-those of the study's own curves from their stored results. Verified by tests/unit/test_workbench_speed.py.
+Times beside other codes, on two processes, of the ANCF loops and of the rover come from kept benchmark runs
+(`benchmark_record`), those of the study's own curves from their stored results. Verified by
+tests/unit/test_workbench_speed.py.
 """
 
 from __future__ import annotations
@@ -19,11 +20,12 @@ from workbench.graph_section import without_planar_model
 from workbench.results import ModelCurves, model_curves
 from workbench.speed_aim import Aim
 from workbench.speed_ancf import ARITHMETIC, CHRONO, TIRE, ancf_aims
+from workbench.speed_rover import rover_aims
 from workbench.study import Study
 from workbench.task import Task
 from workbench.topic import Topic
 
-__all__ = ["SPEED", "CurveCost", "SpeedResults"]
+__all__ = ["SPEED", "CurveCost", "SpeedResults", "kept_runs"]
 
 ITERATION, ITERATIONS, WHOLE, MEMORY = (
     "time per Newton iteration",
@@ -62,6 +64,7 @@ class SpeedResults:
     wheel: BenchmarkRecord
     ranks: BenchmarkRecord
     ancf: BenchmarkRecord
+    rover: BenchmarkRecord
     curves: tuple[CurveCost, ...]
 
     @property
@@ -81,7 +84,7 @@ class SpeedResults:
             Aim(title=fewer, found=self._least(calculix, ITERATIONS), limit=1.0, rule="more than"),
             Aim(title="Faster on two processes than on one", found=_ratio(self.ranks, RANKS), limit=1.6),
         ]
-        return [*aims, *ancf_aims(self.ancf), *self.own_aims]
+        return [*aims, *ancf_aims(self.ancf), *rover_aims(self.rover), *self.own_aims]
 
     @property
     def chrono(self) -> Mapping[str, float]:
@@ -144,12 +147,17 @@ def _cost(model: str, orientation: float, curves: ModelCurves) -> CurveCost:
     )
 
 
+def kept_runs() -> dict[str, BenchmarkRecord]:
+    """The kept runs by their names in `SpeedResults`."""
+    names = {"wheel": "fe_wheel", "ranks": "fe_ranks", "ancf": "ancf_tire", "rover": "rover_brush"}
+    return {field: read_record(name) for field, name in names.items()}
+
+
 def _read(study: Study, folders: Mapping[str, Path]) -> SpeedResults:
     costs = _costs("fe", model_curves("fe", folders))
     if without_planar_model(study) is None:
         costs += _costs("section", model_curves("section", folders))
-    wheel, ranks, ancf = (read_record(name) for name in ("fe_wheel", "fe_ranks", "ancf_tire"))
-    return SpeedResults(wheel=wheel, ranks=ranks, ancf=ancf, curves=tuple(costs))
+    return SpeedResults(**kept_runs(), curves=tuple(costs))
 
 
 def _checks(study: Study, found: object, results: SpeedResults) -> Sequence[Check]:

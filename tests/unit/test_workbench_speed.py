@@ -21,25 +21,21 @@ from workbench.number_format import displayed
 from workbench.results import ModelCurves
 from workbench.speed_aim import Aim
 from workbench.speed_ancf import CHRONO, ancf_aims
-from workbench.topic_speed import RANKS, SPEED, CurveCost, SpeedResults, _costs
+from workbench.speed_rover import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME, rover_aims
+from workbench.topic_speed import RANKS, SPEED, CurveCost, SpeedResults, _costs, kept_runs
 
 SOLID = CurveCost(model="fe", orientation=15.0, dofs=40, points=18, increments=19, iterations=72, solve_s=9.0)
 
 
 def results(*curves: CurveCost) -> SpeedResults:
-    return SpeedResults(
-        wheel=read_record("fe_wheel"),
-        ranks=read_record("fe_ranks"),
-        ancf=read_record("ancf_tire"),
-        curves=curves or (SOLID,),
-    )
+    return SpeedResults(**kept_runs(), curves=curves or (SOLID,))
 
 
 def test_the_kept_runs_are_whole() -> None:
     wheel, ranks = read_record("fe_wheel"), read_record("fe_ranks")
     assert set(wheel.cases("time to 20 mm")) == {f"{c} against {p}" for c in CASES for p in ("CalculiX", "FElupe")}
     assert len(ranks.cases(RANKS)) == 1
-    for run in (wheel, ranks, read_record("ancf_tire")):
+    for run in kept_runs().values():
         assert len(run.commit) == 40
         assert run.versions["numpy"] != "missing"
         for row in run.rows:
@@ -77,6 +73,22 @@ def test_aims_of_the_ancf_tire_follow_the_kept_run() -> None:
     assert len(aims) == 6
     meshes = [row for row in record.rows if row.metric == "force, a plate"]
     assert [row.case for row in meshes] == ["8 plates", "50 plates", "400 plates", "3000 plates"]
+
+
+def test_aims_of_the_rover_follow_the_kept_run() -> None:
+    record = read_record("rover_brush")
+    for faster, met in ((19.9, False), (20.1, True)):
+        rows = tuple(replace(r, ours=faster) if r.metric == FASTER else r for r in record.rows)
+        assert [aim.met for aim in rover_aims(replace(record, rows=rows))][:2] == [met, met]
+    for ratio, met in ((1.9, False), (2.1, True)):
+        rows = tuple(replace(r, ratio=ratio) if r.metric == PEER_TIME else r for r in record.rows)
+        assert rover_aims(replace(record, rows=rows))[2].met is met
+    for case, end in PATHS.items():
+        assert record.row(case, FASTER).ours == pytest.approx(end / record.row(case, "processor time").ours)
+    ours, theirs = (getattr(record.row(BESIDE_EXUDYN, "error along the path"), side) for side in ("ours", "peer"))
+    assert theirs == pytest.approx(ours, rel=0.5)
+    alone = tuple(r for r in record.rows if r.case != BESIDE_EXUDYN)
+    assert len(rover_aims(replace(record, rows=alone))) == 2
 
 
 def test_the_check_fails_where_a_curve_took_too_many_iterations() -> None:
