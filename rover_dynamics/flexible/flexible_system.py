@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rover_dynamics.brush_force import HubMotions, brush_forces, brush_result, brush_scratch
 from rover_dynamics.brush_settings import wheel_numbers
-from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle
+from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle, rigid_vectors
 from rover_dynamics.flexible.hub_kernels import HubMotion, hub_motion, hub_wrenches, wheel_jacobians
 from rover_dynamics.multibody.generalised_alpha import Method
 from rover_dynamics.multibody.tree_kernels import TreeMotion, advance, bias_and_mass, tree_motion
@@ -79,7 +79,8 @@ class FlexibleSystem:
         """What drives and efforts prescribe at a time."""
         return self.actions.known(t)
 
-    def _instant(self, joints: tuple[FloatArray, FloatArray, FloatArray], tires: tuple[FloatArray, ...]) -> Instant:
+    def instant(self, joints: tuple[FloatArray, FloatArray, FloatArray], tires: tuple[FloatArray, ...]) -> Instant:
+        """Bodies and reference nodes for coordinates, velocities and accelerations of joints and free vectors."""
         q, v, a = joints
         z, z_rate, z_acceleration = tires
         motion = tree_motion(self.tree, q, v)
@@ -101,12 +102,9 @@ class FlexibleSystem:
         """The start of the model with undeformed tires that move with their hubs, and consistent accelerations."""
         q, v = self.actions.start(t)
         zero = np.zeros((len(self.wheels), len(self._M_f), 3))
-        instant = self._instant((q, v, np.zeros_like(v)), (zero, zero, zero))
-        X = self.tires.reference()[:-4]
-        place = np.zeros(len(X))
-        place[self.free_positions] = 1.0
-        rigid = np.column_stack([place, X])
-        z, z_rate = rigid @ instant.hub.z, rigid @ instant.hub.v
+        instant = self.instant((q, v, np.zeros_like(v)), (zero, zero, zero))
+        X = rigid_vectors(self.tires)[:-4]
+        z, z_rate = X @ instant.hub.z, X @ instant.hub.v
         return self.accelerated(q, v, (z, z_rate), self.known(t))
 
     def accelerated(self, q: FloatArray, v: FloatArray, tires: tuple[FloatArray, FloatArray], known: Known) -> Instant:
@@ -114,7 +112,7 @@ class FlexibleSystem:
         z, z_rate = tires
         a = np.zeros_like(v)
         a[self.driven] = known.a
-        bare = self._instant((q, v, a), (z, z_rate, np.zeros_like(z)))
+        bare = self.instant((q, v, a), (z, z_rate, np.zeros_like(z)))
         rho, rho_f, M, _ = self.residuals(bare, known)
         M_ff, M_fr, M_rr = self._M_f[:, :-4], self._M_f[:, -4:], self._M_r[:, -4:]
         follow = np.linalg.solve(M_ff, M_fr)
@@ -125,7 +123,7 @@ class FlexibleSystem:
         free = self.free
         change = np.zeros_like(v)
         change[free] = np.linalg.solve((M + added)[np.ix_(free, free)], right[free])
-        return self._instant((q, v, a + change), (z, z_rate, held - follow @ (D @ change)))
+        return self.instant((q, v, a + change), (z, z_rate, held - follow @ (D @ change)))
 
     def advanced(
         self,
@@ -147,7 +145,7 @@ class FlexibleSystem:
         z = before.z + dt * before.z_rate + dt * dt * ((0.5 - beta) * Z_n + beta * Z)
         z_rate = before.z_rate + dt * ((1.0 - gamma) * Z_n + gamma * Z)
         z_acceleration = ((1.0 - m) * Z + m * Z_n - f * before.z_acceleration) / (1.0 - f)
-        return self._instant((q, v, a), (z, z_rate, z_acceleration))
+        return self.instant((q, v, a), (z, z_rate, z_acceleration))
 
     def whole(self, instant: Instant) -> tuple[FloatArray, FloatArray]:
         """Vectors of the tires with their reference nodes, and their rates, (n_w, n, 3)."""
@@ -175,6 +173,13 @@ class FlexibleSystem:
         wrenches = np.zeros((len(self.tree.body_links), 6))
         wrenches[self.wheels] = hub
         return bias_and_mass(self.tree, instant.motion, wrenches, self.gravity)
+
+    def drive_power(self, instant: Instant, t: float) -> float:
+        """Power that drives and efforts put in [W]."""
+        wrench = hub_wrenches(instant.hub.z, np.ascontiguousarray(self.tire_forces(instant)[:, -4:]))
+        h, M = self._bias(instant, wrench)
+        efforts = (M @ instant.a + h)[self.driven]
+        return float(efforts @ instant.v[self.driven] + self.known(t).tau @ instant.v)
 
     def row(self, instant: Instant, t: float) -> tuple[FloatArray, ...]:
         """What a motion keeps of an instant."""

@@ -15,7 +15,7 @@ from contracts.nodal_tires import NodalTires
 from rover_dynamics.multibody.body import RigidBody
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion
 
-__all__ = ["FlexibleMotion", "FlexibleVehicle", "on_flexible_tires", "rigid_tire_mass"]
+__all__ = ["FlexibleMotion", "FlexibleVehicle", "on_flexible_tires", "rigid_tire_mass", "rigid_vectors"]
 
 FloatArray = NDArray[np.float64]
 
@@ -66,11 +66,16 @@ class FlexibleMotion(VehicleMotion):
 
 def rigid_tire_mass(tires: NodalTires) -> FloatArray:
     """Mass matrix (4, 4) of one undeformed tire in the vectors of its reference node [kg, kg m, kg m^2]."""
-    z = tires.reference()
-    X = np.zeros((len(z), 4))
-    X[tires.position_rows, 0] = 1.0
-    X[:, 1:] = z
+    X = rigid_vectors(tires)
     return np.asarray(X.T @ tires.mass @ X)
+
+
+def rigid_vectors(tires: NodalTires) -> FloatArray:
+    """X (n, 4): the vectors of an undeformed tire are X times those of its reference node, and so are their rates."""
+    X = np.zeros((len(tires.mass), 4))
+    X[tires.position_rows, 0] = 1.0
+    X[:, 1:] = tires.reference()
+    return X
 
 
 def on_flexible_tires(vehicle: Vehicle, tires: NodalTires, angles: FloatArray | None = None) -> FlexibleVehicle:

@@ -57,13 +57,17 @@ class AugmentedEquations:
         return self._solved(self.constraints.at(t, state), t, state)
 
     def _solved(self, values: ConstraintValues, t: float, state: State) -> tuple[FloatArray, FloatArray]:
-        Q = applied_wrenches(self.model, t, state)
-        J = self._world_inertias(state)
-        w = state.velocities[:, 3:]
-        Q[:, 3:] -= np.cross(w, np.einsum("nij,nj->ni", J, w))
+        J, Q = self.inertias_and_forces(t, state)
         solution = self._solver(J, values.jacobian)(np.concatenate([Q.ravel(), values.accelerations]))
         split = Q.size
         return solution[:split].reshape(-1, 6), solution[split:]
+
+    def inertias_and_forces(self, t: float, state: State) -> tuple[FloatArray, FloatArray]:
+        """Inertias (n, 3, 3) in world axes [kg m^2], and Q (n, 6) with weight and gyroscopic moments [N, N m]."""
+        Q, J = applied_wrenches(self.model, t, state), self._world_inertias(state)
+        w = state.velocities[:, 3:]
+        Q[:, 3:] -= np.cross(w, np.einsum("nij,nj->ni", J, w))
+        return J, Q
 
     def reactions(self, t: float, state: State) -> Reactions:
         """What joints and drives transmit: -C_u^T lambda."""
@@ -115,14 +119,18 @@ class AugmentedEquations:
         R = rotations(state.orientations)
         return np.asarray(R @ self._inertias @ R.swapaxes(1, 2))
 
-    def _solver(self, J: FloatArray, C_u: csr_array) -> Callable[[FloatArray], FloatArray]:
-        """Sparse factors of the matrix of 2.26; ConvergenceError where it is singular."""
+    def mass_matrix(self, J: FloatArray) -> csr_array:
+        """M, (6 n, 6 n), from the inertias in world axes."""
         n = len(self._masses)
         blocks = np.zeros((n, 6, 6))
         blocks[:, (0, 1, 2), (0, 1, 2)] = self._masses[:, None]
         blocks[:, 3:, 3:] = J
         rows = np.broadcast_to(6 * np.arange(n)[:, None, None] + np.arange(6)[:, None], blocks.shape)
-        M = csr_array((blocks.ravel(), (rows.ravel(), rows.swapaxes(1, 2).ravel())), shape=(6 * n, 6 * n))
+        return csr_array((blocks.ravel(), (rows.ravel(), rows.swapaxes(1, 2).ravel())), shape=(6 * n, 6 * n))
+
+    def _solver(self, J: FloatArray, C_u: csr_array) -> Callable[[FloatArray], FloatArray]:
+        """Sparse factors of the matrix of 2.26; ConvergenceError where it is singular."""
+        M = self.mass_matrix(J)
         matrix = block_array([[M, C_u.T], [C_u, None]], format="csc") if C_u.shape[0] else M.tocsc()
         try:
             return splu(matrix).solve

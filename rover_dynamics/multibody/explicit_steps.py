@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
 from contracts.errors import ConvergenceError, InputError
-from rover_dynamics.multibody.formulation import Course, Formulation, NoStep, SingularPosition
+from rover_dynamics.multibody.formulation import Course, Equations, NoStep, SingularPosition
 
 __all__ = ["ExplicitStepper", "StepControl"]
 
@@ -54,7 +54,7 @@ class StepControl:
 class ExplicitStepper:
     """Steps of one motion; see `motion.Stepper`."""
 
-    def __init__(self, formulation: Formulation, span: tuple[float, float], control: StepControl) -> None:
+    def __init__(self, formulation: Equations, span: tuple[float, float], control: StepControl) -> None:
         self._equations = formulation
         free = control.fixed is None  # with a fixed step any error is allowed, so that none is shortened
         self._solver = DOP853(

@@ -20,17 +20,15 @@ from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.reactions import Reactions
 from rover_dynamics.multibody.state import State
 
-__all__ = ["AbsoluteCoordinates", "Course", "Formulation", "NoStep", "SingularPosition", "packed"]
+__all__ = ["AbsoluteCoordinates", "Course", "Equations", "Formulation", "NoStep", "SingularPosition", "packed"]
 
 FloatArray = NDArray[np.float64]
 Course = Callable[[float], FloatArray]
 """y as a function of time within a step."""
 
 
-class Formulation(Protocol):
-    """First-order equations of a model."""
-
-    model: MultibodyModel
+class Equations(Protocol):
+    """First-order equations, as `motion.integrate` takes them."""
 
     def start(self) -> FloatArray:
         """y of the assembled start, (N,)."""
@@ -49,6 +47,12 @@ class Formulation(Protocol):
 
     def margin(self, t: float, y: FloatArray) -> float:
         """Smallest over largest singular value of the loops' equations [-]; its sign changes where it is zero."""
+
+
+class Formulation(Equations, Protocol):
+    """The equations of a model of rigid bodies."""
+
+    model: MultibodyModel
 
     def reactions(self, t: float, y: FloatArray) -> Reactions:
         """What joints and drives transmit."""

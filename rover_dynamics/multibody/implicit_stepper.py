@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError, InputError
-from rover_dynamics.multibody.formulation import Course, Formulation, NoStep, SingularPosition
+from rover_dynamics.multibody.formulation import Course, Equations, NoStep, SingularPosition
 from rover_dynamics.multibody.generalised_alpha import generalised_alpha, newmark, rescaled_rates, step_frames
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
@@ -57,7 +57,7 @@ class ImplicitStepper:
         If the formulation is another than `TreeCoordinates`.
     """
 
-    def __init__(self, formulation: Formulation, span: tuple[float, float], steps: ImplicitSteps) -> None:
+    def __init__(self, formulation: Equations, span: tuple[float, float], steps: ImplicitSteps) -> None:
         if not isinstance(formulation, TreeCoordinates):
             hint = "give TreeCoordinates(model), or explicit steps by StepControl"
             raise InputError("formulation for implicit steps", type(formulation).__name__, "must be in joints", hint)

@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from rover_dynamics.multibody.explicit_steps import ExplicitStepper, StepControl
-from rover_dynamics.multibody.formulation import Course, Formulation, NoStep, SingularPosition
+from rover_dynamics.multibody.formulation import Course, Equations, NoStep, SingularPosition
 from rover_dynamics.multibody.implicit_stepper import ImplicitStepper
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 from rover_dynamics.multibody.state import State
@@ -73,7 +73,7 @@ class Motion:
 
 
 def integrate(
-    formulation: Formulation,
+    formulation: Equations,
     times: FloatArray,
     control: StepControl | ImplicitSteps | None = None,
     events: Sequence[Event] = (),
@@ -140,7 +140,7 @@ class Stepper(Protocol):
 class _Run:
     """One integration under way."""
 
-    def __init__(self, formulation: Formulation, times: FloatArray, stepper: Stepper, events: Sequence[Event]) -> None:
+    def __init__(self, formulation: Equations, times: FloatArray, stepper: Stepper, events: Sequence[Event]) -> None:
         self._equations, self._times, self._events, self._stepper = formulation, times, events, stepper
         self._coordinates = [stepper.y]
         self._states = [formulation.state(times[0], stepper.y)]
