@@ -79,17 +79,20 @@ class WheelSet:
         """Generalised forces (n_wheels, n, 3)."""
         return self.system.force(z.reshape(-1, 3), v.reshape(-1, 3)).reshape(z.shape)
 
-    def tangents(self, z: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Blocks (n_wheels, n_blocks, 3, 3) of minus the derivatives of `force`."""
+    def tangents(self, z: FloatArray, v: FloatArray, *, exact: bool = True) -> tuple[FloatArray, FloatArray]:
+        """Blocks (n_wheels, n_blocks, 3, 3) of minus the derivatives of `force`; else without the plates' damping by z.
+
+        That part costs as much as the others together and is of the order of viscosity times rate.
+        """
         p, p_dot = self.node_coordinates(z), self.node_rates(v)
         model = self.system.model
         stiffness = model.elastic_tangents(p)
         by_contact, damping = self.contact.tangents(p, p_dot)
         stiffness += by_contact
         if self.system.is_damped:
-            by_position, by_rate = model.damping_tangents(p, p_dot)
-            stiffness += by_position
-            damping += by_rate
+            damping += model.damping_matrices(p)
+            if exact:
+                stiffness += model.damping_tangents(p, p_dot)[0]
         return self.reduction(stiffness), self.reduction(damping)
 
     def node_coordinates(self, z: FloatArray) -> FloatArray:

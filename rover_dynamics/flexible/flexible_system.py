@@ -14,12 +14,12 @@ from rover_dynamics.brush_force import HubMotions, brush_forces, brush_result, b
 from rover_dynamics.brush_settings import wheel_numbers
 from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle, rigid_vectors
 from rover_dynamics.flexible.hub_kernels import HubMotion, hub_motion, hub_wrenches, wheel_jacobians
-from rover_dynamics.multibody.generalised_alpha import Method
-from rover_dynamics.multibody.tree_kernels import TreeMotion, advance, bias_and_mass, tree_motion
+from rover_dynamics.multibody.generalised_alpha import Method, newmark, step_frames
+from rover_dynamics.multibody.tree_kernels import TreeMotion, bias_and_mass, tree_motion
 from rover_dynamics.vehicle.implicit_method import Known
 from rover_dynamics.vehicle.joint_actions import JointActions
 
-__all__ = ["FlexibleSystem", "Instant", "node_jacobians"]
+__all__ = ["FlexibleSystem", "Instant", "Residual", "joined", "node_jacobians"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -46,6 +46,24 @@ class Instant:
     motion: TreeMotion
     hub: HubMotion
     J: FloatArray
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Residual:
+    """Forces that accelerations do not use up, and what came up on the way.
+
+    Attributes
+    ----------
+    joints : (n_v,) float, of the joints [N, N m]; of driven ones minus the effort of the drive
+    tires : (n_w, n_f, 3) float, of the free vectors [N, N m]
+    mass : (n_v, n_v) float, of the rigid bodies in the joints
+    hubs : (n_w, 4, 3) float, forces on the reference nodes
+    """
+
+    joints: FloatArray
+    tires: FloatArray
+    mass: FloatArray
+    hubs: FloatArray
 
 
 class FlexibleSystem:
@@ -113,16 +131,18 @@ class FlexibleSystem:
         a = np.zeros_like(v)
         a[self.driven] = known.a
         bare = self.instant((q, v, a), (z, z_rate, np.zeros_like(z)))
-        rho, rho_f, M, _ = self.residuals(bare, known)
+        left = self.residual(bare, known)
         M_ff, M_fr, M_rr = self._M_f[:, :-4], self._M_f[:, -4:], self._M_r[:, -4:]
         follow = np.linalg.solve(M_ff, M_fr)
-        held = np.linalg.solve(M_ff, rho_f)
+        held = np.linalg.solve(M_ff, left.tires)
         D = node_jacobians(bare.hub.z, bare.J)
-        added = np.einsum("wiav,ij,wjau->vu", D, M_rr - M_fr.T @ follow, D, optimize=True)
-        right = rho - np.einsum("wiav,wia->v", D, M_fr.T @ held, optimize=True)
+        flat = D.reshape(len(D), 12, -1)
+        carried = np.tensordot(D, M_rr - M_fr.T @ follow, axes=(1, 1))  # (n_w, 3, n_v, 4)
+        added = joined(flat, np.moveaxis(carried, -1, 1).reshape(flat.shape))
+        right = left.joints - joined(flat, (M_fr.T @ held).reshape(len(D), 12, 1))[:, 0]
         free = self.free
         change = np.zeros_like(v)
-        change[free] = np.linalg.solve((M + added)[np.ix_(free, free)], right[free])
+        change[free] = np.linalg.solve((left.mass + added)[np.ix_(free, free)], right[free])
         return self.instant((q, v, a + change), (z, z_rate, held - follow @ (D @ change)))
 
     def advanced(
@@ -137,9 +157,8 @@ class FlexibleSystem:
         (A_n, Z_n), (A, Z), (dt, w) = method_before, method_after, step_of
         m, f, beta, gamma = w.alpha_m, w.alpha_f, w.beta, w.gamma
         a = ((1.0 - m) * A + m * A_n - f * before.a) / (1.0 - f)
-        v = before.v + dt * ((1.0 - gamma) * A_n + gamma * A)
-        step = dt * before.v + dt * dt * ((0.5 - beta) * A_n + beta * A)
-        q = advance(self.tree, before.q, step, self.tree.turns)
+        start = step_frames(self.tree, before.q, before.v)
+        q, v = newmark(self.tree, (before.q, before.v, A_n), A, start, step_of)
         q[self.actions.driven_q], v[self.driven], a[self.driven] = known.q, known.v, known.a
         A[self.driven] = known.a
         z = before.z + dt * before.z_rate + dt * dt * ((0.5 - beta) * Z_n + beta * Z)
@@ -162,12 +181,12 @@ class FlexibleSystem:
         inertia = self.tires.mass @ np.concatenate([instant.z_acceleration, instant.hub.a], axis=1)
         return np.asarray(self.tires.force(z, v) + self._dead - inertia)
 
-    def residuals(self, instant: Instant, known: Known) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Of joints (n_v,) and free vectors (n_w, n_f, 3); the joints' mass matrix; forces on the reference nodes."""
+    def residual(self, instant: Instant, known: Known) -> Residual:
+        """What is missing in the equations of motion at an instant."""
         forces = self.tire_forces(instant)
-        hub_forces = forces[:, -4:]
-        h, M = self._bias(instant, hub_wrenches(instant.hub.z, np.ascontiguousarray(hub_forces)))
-        return known.tau - h - M @ instant.a, forces[:, :-4], M, hub_forces
+        hubs = np.ascontiguousarray(forces[:, -4:])
+        h, M = self._bias(instant, hub_wrenches(instant.hub.z, hubs))
+        return Residual(joints=known.tau - h - M @ instant.a, tires=forces[:, :-4], mass=M, hubs=hubs)
 
     def _bias(self, instant: Instant, hub: FloatArray) -> tuple[FloatArray, FloatArray]:
         wrenches = np.zeros((len(self.tree.body_links), 6))
@@ -176,19 +195,17 @@ class FlexibleSystem:
 
     def drive_power(self, instant: Instant, t: float) -> float:
         """Power that drives and efforts put in [W]."""
-        wrench = hub_wrenches(instant.hub.z, np.ascontiguousarray(self.tire_forces(instant)[:, -4:]))
-        h, M = self._bias(instant, wrench)
-        efforts = (M @ instant.a + h)[self.driven]
-        return float(efforts @ instant.v[self.driven] + self.known(t).tau @ instant.v)
+        known = self.known(t)
+        drives = -self.residual(instant, known).joints[self.driven]
+        return float(drives @ instant.v[self.driven] + known.tau @ instant.v)
 
     def row(self, instant: Instant, t: float) -> tuple[FloatArray, ...]:
         """What a motion keeps of an instant."""
         z, v = self.whole(instant)
-        wrench = hub_wrenches(instant.hub.z, np.ascontiguousarray(self.tire_forces(instant)[:, -4:]))
-        h, M = self._bias(instant, wrench)
-        motion = instant.motion
+        left = self.residual(instant, self.known(t))
+        motion, wrench = instant.motion, hub_wrenches(instant.hub.z, left.hubs)
         bodies = motion.positions[:-1], motion.rotations[:-1], motion.velocities[:-1]
-        return (*bodies, self._outputs(instant, z, v), wrench, (M @ instant.a + h)[self.driven], z, v)
+        return (*bodies, self._outputs(instant, z, v), wrench, -left.joints[self.driven], z, v)
 
     def _outputs(self, instant: Instant, z: FloatArray, v: FloatArray) -> FloatArray:
         """Outputs as of brush tires, (n_w, 10): the undeformed wheel's depth and slip, the tires' own forces."""
@@ -219,3 +236,8 @@ def node_jacobians(z: FloatArray, J: FloatArray) -> FloatArray:
     D[:, 0] = J[:, :3]
     D[:, 1:] = np.cross(J[:, None, 3:], z[:, 1:, :, None], axis=2)
     return D
+
+
+def joined(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Sum over wheels of left^T right, (n, m), of stacks (n_w, k, n) and (n_w, k, m)."""
+    return np.asarray(left.reshape(-1, left.shape[-1]).T @ right.reshape(-1, right.shape[-1]))

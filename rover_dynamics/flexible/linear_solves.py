@@ -76,12 +76,18 @@ def condense(
     K, C = tangents
     blocks = w_v * C
     blocks += w_q * K
-    R = axes[:, None]
-    blocks = np.matmul(np.swapaxes(R, -1, -2), np.matmul(blocks, R))
+    blocks = _turned(blocks, axes)
     rows, columns = tires.pattern.T
     blocks += c * tires.mass[rows, columns][:, None, None] * np.eye(3)
     n = len(tires.mass)
     return _dense(blocks, tires.pattern, n) if n <= _DENSE + 4 else _sparse(blocks, tires.pattern, n)
+
+
+def _turned(blocks: FloatArray, axes: FloatArray) -> FloatArray:
+    """R^T block R of each wheel's blocks."""
+    turned = blocks.reshape(len(blocks), -1, 3) @ axes
+    turned = np.swapaxes(turned.reshape(blocks.shape), -1, -2).reshape(len(blocks), -1, 3) @ axes
+    return np.swapaxes(turned.reshape(blocks.shape), -1, -2)
 
 
 def _dense(blocks: FloatArray, pattern: NDArray[np.int64], n: int) -> CondensedTires:

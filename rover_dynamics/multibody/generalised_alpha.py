@@ -49,6 +49,10 @@ class Method(NamedTuple):
     tolerance: float
     iterations: int
 
+    def weights(self, dt: float) -> tuple[float, float, float]:
+        """Derivatives by the method's accelerations of the true ones [-], of the rates [s] and of the step [s^2]."""
+        return (1.0 - self.alpha_m) / (1.0 - self.alpha_f), dt * self.gamma, dt * dt * self.beta
+
 
 def generalised_alpha(spectral_radius: float, tolerance: float, iterations: int) -> Method:
     """Coefficients of order two for a spectral radius at infinity (Chung and Hulbert 1993, eqs 17, 20 and 25)."""

@@ -1,0 +1,140 @@
+"""One step of the generalised-alpha method for a vehicle on flexible tires, by Newton's method.
+
+The tires are condensed onto their hubs, see `linear_solves`, so that the linear system has the size of the joints. A
+matrix serves until it is slow. Verified by tests/verification/test_flexible_motion.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant, Residual, joined
+from rover_dynamics.flexible.linear_solves import CondensedTires, condense
+from rover_dynamics.multibody.generalised_alpha import Method
+from rover_dynamics.vehicle.implicit_method import Known
+
+__all__ = ["StepEnd", "StepSolver"]
+
+FloatArray = NDArray[np.float64]
+
+_SLOW = 0.3
+"""Ratio of one change to the one before, above which the matrix is made anew."""
+_SAME = 0.01
+"""Relative difference of two steps' lengths that may share a matrix."""
+_OLD = 0.1
+"""Share of the tolerance that a first change must meet if the matrix is that of an earlier step."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StepEnd:
+    """State at a step's end, with the method's accelerations of joints and free vectors."""
+
+    instant: Instant
+    A: FloatArray
+    Z: FloatArray
+
+    def rescaled(self, ratio: float) -> StepEnd:
+        """The same for a next step ``ratio`` times as long as the last one, see `multibody.generalised_alpha`."""
+        a, z = self.instant.a, self.instant.z_acceleration
+        return StepEnd(instant=self.instant, A=a + ratio * (self.A - a), Z=z + ratio * (self.Z - z))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Matrix:
+    """One linearisation, and the step and method it was made for."""
+
+    tires: CondensedTires
+    dt: float
+    method: Method
+
+    def serves(self, dt: float, method: Method) -> bool:
+        return self.method is method and abs(self.dt - dt) <= _SAME * dt
+
+
+class StepSolver:
+    """Steps of one motion.
+
+    Attributes
+    ----------
+    iterations, linearisations : counts
+    """
+
+    def __init__(self, system: FlexibleSystem) -> None:
+        self._system = system
+        self._matrix: _Matrix | None = None
+        self.iterations = self.linearisations = 0
+
+    def step(self, before: StepEnd, known: Known, dt: float, method: Method) -> tuple[StepEnd | None, float]:
+        """The end of a step and its estimated error [m, rad]; None and infinity if Newton's method fails.
+
+        Parameters
+        ----------
+        before : where it starts, rescaled to its length
+        known : what is prescribed at its end
+        dt : [s]
+        """
+        system, earlier = self._system, (before.A, before.Z)
+        A, Z = before.instant.a.copy(), before.instant.z_acceleration.copy()
+        last, fresh = np.inf, False
+        for iteration in range(method.iterations):
+            after = system.advanced(before.instant, earlier, (A, Z), known, (dt, method))
+            if not np.isfinite(after.z).all():
+                break
+            residual = system.residual(after, known)
+            if self._matrix is None or not self._matrix.serves(dt, method):
+                fresh = self._linearise(after, dt, method)
+            size = dt * dt * self._correct(after, residual, A, Z)
+            if size < method.tolerance * (1.0 if iteration or fresh else _OLD):
+                after = system.advanced(before.instant, earlier, (A, Z), known, (dt, method))
+                error = method.error * dt * dt * self._largest(A - before.A, Z - before.Z)
+                return StepEnd(instant=after, A=A, Z=Z), error
+            if not np.isfinite(size) or (fresh and iteration > 2 and size > last):
+                break
+            if size > _SLOW * last and not fresh:
+                fresh = self._linearise(after, dt, method)
+                size = np.inf
+            last = size
+        return None, np.inf
+
+    def _largest(self, A: FloatArray, Z: FloatArray) -> float:
+        """Largest entry of joints and of nodes' places, of accelerations [m/s^2, rad/s^2]."""
+        return float(max(np.abs(A[self._system.free]).max(), np.abs(Z[:, self._system.free_positions]).max()))
+
+    def _linearise(self, after: Instant, dt: float, method: Method) -> bool:
+        """Make the matrix anew; true."""
+        system, tires = self._system, self._system.tires
+        tangents = tires.tangents(*system.whole(after), exact=False)
+        condensed = condense(tires, tangents, system.axes(after), method.weights(dt))
+        self._matrix = _Matrix(tires=condensed, dt=dt, method=method)
+        self.linearisations += 1
+        return True
+
+    def _correct(self, after: Instant, residual: Residual, A: FloatArray, Z: FloatArray) -> float:
+        """Newton's change of A and Z, made in place; its largest entry."""
+        assert self._matrix is not None
+        tires, system, R, J = self._matrix.tires, self._system, self._system.axes(after), after.J
+        c, _, w_q = self._matrix.method.weights(self._matrix.dt)
+        to_hub = np.swapaxes(R, -1, -2)
+        twists = np.concatenate([to_hub @ J[:, :3], to_hub @ J[:, 3:]], axis=1)
+        in_hub = (residual.tires @ R).reshape(len(R), -1)
+        pushed = np.matmul(tires.carry, in_hub[..., None])
+        matrix = c * residual.mass + joined(twists, tires.stiffness @ twists)
+        matrix -= w_q * joined(J[:, 3:], _turning(after.hub.z, residual.hubs) @ J[:, 3:])
+        right = residual.joints - joined(twists, pushed)[:, 0]
+        change, free = np.zeros_like(A), system.free
+        change[free] = np.linalg.solve(matrix[np.ix_(free, free)], right[free])
+        held = tires.solve(in_hub) - np.matmul(tires.follow, (twists @ change)[..., None])[..., 0]
+        of_tires = held.reshape(Z.shape) @ to_hub
+        A += change
+        Z += of_tires
+        self.iterations += 1
+        return self._largest(change, of_tires)
+
+
+def _turning(z: FloatArray, forces: FloatArray) -> FloatArray:
+    """Change of the moments sum a_i x F_i with the hub's rotation at fixed forces, (n_w, 3, 3)."""
+    G = np.swapaxes(z[:, 1:], -1, -2) @ forces[:, 1:]
+    return np.asarray(G - np.trace(G, axis1=1, axis2=2)[:, None, None] * np.eye(3))
