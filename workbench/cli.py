@@ -166,7 +166,7 @@ def rover(
     scenario: Annotated[
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)
     ] = None,
-    tire: Annotated[str, typer.Option(help="brush or rigid; ancf is to come.")] = "brush",
+    tire: Annotated[str, typer.Option(help="rigid, brush or ancf: six flexible tires.")] = "brush",
     rover_file: Annotated[
         Path | None, typer.Option("--rover", help="Rover file (TOML); the thesis' if left out.", show_default=False)
     ] = None,

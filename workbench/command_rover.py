@@ -12,7 +12,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from contracts.errors import InputError
+from contracts.errors import ConvergenceError, InputError
 from contracts.series import write_series
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, gravity_named, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
@@ -47,7 +47,7 @@ class RoverChoices:
 
     Attributes
     ----------
-    tire : brush or rigid
+    tire : brush, rigid or ancf
     rover : rover file, or None for the thesis' rover
     gravity : mars or earth, or None for the rover file's
     terrain : file of a height field to drive on, or None
@@ -87,14 +87,24 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices) -> int:
         if choices.animate:
             _animate(scenario, design, run, page)
         if run.stopped is None:
-            more = [part(scenario, design) for part in (scenario.study, scenario.search) if part]
-            outcomes = [*scenario.judge(run), *(outcome for part in more for outcome in part)]
+            outcomes = [*scenario.judge(run), *_more(scenario, design)]
     if run.stopped is not None:
         raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
     _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)
     for what, path in [("series", out / file), *([("animation", page)] if choices.animate else [])]:
         console.print(f"{what}: {path}", highlight=False, markup=False, soft_wrap=True)
     return 0
+
+
+def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:
+    """What is studied and searched beside the run; says why where it cannot be."""
+    found: list[Outcome] = []
+    for part in (scenario.study, scenario.search):
+        try:
+            found += part(scenario, design) if part else ()
+        except ConvergenceError as error:
+            console.print(f"study of {scenario.name} left out: {error}", highlight=False, markup=False, soft_wrap=True)
+    return found
 
 
 def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Path) -> None:
@@ -114,6 +124,10 @@ def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDes
         design = replace(design, gravity=gravity_named(choices.gravity))
     if choices.tire == "rigid":
         scenario = on_rigid_tires(scenario)
+    elif choices.tire == "ancf":
+        from workbench.rover_tires import on_ancf_tires
+
+        scenario = on_ancf_tires(scenario)
     return _on_ground(scenario, design, choices), design
 
 
@@ -138,9 +152,7 @@ def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -
 
 def _check_tire(tire: str) -> None:
     if tire not in _TIRES:
-        raise InputError("tire", repr(tire), "is not known", "give brush or rigid")
-    if tire == "ancf":
-        raise InputError("tire", repr(tire), "does not carry the rover in this version", "give brush or rigid")
+        raise InputError("tire", repr(tire), "is not known", "give rigid, brush or ancf")
 
 
 def _print_outcomes(title: str, outcomes: Sequence[Outcome]) -> None:

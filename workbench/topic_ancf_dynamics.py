@@ -66,7 +66,7 @@ _TITLES = {
 }
 
 
-_SCENARIOS = {"drop": "drop", "drop_share": "drop_share", "ride": "half_round"}
+_SCENARIOS = {"drop": "wheel_drop", "drop_share": "wheel_drop_share", "ride": "wheel_half_round"}
 """Motion -> its scenario's name in ``series/{scenario}_{tire}.csv``."""
 
 

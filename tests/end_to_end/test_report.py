@@ -91,7 +91,7 @@ def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished
 def test_time_series_are_csv_and_linked(first_report: Finished, workspace: Path) -> None:
     """Named ``{scenario}_{tire}.csv``; the page holds each whole, behind a link of its section."""
     folder = workspace / "report" / "series"
-    wheel = {"drop_ancf.csv", "drop_share_ancf.csv", "half_round_ancf.csv"}
+    wheel = {"wheel_drop_ancf.csv", "wheel_drop_share_ancf.csv", "wheel_half_round_ancf.csv"}
     assert {p.name for p in folder.iterdir()} == wheel | {f"{name}_brush.csv" for name in SCENARIOS}
     page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
     section = page[page.index('<section id="ancf_dynamics">') :].partition("</section>")[0]
@@ -103,7 +103,7 @@ def test_time_series_are_csv_and_linked(first_report: Finished, workspace: Path)
         scenario = path.stem.removesuffix("_ancf")
         series = read_series(path, scenario, "ancf")
         assert np.all(np.diff(series.time) > 0.0)
-        assert series.partial == (scenario == "drop_share"), "the tire folds under the rover's share"
+        assert series.partial == (scenario == "wheel_drop_share"), "the tire folds under the rover's share"
         link = re.search(rf'href="data:text/csv;base64,([^"]+)" download="{path.name}"', section)
         assert link, path.name
         assert base64.b64decode(link[1]).decode("utf-8") == text

@@ -41,10 +41,10 @@ def test_series_begin_as_asked(results: AncfMotions) -> None:
 
 def test_series_are_published_by_scenario_and_tire(results: AncfMotions) -> None:
     published = series_files(ANCF_DYNAMICS.series(read_study(built_in_study()), results))
-    assert list(published) == ["drop_ancf.csv", "drop_share_ancf.csv", "half_round_ancf.csv"]
-    assert "25 kg on its hub" in published["drop_ancf.csv"].source
-    assert "48.9 kg on its hub" in published["drop_share_ancf.csv"].source
-    assert not published["drop_ancf.csv"].partial
+    assert list(published) == ["wheel_drop_ancf.csv", "wheel_drop_share_ancf.csv", "wheel_half_round_ancf.csv"]
+    assert "25 kg on its hub" in published["wheel_drop_ancf.csv"].source
+    assert "48.9 kg on its hub" in published["wheel_drop_share_ancf.csv"].source
+    assert not published["wheel_drop_ancf.csv"].partial
 
 
 def test_a_motion_that_stops_is_marked_partial(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.errors import ConvergenceError
 from rover_dynamics.brush_settings import BrushSettings, DamperLaw
 from rover_dynamics.brush_tire import THESIS_BRUSH
 from rover_dynamics.multibody.motion_law import Hold, MotionLaw, SpeedTrapezoid
@@ -20,7 +21,7 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.closed_forms import drive_force, single_wheel_drop
 from rover_dynamics.rover.scenarios.offsets import loads_against_offset
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from rover_dynamics.rover.scenarios.scenario import SAMPLED, Scenario, ScenarioRun, mean_static_load, run_scenario
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, mean_static_load, run_scenario, sampled
 
 __all__ = ["LEVEL_GROUND", "SPEED", "all_drives", "drive_forward", "straight_ahead"]
 
@@ -71,19 +72,17 @@ def _static(run: ScenarioRun) -> tuple[Outcome, ...]:
 def _drop(run: ScenarioRun) -> tuple[Outcome, ...]:
     """Peaks against those of a single wheel with its share of the mass, sampled at the same times."""
     scenario, design, times = run.scenario, run.design, run.motion.times
-    alone = single_wheel_drop(design, DROP_HEIGHT, times, scenario.tire, scenario.settings)
-    law = "as printed" if scenario.settings.damper_law is DamperLaw.AS_PRINTED else "builds up with the deflection"
+    law, alone = "", None
+    if scenario.has_closed_forms:
+        alone = float(single_wheel_drop(design, DROP_HEIGHT, times, scenario.tire, scenario.settings).max())
+        builds_up = scenario.settings.damper_law is DamperLaw.BUILDS_UP
+        law = f", damper {'builds up with the deflection' if builds_up else 'as printed'}"
     return (
-        Outcome(
-            quantity=f"largest wheel load, damper {law}",
-            value=float(run.loads.max()),
-            unit="N",
-            reference=float(alone.max()),
-        ),
+        Outcome(quantity=f"largest wheel load{law}", value=float(run.loads.max()), unit="N", reference=alone),
         Outcome(
             quantity="time of the largest wheel load", value=float(times[run.loads.max(axis=1).argmax()]), unit="s"
         ),
-        Outcome(quantity=f"largest deflection, damper {law}", value=float(run.deflections.max()), unit="m"),
+        Outcome(quantity=f"largest deflection{law}", value=float(run.deflections.max()), unit="m"),
         _mean_load(run),
     )
 
@@ -92,7 +91,7 @@ def _sweep(run: ScenarioRun) -> tuple[Outcome, ...]:
     """Deflection at each load, against the tire's static line."""
     found = []
     for load, deflection in zip(run.loads.mean(axis=1), run.deflections.mean(axis=1), strict=True):
-        expected = float(load) / run.scenario.tire.radial_stiffness
+        expected = float(load) / run.scenario.tire.radial_stiffness if run.scenario.has_closed_forms else None
         text = f"deflection at {load:.1f} N"
         found.append(Outcome(quantity=text, value=float(deflection), unit="m", reference=expected))
     return tuple(found)
@@ -101,13 +100,23 @@ def _sweep(run: ScenarioRun) -> tuple[Outcome, ...]:
 def _sweep_of_gravity(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
     """Gravity scaled to each mean wheel load; one sample for each, at the end of its settling."""
     single = replace(scenario, composed=None)
-    runs = [
-        run_scenario(single, replace(design, gravity=design.gravity * load / mean_static_load(design)))
-        for load in SWEEP
-    ]
-    kept: dict[str, Any] = {name: np.concatenate([getattr(run.motion, name)[-1:] for run in runs]) for name in SAMPLED}
+    runs: list[ScenarioRun] = []
+    stopped = None
+    for load in SWEEP:
+        try:
+            run = run_scenario(single, replace(design, gravity=design.gravity * load / mean_static_load(design)))
+        except ConvergenceError as error:
+            stopped = f"{load:g} N: {error}"
+        else:
+            stopped = run.stopped
+        if stopped is not None:
+            break
+        runs.append(run)
+    if not runs:
+        raise ConvergenceError(f"the rover settles at no load of the sweep, {stopped}", [])
+    ends = [sampled(run.motion) for run in runs]
+    kept: dict[str, Any] = {name: np.concatenate([end[name][-1:] for end in ends]) for name in ends[0]}
     kept["times"] = (single.settles + single.lasts) * np.arange(1.0, len(runs) + 1.0)
-    stopped = next((run.stopped for run in runs if run.stopped), None)
     return ScenarioRun(scenario=scenario, design=design, motion=replace(runs[-1].motion, **kept), stopped=stopped)
 
 
@@ -147,19 +156,19 @@ def _traction(run: ScenarioRun) -> tuple[Outcome, ...]:
     """Forces of the last 5 s: the observed wheel's against its own balance, the mean of all against a closed form."""
     wheel, last = _observed(run), run.motion.times >= run.motion.times[-1] - 5.0
     name = run.design.legs[wheel].name.replace("_", " ")
-    forces = run.tractive[last]
+    forces, known = run.tractive[last], run.scenario.has_closed_forms
     return (
         Outcome(
             quantity=f"tractive force of the last 5 s, {name}",
             value=float(forces[:, wheel].mean()),
             unit="N",
-            reference=_driven_wheel(run, wheel, last),
+            reference=_driven_wheel(run, wheel, last) if known else None,
         ),
         Outcome(
             quantity="mean tractive force of all wheels in the last 5 s",
             value=float(forces.mean()),
             unit="N",
-            reference=drive_force(run.design, run.scenario.tire, TORQUE),
+            reference=drive_force(run.design, run.scenario.tire, TORQUE) if known else None,
         ),
         Outcome(
             quantity=f"tractive force by load, {name}",

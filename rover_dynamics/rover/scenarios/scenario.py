@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,17 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 
-__all__ = ["SAMPLED", "Judge", "Scenario", "ScenarioRun", "Tilt", "mean_static_load", "run_scenario", "scenario_series"]
+__all__ = [
+    "Judge",
+    "Ride",
+    "Scenario",
+    "ScenarioRun",
+    "Tilt",
+    "mean_static_load",
+    "run_scenario",
+    "sampled",
+    "scenario_series",
+]
 
 FloatArray = NDArray[np.float64]
 _PENETRATION, _LOAD, _SLIP, _PATCH, _TRACTIVE, _LATERAL, _BESIDE = 0, 1, 2, 4, 7, 8, 9
@@ -119,10 +130,13 @@ class ScenarioRun:
         return np.arccos(np.clip(self.motion.rotations[:, 0, 2, 2], -1.0, 1.0))
 
 
-SAMPLED = ("times", "positions", "rotations", "velocities", "tires", "wrenches", "efforts")
-"""Arrays of a `VehicleMotion` with one row for each time."""
 Judge = Callable[[ScenarioRun], tuple[Outcome, ...]]
 Study = Callable[["Scenario", RoverDesign], tuple[Outcome, ...]]
+Ride = Callable[["Scenario", RoverDesign], VehicleMotion]
+
+
+def _on_brush_tires(scenario: Scenario, design: RoverDesign) -> VehicleMotion:
+    return drive_vehicle(scenario.vehicle(design), scenario.times())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,6 +157,8 @@ class Scenario:
     tilt : of gravity
     tire, settings : of all wheels
     tire_model : what series and files call them
+    ride : its vehicle's motion at its times; other tires than the brush have one of their own
+    has_closed_forms : whether the brush tire's formulas are references of what is judged
     path : places (n, 2) [m] the wheels are to reach, or None for a scenario that has a ground of its own
     study : more outcomes by more runs, a few seconds, or None
     search : how far the requirement could be raised, by bisection (up to a minute), or None
@@ -164,6 +180,8 @@ class Scenario:
     tire: BrushTireParameters = THESIS_BRUSH
     settings: BrushSettings = field(default_factory=BrushSettings)
     tire_model: str = "brush"
+    ride: Ride = _on_brush_tires
+    has_closed_forms: bool = True
     path: Callable[[RoverDesign], FloatArray] | None = None
     study: Study | None = None
     search: Study | None = None
@@ -221,9 +239,9 @@ def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
     """
     if scenario.composed is not None:
         return scenario.composed(scenario, design)
-    times, stopped = scenario.times(), None
+    stopped = None
     try:
-        motion = drive_vehicle(scenario.vehicle(design), times)
+        motion = scenario.ride(scenario, design)
     except ConvergenceError as error:
         if not isinstance(error.last_good, VehicleMotion) or error.last_good.times[-1] < 0.0:
             raise
@@ -233,8 +251,14 @@ def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
         raise ConvergenceError(message, []) from error
     _check_covered(motion)
     begin = int(np.searchsorted(motion.times, 0.0))
-    kept = {name: getattr(motion, name)[begin:] for name in SAMPLED}
+    kept = {name: rows[begin:] for name, rows in sampled(motion).items()}
     return ScenarioRun(scenario=scenario, design=design, motion=replace(motion, **kept), stopped=stopped)
+
+
+def sampled(motion: VehicleMotion) -> dict[str, Any]:
+    """Arrays of a motion, with one row for each time, by name."""
+    values = {one.name: getattr(motion, one.name) for one in fields(motion)}
+    return {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
 
 
 def _check_covered(motion: VehicleMotion) -> None:

@@ -1,0 +1,72 @@
+"""The rover on ANCF tires: what the wiring hands on, what it refuses, and a fold that ends a motion."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ancf_reduced.tire_mesh import build_tire
+from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.wheel_set import wheel_set
+from contracts.errors import ConvergenceError, InputError
+from contracts.terrain import Plane
+from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
+from rover_dynamics.rover.rover_file import read_rover
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
+from rover_dynamics.rover.scenarios.scenario import ScenarioRun, mean_static_load, run_scenario, scenario_series
+from workbench.rover_tires import START_HEIGHT, on_ancf_tires, unfolded
+
+DESIGN = read_rover()
+
+
+@pytest.fixture(scope="module")
+def held() -> ScenarioRun:
+    """The rover at rest on its spokes, drives held."""
+    short = replace(SCENARIOS["straight"], settles=4.0, lasts=0.1, every=0.05)
+    return run_scenario(on_ancf_tires(short), DESIGN)
+
+
+def test_six_tires_carry_the_rover(held: ScenarioRun) -> None:
+    """Statics: the mean load is a sixth of the weight; the thesis' tire is 22.9 mm deep under it on a spoke."""
+    assert held.stopped is None
+    assert held.loads[-1].mean() == pytest.approx(mean_static_load(DESIGN), rel=2e-3)
+    assert held.deflections[-1].mean() == pytest.approx(22.9e-3, abs=0.5e-3)
+    motion = held.motion
+    assert isinstance(motion, FlexibleMotion)
+    assert len(motion.vectors) == len(motion.rates) == len(motion.times) == 3  # the settling is left out of all
+    series = scenario_series(held)
+    assert (series.scenario, series.tire) == ("straight", "ancf")
+
+
+def test_tires_turned_by_half_a_spoke_are_softer(held: ScenarioRun) -> None:
+    short = replace(SCENARIOS["straight"], settles=4.0, lasts=0.1)
+    between = run_scenario(on_ancf_tires(short, turned=np.pi / 4), DESIGN)
+    assert between.deflections[-1].mean() > held.deflections[-1].mean() + 2e-3
+
+
+def test_what_is_handed_on_and_what_is_left() -> None:
+    drop = on_ancf_tires(SCENARIOS["drop"])
+    assert (drop.height, drop.tire_model, drop.has_closed_forms) == (0.010, "ancf", False)
+    assert on_ancf_tires(SCENARIOS["static"]).height == START_HEIGHT
+
+
+def test_a_rover_with_other_wheels_is_refused() -> None:
+    with pytest.raises(InputError, match="150 mm: is not that of the ANCF tire"):
+        run_scenario(on_ancf_tires(SCENARIOS["straight"]), replace(DESIGN, wheel_radius=0.15))
+
+
+def test_a_folded_tire_ends_the_motion_before_it_and_says_so(held: ScenarioRun) -> None:
+    """Negative control of the check of plates: in the last sample the shape of one tire is turned inside out."""
+    motion = held.motion
+    assert isinstance(motion, FlexibleMotion)
+    tires = wheel_set(build_tire(thesis_preset()), Plane(), 6)
+    assert unfolded(motion, tires) is motion
+    shapes = motion.vectors.copy()
+    shapes[2, 3, :, 1] *= -1.0
+    with pytest.raises(ConvergenceError, match=r"a tire folds at t = 0\.1 s") as caught:
+        unfolded(replace(motion, vectors=shapes), tires)
+    assert isinstance(caught.value.last_good, FlexibleMotion)
+    assert caught.value.last_good.times.tolist() == [0.0, 0.05]
+    assert len(caught.value.last_good.vectors) == 2
