@@ -125,6 +125,11 @@ class FlexibleSystem:
         z, z_rate = X @ instant.hub.z, X @ instant.hub.v
         return self.accelerated(q, v, (z, z_rate), self.known(t))
 
+    def at_rest_there(self, place: Instant, t: float) -> Instant:
+        """Another motion's coordinates at rest, with consistent accelerations; its vehicle may have weighed less."""
+        tires = place.z, np.zeros_like(place.z)
+        return self.accelerated(place.q, np.zeros_like(place.v), tires, self.known(t))
+
     def accelerated(self, q: FloatArray, v: FloatArray, tires: tuple[FloatArray, FloatArray], known: Known) -> Instant:
         """The instant with the accelerations that its forces cause."""
         z, z_rate = tires

@@ -39,8 +39,9 @@ def drive_on_flexible_tires(
     *,
     settles_until: float = -np.inf,
     watch: Callable[[float, Instant], None] | None = None,
+    start: Instant | None = None,
 ) -> FlexibleMotion:
-    """Integrate from the model's start at ``times[0]``, tires undeformed.
+    """Integrate from the model's start at ``times[0]``, tires undeformed, or from where another motion ended.
 
     Parameters
     ----------
@@ -50,6 +51,7 @@ def drive_on_flexible_tires(
     settles_until : up to this time [s] steps are those of the implicit Euler method, as long as Newton's method bears
         them: the vehicle comes to rest without bouncing
     watch : called with time and state at each step's end
+    start : bodies and tires begin in this state's place, at rest
 
     Raises
     ------
@@ -58,7 +60,7 @@ def drive_on_flexible_tires(
     InputError
         See `rover_dynamics.vehicle.vehicle.drive_vehicle`.
     """
-    return _Run(vehicle, times, steps or EvenSteps(), settles_until, watch).to_its_end()
+    return _Run(vehicle, times, steps or EvenSteps(), settles_until, watch).to_its_end(start)
 
 
 class _Run:
@@ -79,10 +81,10 @@ class _Run:
         self.solver = StepSolver(self.system)
         self.accepted = self.rejected = 0
 
-    def to_its_end(self) -> FlexibleMotion:
+    def to_its_end(self, start: Instant | None = None) -> FlexibleMotion:
         """Step from one time asked for to the next."""
         system, t, length, last = self.system, float(self.times[0]), self.steps.first, 0.0
-        instant = system.at_rest(t)
+        instant = system.at_rest(t) if start is None else system.at_rest_there(start, t)
         now = StepEnd(instant=instant, A=instant.a, Z=instant.z_acceleration)
         rows = [system.row(now.instant, t)]
         for target in self.times[1:].tolist():

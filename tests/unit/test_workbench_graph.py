@@ -74,7 +74,7 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
         _new_keys(before, ancf) == {"ancf_phi000", "ancf_phi045", "ancf_surfaces", "ancf_as_it_is", "metrics"} | refined
     )
     finest = report_tasks(_changed(study, "mesh_study", factors=(1.0, 1.5, 2.5)), HERE)
-    assert _new_keys(before, finest) == {"mesh_x2.5", "fe_x2.5", "ancf_fit_six_spokes"}
+    assert _new_keys(before, finest) == {"mesh_x2.5", "fe_x2.5", "ancf_fit_six_spokes", "rover_stands_six_spokes"}
     tolerance = report_tasks(_changed(study, "tolerances", initial_tangent=0.5), HERE)
     assert _new_keys(before, tolerance) == set()
     mesh = report_tasks(_changed(study, "mesh", element_size=7e-3), HERE)
