@@ -7,11 +7,14 @@ so that loops over points written with them are vectorised.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import cast
+from pathlib import Path
+from typing import Any, cast
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from contracts.compile_cache import compile_cache
 
 __all__ = [
     "LANES",
@@ -30,15 +33,25 @@ __all__ = [
 type Vector = tuple[float, float, float]
 type Symmetric = tuple[float, float, float, float, float, float]
 FloatArray = NDArray[np.float64]
+_PACKAGE = Path(__file__).parent
 
 LANES = 32
 """Integration points handled together."""
 
 
 def compiled[F: Callable[..., object]](function: F) -> F:
-    """Compile with numba, cached on disk; sums may be re-associated and contracted, nothing else is relaxed."""
-    jit = numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})
-    return cast(F, jit(function))
+    """Compile with numba; sums may be re-associated and contracted, nothing else is relaxed.
+
+    Cached on disk for the present sources of the package.
+    """
+    config = cast(Any, numba.config)
+    users = config.CACHE_DIR
+    config.CACHE_DIR = users or str(compile_cache(_PACKAGE))
+    try:
+        jit = numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})
+        return cast(F, jit(function))
+    finally:
+        config.CACHE_DIR = users
 
 
 def inlined[F: Callable[..., object]](function: F) -> F:

@@ -12,9 +12,10 @@ that imports numba here. Verified by tests/verification/test_fe_cells.py against
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from reference_fe.compiled import compiled
 
 __all__ = ["add_tangent", "block_places", "diagonal_places", "internal_force", "point_stress"]
 
@@ -22,7 +23,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int32]
 
 
-@numba.njit(cache=True)
+@compiled()
 def _displacement_gradient(G: Array, u: Array, dofs: Index, H: Array) -> None:
     """H (3, 3) at one point; G (3, n), dofs (n, 3) of the cell."""
     H[:] = 0.0
@@ -33,7 +34,7 @@ def _displacement_gradient(G: Array, u: Array, dofs: Index, H: Array) -> None:
                 H[i, J] += value * G[J, a]
 
 
-@numba.njit(cache=True)
+@compiled()
 def _second_piola(H: Array, moduli: Array, S: Array) -> None:
     """S (3, 3) = lam tr(E) I + 2 mu E + s I with E = (H + H^T + H^T H)/2 [Pa]; moduli (3,) lam, mu, s [Pa]."""
     lam, mu, offset = moduli[0], moduli[1], moduli[2]
@@ -45,7 +46,7 @@ def _second_piola(H: Array, moduli: Array, S: Array) -> None:
         S[i, i] += normal
 
 
-@numba.njit(cache=True)
+@compiled()
 def internal_force(u: Array, G: Array, w: Array, moduli: Array, dofs: Index, out: Array) -> None:
     """Add int S : DE[v] dV of every cell to ``out`` (n_dofs,) [N].
 
@@ -70,7 +71,7 @@ def internal_force(u: Array, G: Array, w: Array, moduli: Array, dofs: Index, out
                     out[dofs[c, a, i]] += P[i, 0] * G[c, q, 0, a] + P[i, 1] * G[c, q, 1, a] + P[i, 2] * G[c, q, 2, a]
 
 
-@numba.njit(cache=True)
+@compiled()
 def point_stress(u: Array, du: Array, G: Array, moduli: Array, dofs: Index, out: Array) -> None:
     """Extrapolated stress S(E(u)) + CC : DE(u)[du] at every point into ``out`` (n_cells, n_points, 3, 3) [Pa]."""
     H, dH, S = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
@@ -93,7 +94,7 @@ def point_stress(u: Array, du: Array, G: Array, moduli: Array, dofs: Index, out:
                 out[c, q, i, i] += lam * trace
 
 
-@numba.njit(cache=True)
+@compiled()
 def block_places(nodes: Index, indptr: Index, indices: Index) -> Index:
     """Place of node b's three columns within the rows of node a, (n_cells, n_nodes, n_nodes); nodes (n_cells, n_nodes).
 
@@ -108,7 +109,7 @@ def block_places(nodes: Index, indptr: Index, indices: Index) -> Index:
     return places
 
 
-@numba.njit(cache=True)
+@compiled()
 def diagonal_places(rows: Index, indptr: Index, indices: Index) -> NDArray[np.int64]:
     """Places of the diagonal entries of rows in the values of a CSR matrix, (n_rows,)."""
     places = np.empty(len(rows), dtype=np.int64)
@@ -117,7 +118,7 @@ def diagonal_places(rows: Index, indptr: Index, indices: Index) -> NDArray[np.in
     return places
 
 
-@numba.njit(cache=True, fastmath={"contract", "reassoc"})
+@compiled(fastmath={"contract", "reassoc"})
 def add_tangent(
     u: Array,
     stress: Array,
@@ -160,7 +161,7 @@ def add_tangent(
                             values[mirrored + i * length[b] + k] += block[k, i]
 
 
-@numba.njit(cache=True, fastmath={"contract", "reassoc"}, error_model="numpy")
+@compiled(fastmath={"contract", "reassoc"}, error_model="numpy")
 def _point_factors(
     w: float, mu: float, H: Array, S: Array, G: Array, q: int, g: Array, f: Array, s: Array, B: Array
 ) -> None:
@@ -176,7 +177,7 @@ def _point_factors(
             s[i, a, q] = w * (S[i, 0] * G[0, a] + S[i, 1] * G[1, a] + S[i, 2] * G[2, a])
 
 
-@numba.njit(cache=True, fastmath={"contract", "reassoc"}, error_model="numpy")
+@compiled(fastmath={"contract", "reassoc"}, error_model="numpy")
 def _node_pair(
     a: int, b: int, lam: float, mu: float, w: Array, g: Array, f: Array, s: Array, B: Array, K: Array
 ) -> None:

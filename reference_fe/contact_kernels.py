@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from reference_fe.compiled import compiled
 from reference_fe.contact_law import friction_traction, ramped_pressure
 from reference_fe.obstacles import piece_gap
 
@@ -76,7 +76,7 @@ class PointForces(NamedTuple):
         return cls(gap, pressure, traction, np.zeros(per_point), np.zeros((*per_point, dim)))
 
 
-@numba.njit(cache=True)
+@compiled()
 def point_forces(
     x: NDArray[np.float64], slip: NDArray[np.float64], surface: Surface, history: ContactHistory, out: PointForces
 ) -> None:
@@ -139,7 +139,7 @@ def point_forces(
             out.stiffness[m, q] = stiffness
 
 
-@numba.njit(cache=True)
+@compiled()
 def facet_forces(
     active: NDArray[np.int64],
     shapes: NDArray[np.float64],
@@ -170,7 +170,7 @@ def facet_forces(
     return out
 
 
-@numba.njit(cache=True)
+@compiled()
 def facet_blocks(
     active: NDArray[np.int64],
     shapes: NDArray[np.float64],

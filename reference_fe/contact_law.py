@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from reference_fe.compiled import compiled
 
 __all__ = ["friction_traction", "ramped_pressure"]
 
 
-@numba.njit(cache=True, inline="always")
+@compiled(inline="always")
 def ramped_pressure(gap: float, penalty: float, ramp: float, multiplier: float = 0.0) -> tuple[float, float]:
     """Contact pressure and its stiffness.
 
@@ -42,7 +43,7 @@ def ramped_pressure(gap: float, penalty: float, ramp: float, multiplier: float =
     return penalty * (ramp - y) ** 2 / (4.0 * ramp), penalty * (ramp - y) / (2.0 * ramp)
 
 
-@numba.njit(cache=True, inline="always")
+@compiled(inline="always")
 def friction_traction(
     trial: NDArray[np.float64], limit: float, traction: NDArray[np.float64], direction: NDArray[np.float64]
 ) -> float:

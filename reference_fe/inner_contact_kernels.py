@@ -14,10 +14,10 @@ symmetric, so that the contact has a potential. Verified by tests/unit/test_fe_i
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from reference_fe.compiled import compiled
 from reference_fe.contact_law import ramped_pressure
 
 __all__ = ["contact_blocks", "nearest_contacts", "shape_values", "surface_frames"]
@@ -31,7 +31,7 @@ _BEND = 0.5
 """Curvature that is allowed for within a facet: cosine of its normals, and height over radius."""
 
 
-@numba.njit(cache=True)
+@compiled()
 def _line(n: int, s: float, out: Array) -> None:
     """Lagrange polynomials of n = 1, 2 or 3 nodes at s: values, first and second derivatives into out (3, 3)."""
     out[:] = 0.0
@@ -46,7 +46,7 @@ def _line(n: int, s: float, out: Array) -> None:
         out[2, 0], out[2, 1], out[2, 2] = 1.0, -2.0, 1.0
 
 
-@numba.njit(cache=True)
+@compiled()
 def _shapes(lattice: tuple[int, int], s: float, t: float, out: Array) -> None:
     """Shape functions (row 0), their derivatives a, b (1, 2) and aa, ab, bb (3, 4, 5) into out (6, n_nodes)."""
     la, lb = np.empty((3, 3)), np.empty((3, 3))
@@ -60,7 +60,7 @@ def _shapes(lattice: tuple[int, int], s: float, t: float, out: Array) -> None:
             out[3, k], out[4, k], out[5, k] = la[2, i] * lb[0, j], la[1, i] * lb[1, j], la[0, i] * lb[2, j]
 
 
-@numba.njit(cache=True)
+@compiled()
 def shape_values(lattice: tuple[int, int], at: Array) -> Array:
     """Shape functions of a facet at points ``at`` (q, 2), (q, n_nodes) [-]."""
     out, shapes = np.empty((at.shape[0], lattice[0] * lattice[1])), np.empty((6, lattice[0] * lattice[1]))
@@ -70,7 +70,7 @@ def shape_values(lattice: tuple[int, int], at: Array) -> Array:
     return out
 
 
-@numba.njit(cache=True)
+@compiled()
 def _place(x: Array, nodes: Index, lattice: tuple[int, int], shapes: Array, out: Array) -> None:
     """Position (row 0), tangents (1, 2) and second derivatives (3, 4, 5) into out (6, 3)."""
     out[:] = 0.0
@@ -82,7 +82,7 @@ def _place(x: Array, nodes: Index, lattice: tuple[int, int], shapes: Array, out:
         out[2, 2] = 1.0
 
 
-@numba.njit(cache=True)
+@compiled()
 def _normal(place: Array, side: float, n: Array) -> float:
     """Unit normal into n; returns the area ratio |t_1 x t_2| [m^2]."""
     a, b = place[1], place[2]
@@ -93,7 +93,7 @@ def _normal(place: Array, side: float, n: Array) -> float:
     return float(area)
 
 
-@numba.njit(cache=True)
+@compiled()
 def surface_frames(
     x: Array, facets: Index, sides: Array, lattice: tuple[int, int], at: Array
 ) -> tuple[Array, Array, Array]:
@@ -119,7 +119,7 @@ def surface_frames(
     return positions, normals, areas
 
 
-@numba.njit(cache=True)
+@compiled()
 def _closest(
     x: Array, point: Array, nodes: Index, lattice: tuple[int, int], xi: Array, shapes: Array, place: Array
 ) -> None:
@@ -147,7 +147,7 @@ def _closest(
     _place(x, nodes, lattice, shapes, place)
 
 
-@numba.njit(cache=True)
+@compiled()
 def _may_touch(
     point: Array, normal: Array, middle: Array, radius: float, outward: Array, above: float, below: float
 ) -> bool:
@@ -163,7 +163,7 @@ def _may_touch(
     return near and facing <= _BEND and -below - room <= height <= above + room
 
 
-@numba.njit(cache=True)
+@compiled()
 def nearest_contacts(
     x: Array,
     points: Array,
@@ -218,7 +218,7 @@ def nearest_contacts(
     return facet, where, gap
 
 
-@numba.njit(cache=True)
+@compiled()
 def contact_blocks(
     x: Array,
     slave: tuple[Index, Array],
@@ -269,7 +269,7 @@ def contact_blocks(
                 K[k, m] += area * slope * dg[k] * dg[m]
 
 
-@numba.njit(cache=True)
+@compiled()
 def _turning(place: Array, n: Array, g: float, factor: float, variations: tuple[Array, Array], K: Array) -> None:
     """Write factor d(dg) into K: the normal turns and the closest point slides."""
     tau, nu = variations

@@ -13,11 +13,11 @@ import math
 from dataclasses import dataclass
 from typing import Protocol
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from reference_fe.compiled import compiled
 
 __all__ = ["HalfRoundRock", "Obstacle", "Plane", "StepEdge", "piece_gap", "smallest_gap", "touch_level"]
 
@@ -99,7 +99,7 @@ class HalfRoundRock:
         return np.array([crown, [_HALF_PLANE, 0.0, -self.radius, 0.0]])
 
 
-@numba.njit(cache=True)
+@compiled()
 def piece_gap(piece: NDArray[np.float64], s: float, z: float) -> tuple[float, float, float, float]:
     """Signed distance of a point from one convex piece of a profile, with its derivatives.
 
@@ -131,7 +131,7 @@ def piece_gap(piece: NDArray[np.float64], s: float, z: float) -> tuple[float, fl
     return distance - r, x / distance, y / distance, 1.0 / distance
 
 
-@numba.njit(cache=True)
+@compiled()
 def smallest_gap(pieces: NDArray[np.float64], s: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
     """Smallest gap over the pieces at many points, (n,) [m]."""
     out = np.empty(len(s))

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
 from reference_fe import process_sums
+from reference_fe.compiled import compiled
 from reference_fe.surface_term import SurfaceForces, SurfaceTerm, TermState
 from reference_fe.whole_body import WholeBody
 
@@ -153,7 +153,7 @@ class SurfaceAssembly:
             term.restore(state)
 
 
-@numba.njit(cache=True)
+@compiled()
 def _add_forces(nodes: NDArray[np.int64], force: NDArray[np.float64], out: NDArray[np.float64]) -> None:
     dim = force.shape[2]
     for m in range(nodes.shape[0]):
@@ -163,7 +163,7 @@ def _add_forces(nodes: NDArray[np.int64], force: NDArray[np.float64], out: NDArr
                     out[dim * nodes[m, a] + i] += force[m, a, i]
 
 
-@numba.njit(cache=True)
+@compiled()
 def _add_products(
     nodes: NDArray[np.int64], stiffness: NDArray[np.float64], x: NDArray[np.float64], out: NDArray[np.float64]
 ) -> None:
@@ -178,7 +178,7 @@ def _add_products(
                         out[dim * nodes[m, a] + i] += stiffness[m, a, i, b, j] * x[dim * nodes[m, b] + j]
 
 
-@numba.njit(cache=True)
+@compiled()
 def _add_blocks(
     nodes: NDArray[np.int64],
     stiffness: NDArray[np.float64],

@@ -6,23 +6,16 @@ A vector is a tuple (x, y, z), which numba keeps in registers: nothing is alloca
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import cast
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from rover_dynamics.multibody.compiled import compiled
 
 __all__ = ["Vector", "along", "compiled", "cross", "dot", "hypotenuse", "over_length", "ramp", "vector"]
 
 type Vector = tuple[float, float, float]
 FloatArray = NDArray[np.float64]
-
-
-def compiled[F: Callable[..., object]](function: F) -> F:
-    """Compile with numba, cached on disk; sums may be re-associated and contracted, nothing else is relaxed."""
-    jit = numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})
-    return cast(F, jit(function))
 
 
 @compiled

@@ -1,0 +1,41 @@
+"""Where a package keeps its compiled functions: one folder for each state of its sources.
+
+A compiler that caches by the file of a function does not see that another file changed whose function it took in; after
+an update old machine code would then meet new arguments. A folder named by a digest of all sources of the package holds
+what belongs together.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+from functools import cache
+from pathlib import Path
+
+__all__ = ["compile_cache"]
+
+_PREFIX, _MARK = "compiled-", b"compiled"
+
+
+@cache
+def compile_cache(package: Path) -> Path:
+    """Folder for what is compiled from the present sources of a package; folders of earlier states are removed.
+
+    Parameters
+    ----------
+    package : folder of the package; of its sources, subfolders included, those count that speak of `compiled`, the name
+        of each package's decorator
+
+    Verified by tests/unit/test_compile_cache.py.
+    """
+    digest = hashlib.sha256()
+    for source in sorted(package.rglob("*.py")):
+        text = source.read_bytes()
+        if _MARK in text:
+            digest.update(source.relative_to(package).as_posix().encode())
+            digest.update(text)
+    keep = package / "__pycache__" / f"{_PREFIX}{digest.hexdigest()[:16]}"
+    for folder in keep.parent.glob(f"{_PREFIX}*"):
+        if folder != keep:
+            shutil.rmtree(folder, ignore_errors=True)
+    return keep

@@ -1,0 +1,28 @@
+"""Compilation of the loops over cells and contact points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, cast
+
+import numba
+
+from contracts.compile_cache import compile_cache
+
+__all__ = ["compiled"]
+
+
+def compiled[F: Callable[..., object]](**options: Any) -> Callable[[F], F]:
+    """Compile with numba and these options, cached on disk for the present sources of the package."""
+
+    def decorate(function: F) -> F:
+        config = cast(Any, numba.config)
+        users = config.CACHE_DIR
+        config.CACHE_DIR = users or str(compile_cache(Path(__file__).parent))
+        try:
+            return cast(F, numba.njit(cache=True, **options)(function))
+        finally:
+            config.CACHE_DIR = users
+
+    return decorate

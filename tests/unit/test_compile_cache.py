@@ -1,0 +1,65 @@
+"""Compiled functions are those of the present sources, whatever file changed."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from contracts.compile_cache import compile_cache
+
+ROOT = Path(__file__).parents[2]
+COMPILED = ROOT / "rover_dynamics" / "multibody" / "compiled.py"
+"""The decorator under test, copied into a package of its own."""
+INNER = "from multi.inner.compiled import compiled\n\n\n@compiled\ndef inner(x):\n    return {} * x\n"
+OUTER = (
+    "from multi.inner.compiled import compiled\nfrom multi.number import inner\n\n\n"
+    "@compiled\ndef outer(x):\n    return inner(x) + 1.0\n"
+)
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A package ``multi`` whose function takes in one from another file."""
+    folder = tmp_path / "multi"
+    (folder / "inner").mkdir(parents=True)
+    (folder / "inner" / "compiled.py").write_text(COMPILED.read_text(encoding="utf-8"), encoding="utf-8")
+    (folder / "number.py").write_text(INNER.format(2.0), encoding="utf-8")
+    (folder / "use.py").write_text(OUTER, encoding="utf-8")
+    return folder
+
+
+def outer_of_three(package: Path) -> float:
+    """What a fresh process computes."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(package.parent), str(ROOT)])}
+    environment.pop("NUMBA_CACHE_DIR", None)
+    command = [sys.executable, "-c", "from multi.use import outer; print(outer(3.0))"]
+    found = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    return float(found.stdout)
+
+
+def test_a_change_in_another_file_is_seen(package: Path) -> None:
+    """Without the folder for each state of the sources the second process answers 7 again."""
+    assert outer_of_three(package) == 7.0
+    first = list((package / "__pycache__").glob("compiled-*"))
+    assert len(first) == 1
+    assert list(first[0].rglob("*.nbi"))
+    (package / "number.py").write_text(INNER.format(5.0), encoding="utf-8")
+    assert outer_of_three(package) == 16.0
+    assert first[0] not in list((package / "__pycache__").glob("compiled-*"))
+
+
+def test_the_folder_depends_on_every_source_that_compiles(tmp_path: Path) -> None:
+    (tmp_path / "deep").mkdir()
+    kernel = tmp_path / "deep" / "kernel.py"
+    kernel.write_text("@compiled\ndef a(): return 1", encoding="utf-8")
+    before = compile_cache(tmp_path)
+    compile_cache.cache_clear()
+    (tmp_path / "plain.py").write_text("a = 1", encoding="utf-8")
+    assert compile_cache(tmp_path) == before
+    compile_cache.cache_clear()
+    kernel.write_text("@compiled\ndef a(): return 2", encoding="utf-8")
+    assert compile_cache(tmp_path) != before
