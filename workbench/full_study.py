@@ -70,9 +70,15 @@ def full_study(study: Study) -> Study:
             "title": f"{study.title}: full study",
             "fe": study.fe.model_copy(update={"orientations": tuple(math.radians(o) for o in steps)}),
             "mesh": study.mesh.model_copy(update={"factor": full.factor}),
+            "rover": study.rover.model_copy(update={"on_ancf_tires": _more(study.rover.on_ancf_tires)}),
             "mesh_study": study.mesh_study.model_copy(update={"factors": full.mesh_study_factors}),
         }
     )
+
+
+def _more(on_ancf_tires: str) -> str:
+    """Every run on ANCF tires, unless the rover does not run on ANCF tires at all."""
+    return "none" if on_ancf_tires == "none" else "all"
 
 
 def _is_whole(number: float) -> bool:

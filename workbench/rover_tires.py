@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ancf_reduced.contact_law import ContactLaw
 from ancf_reduced.tire_mesh import Tire, build_tire
 from ancf_reduced.tire_preset import thesis_preset
 from ancf_reduced.wheel_set import THESIS_LAW, WheelSet, wheel_set
@@ -36,7 +37,12 @@ themselves, while from the ground up the fall takes them beyond what they carry.
 
 
 def on_ancf_tires(
-    scenario: Scenario, tire: Tire | None = None, *, steps: EvenSteps | None = None, turned: float = 0.0
+    scenario: Scenario,
+    tire: Tire | None = None,
+    *,
+    steps: EvenSteps = STEPS,
+    law: ContactLaw = LAW,
+    turned: float = 0.0,
 ) -> Scenario:
     """The same on six flexible tires; they settle by implicit Euler steps until time zero.
 
@@ -49,6 +55,7 @@ def on_ancf_tires(
     scenario : with wheels of the tire's radius
     tire : all six of them; the thesis' if left out
     steps : how they are chosen
+    law : contact of each point
     turned : angle of each tire on its wheel about the axle, positive rolls forward [rad]
     """
     fitted = tire or build_tire(thesis_preset())
@@ -57,10 +64,10 @@ def on_ancf_tires(
         _check_size(fitted, design)
         vehicle = scenario.vehicle(design)
         n, friction = len(vehicle.wheels), scenario.tire.friction_max
-        law = LAW if friction == THESIS_BRUSH.friction_max else replace(LAW, friction=friction)
-        tires = wheel_set(fitted, vehicle.terrain, n, law=law, damping_ratio=DAMPING_RATIO)
+        slides = law if friction == THESIS_BRUSH.friction_max else replace(law, friction=friction)
+        tires = wheel_set(fitted, vehicle.terrain, n, law=slides, damping_ratio=DAMPING_RATIO)
         flexible = on_flexible_tires(vehicle, tires, np.full(n, turned))
-        return unfolded(drive_on_flexible_tires(flexible, scenario.times(), steps or STEPS, settles_until=0.0), tires)
+        return unfolded(drive_on_flexible_tires(flexible, scenario.times(), steps, settles_until=0.0), tires)
 
     height = START_HEIGHT if scenario.height is None else scenario.height
     return replace(scenario, ride=ride, height=height, tire_model="ancf", has_closed_forms=False, search=None)

@@ -16,6 +16,7 @@ from workbench.quantities import Force, Length, Stiffness
 from workbench.study_contact import PenaltyStudySection
 from workbench.study_environment import EnvironmentSection
 from workbench.study_fit import AncfFitSection
+from workbench.study_rover import RoverSection
 from workbench.study_sections import (
     AncfSection,
     BrushSection,
@@ -85,6 +86,7 @@ class Study(WheelStudy):
     environment : other temperatures, if the study asks for them
     mesh_study : the meshes that give the numerical uncertainty of the FE curves
     full : what `workbench report --full` takes instead of the study's orientations and mesh
+    rover : what the rover does on ANCF tires
     hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
     penalty_study : where the load is held against other contact penalties; None to leave it out
     verification : whether the benchmarks of finite elements and plates are part of the report
@@ -101,6 +103,7 @@ class Study(WheelStudy):
     penalty_study: PenaltyStudySection | None = None
     verification: VerificationSection = VerificationSection()
     full: FullSection = FullSection()
+    rover: RoverSection = RoverSection()
     ancf: AncfSection
     ancf_fit: AncfFitSection | None = None
     brush: BrushSection

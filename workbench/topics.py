@@ -14,6 +14,7 @@ from workbench.topic_mesh_study import MESH_STUDY
 from workbench.topic_multibody import MULTIBODY
 from workbench.topic_orientations import ORIENTATIONS
 from workbench.topic_rover import ROVER
+from workbench.topic_rover_ancf import ROVER_ANCF
 from workbench.topic_rover_crosscheck import ROVER_CROSSCHECK
 from workbench.topic_section import SECTION
 from workbench.topic_speed import SPEED
@@ -35,6 +36,7 @@ TOPICS: tuple[Topic, ...] = (
     ANCF_DYNAMICS,
     MULTIBODY,
     ROVER,
+    ROVER_ANCF,
     ROVER_CROSSCHECK,
     VERIFICATION,
     SPEED,

@@ -5,7 +5,7 @@ Verified by tests/unit/test_rover_scenarios.py and tests/verification/test_rover
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -23,7 +23,7 @@ from rover_dynamics.rover.scenarios.offsets import loads_against_offset
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, mean_static_load, run_scenario, sampled
 
-__all__ = ["LEVEL_GROUND", "SPEED", "all_drives", "drive_forward", "straight_ahead"]
+__all__ = ["LEVEL_GROUND", "SPEED", "all_drives", "drive_forward", "straight_ahead", "sweep_of_gravity"]
 
 FloatArray = NDArray[np.float64]
 SPEED = 70.0 / 3600.0
@@ -97,12 +97,12 @@ def _sweep(run: ScenarioRun) -> tuple[Outcome, ...]:
     return tuple(found)
 
 
-def _sweep_of_gravity(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
+def sweep_of_gravity(scenario: Scenario, design: RoverDesign, loads: Sequence[float] = SWEEP) -> ScenarioRun:
     """Gravity scaled to each mean wheel load; one sample for each, at the end of its settling."""
     single = replace(scenario, composed=None)
     runs: list[ScenarioRun] = []
     stopped = None
-    for load in SWEEP:
+    for load in loads:
         try:
             run = run_scenario(single, replace(design, gravity=design.gravity * load / mean_static_load(design)))
         except ConvergenceError as error:
@@ -221,7 +221,7 @@ LOAD_SWEEP = Scenario(
     source="Fig. 20",
     lasts=1.0,
     judge=_sweep,
-    composed=_sweep_of_gravity,
+    composed=sweep_of_gravity,
 )
 STRAIGHT = Scenario(
     name="straight",
