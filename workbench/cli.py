@@ -183,6 +183,7 @@ def rover(
     ] = None,
     rocks: Annotated[int | None, typer.Option(help="Seed of random rocks to drive on.", show_default=False)] = None,
     out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/rover"),
+    store: Store = DEFAULT_STORE,
     animate: Annotated[bool, typer.Option("--animate", help="Write a page that plays it; about a minute.")] = False,
     names: Annotated[bool, typer.Option("--list", help="Show the scenarios.")] = False,
 ) -> None:
@@ -192,7 +193,7 @@ def rover(
     choices = RoverChoices(
         tire=tire, rover=rover_file, gravity=gravity, terrain=terrain, start=start, rocks=rocks, animate=animate
     )
-    raise typer.Exit(list_scenarios() if names else run_rover(scenario, out, choices))
+    raise typer.Exit(list_scenarios() if names else run_rover(scenario, out, choices, store))
 
 
 @app.command()

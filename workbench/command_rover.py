@@ -65,7 +65,7 @@ class RoverChoices:
     animate: bool = False
 
 
-def run_rover(name: str | None, out: Path, choices: RoverChoices) -> int:
+def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -> int:
     """Run one scenario, write its series and, if wanted, a page that plays it; print what it ends with.
 
     Raises
@@ -77,6 +77,8 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices) -> int:
     """
     scenario, design = _chosen(name, choices)
     check_folder(out)
+    if choices.tire == "ancf":
+        scenario = _resumed(scenario, design, store)
     with console.status(f"{scenario.name}: {scenario.title}"):
         run = run_scenario(scenario, design)
         series = scenario_series(run)
@@ -94,6 +96,22 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices) -> int:
     for what, path in [("series", out / file), *([("animation", page)] if choices.animate else [])]:
         console.print(f"{what}: {path}", highlight=False, markup=False, soft_wrap=True)
     return 0
+
+
+def _resumed(scenario: Scenario, design: RoverDesign, store: Path) -> Scenario:
+    """The scenario on ANCF tires with its checkpoint in the store, named after what decides its motion."""
+    from workbench.rover_tires import resuming
+    from workbench.store import Store
+    from workbench.task import Task
+
+    task = Task(
+        name=f"rover_{scenario.name}",
+        function="workbench.rover_tires:on_ancf_tires",
+        inputs={"scenario": scenario.name, "title": scenario.title, "rover": repr(design)},
+        sources=("contracts", "ancf_reduced", "rover_dynamics"),
+        libraries=("numpy", "numba", "scipy"),
+    )
+    return resuming(scenario, Store(store).checkpoint(task.key({})))
 
 
 def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:

@@ -5,7 +5,8 @@ Verified by tests/unit/test_workbench_rover_tires.py and tests/end_to_end/test_r
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.scenario import Scenario, sampled
 from rover_dynamics.vehicle.vehicle import VehicleMotion
 
-__all__ = ["DAMPING_RATIO", "LAW", "START_HEIGHT", "on_ancf_tires", "unfolded"]
+__all__ = ["DAMPING_RATIO", "LAW", "START_HEIGHT", "AncfRide", "on_ancf_tires", "resuming", "unfolded"]
 
 DAMPING_RATIO = 0.05
 """Of the first mode of a tire on a held hub, see `ancf_reduced.wheel_rig.damped_model`; the thesis gives none [-]."""
@@ -34,6 +35,36 @@ STEPS = EvenSteps(shortest=1e-5)
 START_HEIGHT = -0.015
 """Lowest points of the undeformed wheels over the ground at the start of the settling [m]: from there the tires sink by
 themselves, while from the ground up the fall takes them beyond what they carry."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AncfRide:
+    """Motion of a scenario on six flexible tires, see `on_ancf_tires`.
+
+    Attributes
+    ----------
+    tire, steps, law, turned : as there
+    checkpoint : file that a long motion is kept in, or None; see `rover_dynamics.flexible.motion_checkpoint`
+    """
+
+    tire: Tire
+    steps: EvenSteps
+    law: ContactLaw
+    turned: float
+    checkpoint: Path | None = None
+
+    def __call__(self, scenario: Scenario, design: RoverDesign) -> VehicleMotion:
+        """The motion at the scenario's times."""
+        _check_size(self.tire, design)
+        vehicle = scenario.vehicle(design)
+        n, friction = len(vehicle.wheels), scenario.tire.friction_max
+        law = self.law if friction == THESIS_BRUSH.friction_max else replace(self.law, friction=friction)
+        tires = wheel_set(self.tire, vehicle.terrain, n, law=law, damping_ratio=DAMPING_RATIO)
+        flexible = on_flexible_tires(vehicle, tires, np.full(n, self.turned))
+        motion = drive_on_flexible_tires(
+            flexible, scenario.times(), self.steps, settles_until=0.0, checkpoint=self.checkpoint
+        )
+        return unfolded(motion, tires)
 
 
 def on_ancf_tires(
@@ -58,19 +89,16 @@ def on_ancf_tires(
     law : contact of each point
     turned : angle of each tire on its wheel about the axle, positive rolls forward [rad]
     """
-    fitted = tire or build_tire(thesis_preset())
-
-    def ride(scenario: Scenario, design: RoverDesign) -> VehicleMotion:
-        _check_size(fitted, design)
-        vehicle = scenario.vehicle(design)
-        n, friction = len(vehicle.wheels), scenario.tire.friction_max
-        slides = law if friction == THESIS_BRUSH.friction_max else replace(law, friction=friction)
-        tires = wheel_set(fitted, vehicle.terrain, n, law=slides, damping_ratio=DAMPING_RATIO)
-        flexible = on_flexible_tires(vehicle, tires, np.full(n, turned))
-        return unfolded(drive_on_flexible_tires(flexible, scenario.times(), steps, settles_until=0.0), tires)
-
+    ride = AncfRide(tire=tire or build_tire(thesis_preset()), steps=steps, law=law, turned=turned)
     height = START_HEIGHT if scenario.height is None else scenario.height
     return replace(scenario, ride=ride, height=height, tire_model="ancf", has_closed_forms=False, search=None)
+
+
+def resuming(scenario: Scenario, checkpoint: Path | None) -> Scenario:
+    """A scenario on ANCF tires that keeps its motion in a file and goes on from what it finds there; others as is."""
+    if not isinstance(scenario.ride, AncfRide):
+        return scenario
+    return replace(scenario, ride=replace(scenario.ride, checkpoint=checkpoint))
 
 
 def _check_size(tire: Tire, design: RoverDesign) -> None:

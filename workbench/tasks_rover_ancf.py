@@ -18,6 +18,7 @@ from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario, scenario_series
 from workbench.result_files import write_result
 from workbench.rover_ancf_runs import ancf_run
+from workbench.rover_tires import resuming
 from workbench.task import Progress
 
 __all__ = ["SERIES", "drive_on_ancf_tires"]
@@ -25,13 +26,16 @@ __all__ = ["SERIES", "drive_on_ancf_tires"]
 SERIES = "series.csv"
 
 
-def drive_on_ancf_tires(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+def drive_on_ancf_tires(
+    inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
+) -> int:
     """``result.json`` with outcomes, mean spins of the wheels and why the motion stopped, and ``series.csv``.
 
     A motion that stops early keeps its series and has no outcomes; one that stops before time zero has neither.
+    Goes on from the motion in ``checkpoint``, if there is one.
     """
     design = read_rover()
-    scenario = ancf_run(inputs["run"], design)
+    scenario = resuming(ancf_run(inputs["run"], design), checkpoint)
     try:
         run = run_scenario(scenario, design)
     except ConvergenceError as error:

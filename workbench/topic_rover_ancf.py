@@ -41,9 +41,8 @@ SHORT = {
     "slope_down": 3.0,
     "slope_across": 4.0,
     "step": 5.0,
-    "point_turn": 16.0,
 }
-LONG = {"traction_whole": 120.0, "crevasse": 40.0, "rocks": 11.0}
+LONG = {"traction_whole": 120.0, "crevasse": 40.0, "point_turn": 16.0, "rocks": 11.0}
 """Run -> processor time it takes about [s]; names as in `workbench.rover_ancf_runs`."""
 
 
@@ -61,6 +60,7 @@ def _tasks(study: Study) -> Sequence[Task]:
             sources=(*FILES, "rover_dynamics", "ancf_reduced", "workbench.rover_tires", "workbench.rover_ancf_runs"),
             libraries=("numpy", "numba", "scipy"),
             cost=(SHORT | LONG)[name],
+            resumable=True,
         )
         for name in runs_of(study)
     ]

@@ -12,6 +12,7 @@ Verified by tests/verification/test_flexible_motion.py.
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ from contracts.errors import ConvergenceError, IncrementRecord
 from rover_dynamics.flexible.even_steps import EvenSteps
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, FlexibleVehicle
+from rover_dynamics.flexible.motion_checkpoint import EVERY, MotionCheckpoint, motion_key
 from rover_dynamics.flexible.step_solver import StepEnd, StepSolver
 from rover_dynamics.multibody.generalised_alpha import Method, generalised_alpha, implicit_euler
 
@@ -40,6 +42,7 @@ def drive_on_flexible_tires(
     settles_until: float = -np.inf,
     watch: Callable[[float, Instant], None] | None = None,
     start: Instant | None = None,
+    checkpoint: Path | None = None,
 ) -> FlexibleMotion:
     """Integrate from the model's start at ``times[0]``, tires undeformed, or from where another motion ended.
 
@@ -52,6 +55,8 @@ def drive_on_flexible_tires(
         them: the vehicle comes to rest without bouncing
     watch : called with time and state at each step's end
     start : bodies and tires begin in this state's place, at rest
+    checkpoint : file to keep the motion in every second of it and, if an earlier run of this very motion left it, to
+        go on from; removed at the end
 
     Raises
     ------
@@ -60,7 +65,10 @@ def drive_on_flexible_tires(
     InputError
         See `rover_dynamics.vehicle.vehicle.drive_vehicle`.
     """
-    return _Run(vehicle, times, steps or EvenSteps(), settles_until, watch).to_its_end(start)
+    chosen, kept = steps or EvenSteps(), None
+    if checkpoint is not None:
+        kept = MotionCheckpoint(path=checkpoint, key=motion_key(vehicle, np.asarray(times), chosen, settles_until))
+    return _Run(vehicle, times, chosen, settles_until, watch, kept).to_its_end(start)
 
 
 class _Run:
@@ -73,21 +81,21 @@ class _Run:
         steps: EvenSteps,
         settles_until: float,
         watch: Callable[[float, Instant], None] | None,
+        checkpoint: MotionCheckpoint | None = None,
     ) -> None:
         self.times, self.steps, self.watch = np.asarray(times, dtype=np.float64), steps, watch
         self.system, self.settles_until = FlexibleSystem(vehicle), settles_until
         self.settling: Method = implicit_euler(NEWTON_SHARE * steps.tolerance, ITERATIONS)
         self.moving: Method = generalised_alpha(steps.spectral_radius, NEWTON_SHARE * steps.tolerance, ITERATIONS)
-        self.solver = StepSolver(self.system)
+        self.solver, self.checkpoint = StepSolver(self.system), checkpoint
         self.accepted = self.rejected = 0
 
     def to_its_end(self, start: Instant | None = None) -> FlexibleMotion:
         """Step from one time asked for to the next."""
-        system, t, length, last = self.system, float(self.times[0]), self.steps.first, 0.0
-        instant = system.at_rest(t) if start is None else system.at_rest_there(start, t)
-        now = StepEnd(instant=instant, A=instant.a, Z=instant.z_acceleration)
-        rows = [system.row(now.instant, t)]
-        for target in self.times[1:].tolist():
+        system = self.system
+        (t, length, last), now, rows = self._start(start)
+        next_kept = t + EVERY
+        for target in self.times[len(rows) :].tolist():
             while t < target:
                 method = self.settling if t < self.settles_until else self.moving
                 dt = self.steps.towards(target - t, length)
@@ -104,9 +112,45 @@ class _Run:
                 if self.watch is not None:
                     self.watch(t, now.instant)
             rows.append(system.row(now.instant, t))
+            if t >= next_kept:
+                next_kept = t + EVERY
+                self.solver.forget()
+                self._keep((t, length, last), now, rows)
         return self._motion(rows)
 
+    def _start(self, start: Instant | None) -> tuple[tuple[float, float, float], StepEnd, list[tuple[FloatArray, ...]]]:
+        """Time, wish for the next step and last step [s], state and rows: of the checkpoint, or of the model."""
+        kept = None if self.checkpoint is None else self.checkpoint.read()
+        if kept is None:
+            t = float(self.times[0])
+            instant = self.system.at_rest(t) if start is None else self.system.at_rest_there(start, t)
+            now = StepEnd(instant=instant, A=instant.a, Z=instant.z_acceleration)
+            return (t, self.steps.first, 0.0), now, [self.system.row(instant, t)]
+        joints = kept["joints0"], kept["joints1"], kept["joints2"]
+        tires = kept["tires0"], kept["tires1"], kept["tires2"]
+        now = StepEnd(instant=self.system.instant(joints, tires), A=kept["A"], Z=kept["Z"])
+        self.accepted, self.rejected, self.solver.iterations = (int(count) for count in kept["counts"])
+        names = sorted(name for name in kept if name.startswith("rows"))
+        rows = list(zip(*(kept[name] for name in names), strict=True))
+        t, length, last = kept["clock"].tolist()
+        return (t, length, last), now, rows
+
+    def _keep(self, clock: tuple[float, float, float], now: StepEnd, rows: list[tuple[FloatArray, ...]]) -> None:
+        """Write the checkpoint, if one is wanted."""
+        if self.checkpoint is None:
+            return
+        i, columns = now.instant, [np.array(column) for column in zip(*rows, strict=True)]
+        arrays = {f"joints{k}": part for k, part in enumerate((i.q, i.v, i.a))}
+        arrays |= {f"tires{k}": part for k, part in enumerate((i.z, i.z_rate, i.z_acceleration))}
+        arrays |= {f"rows{k}": column for k, column in enumerate(columns)}
+        counts = np.array([self.accepted, self.rejected, self.solver.iterations])
+        arrays |= {"A": now.A, "Z": now.Z, "clock": np.array(clock), "counts": counts}
+        self.checkpoint.write(arrays)
+
     def _motion(self, rows: list[tuple[FloatArray, ...]]) -> FlexibleMotion:
+        """What the motion came to; it needs no checkpoint any more."""
+        if self.checkpoint is not None:
+            self.checkpoint.discard()
         r, R, u, outputs, wrenches, efforts, z, v = (np.array(column) for column in zip(*rows, strict=True))
         return FlexibleMotion(
             times=self.times[: len(rows)],

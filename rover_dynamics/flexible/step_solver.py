@@ -67,6 +67,10 @@ class StepSolver:
         self._matrix: _Matrix | None = None
         self.iterations = self.linearisations = 0
 
+    def forget(self) -> None:
+        """Make the next step's matrix anew, as a run that begins here does."""
+        self._matrix = None
+
     def step(self, before: StepEnd, known: Known, dt: float, method: Method) -> tuple[StepEnd | None, float]:
         """The end of a step and its estimated error [m, rad]; None and infinity if Newton's method fails.
 

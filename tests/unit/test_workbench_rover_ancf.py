@@ -62,7 +62,9 @@ def results() -> AncfRover:
     d = np.linspace(0.0, 0.03, 31)
     fe = StiffnessCurve(model="fe", orientation_deg=None, deflection=d, load=7500.0 * d)
     return AncfRover(
-        runs={name: _drive(name, "ancf") for name in SHORT}, brush={n: _drive(n, "brush") for n in SHORT}, fe=fe
+        runs={n: _drive(n, "ancf") for n in (*SHORT, "point_turn")},
+        brush={n: _drive(n, "brush") for n in (*SHORT, "point_turn")},
+        fe=fe,
     )
 
 
