@@ -14,6 +14,7 @@ from rich.table import Table
 
 from contracts.errors import ConvergenceError, InputError
 from contracts.series import write_series
+from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, gravity_named, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
 from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way
@@ -128,8 +129,14 @@ def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:
 def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Path) -> None:
     from workbench.rover_animation import write_animation
 
-    x, y, z = scenario.tilt.gravity(1.0)
-    write_animation(run.motion, design, scenario.terrain(design), page, title=scenario.title, up=(-x, -y, -z))
+    (x, y, z), tire = scenario.tilt.gravity(1.0), None
+    if isinstance(run.motion, FlexibleMotion):
+        from ancf_reduced.tire_mesh import build_tire
+        from ancf_reduced.tire_preset import thesis_preset
+
+        tire = build_tire(thesis_preset())
+    ground = scenario.terrain(design)
+    write_animation(run.motion, design, ground, page, title=scenario.title, up=(-x, -y, -z), tire=tire)
 
 
 def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDesign]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from contracts.mesh import TaggedMesh
 from geometry.hexahedra import face_nodes
 from workbench.palette import ABOVE_YIELD, PART_COLOURS
-from workbench.solids import WORLD, Solid
+from workbench.solids import WORLD, Deforming, Solid
 
 __all__ = ["Scene", "View", "draw_deformed", "draw_motion", "draw_parts", "facet_parts", "surface"]
 
@@ -149,35 +149,54 @@ def draw_deformed(
     _save(plotter, path, scene or Scene(eye=(0.35, -1.0, 0.22), zoom=1.45, shift=0.12))
 
 
-def draw_motion(solids: Sequence[Solid], positions: Array, rotations: Array, view: View) -> Iterator[NDArray[np.uint8]]:
+def draw_motion(
+    solids: Sequence[Solid],
+    positions: Array,
+    rotations: Array,
+    view: View | Sequence[View],
+    deforming: Sequence[Deforming] = (),
+) -> Iterator[NDArray[np.uint8]]:
     """Frames of bodies in motion, each (height, width, 3) uint8.
 
     Parameters
     ----------
     solids : what is drawn
     positions, rotations : (n, n_b, 3) float [m] and (n, n_b, 3, 3) float, of all bodies, body to world
-    view : where from
+    view : where from; one for each frame where the eye moves, all of one size
+    deforming : surfaces with a shape for each frame
     """
-    plotter = _plotter(view.size)
+    views = [view] * len(positions) if isinstance(view, View) else list(view)
+    plotter = _plotter(views[0].size)
     moving = []
     for solid in solids:
-        faces = np.column_stack([np.full(len(solid.quads), 4), solid.quads]).ravel()
-        drawn, own = pv.PolyData(solid.points, faces=faces), isinstance(solid.colours, str)
-        if not own:
-            drawn.cell_data["colour"] = solid.colours
-        style = {"color": solid.colours} if own else {"scalars": "colour", "rgb": True}
-        actor = plotter.add_mesh(drawn, **style, **_MATTE)
+        actor, _ = _add(plotter, solid.points, solid.quads, solid.colours)
         if solid.body != WORLD:
             moving.append((actor, solid.body))
-    _look(plotter, view)
-    for r, R in zip(positions, rotations, strict=True):
+    shapes = [(_add(plotter, one.points[0], one.quads, one.colours[0])[1], one) for one in deforming]
+    for k, (r, R) in enumerate(zip(positions, rotations, strict=True)):
         for actor, body in moving:
             pose = np.eye(4)
             pose[:3, :3], pose[:3, 3] = R[body], r[body]
             actor.user_matrix = pose
+        for drawn, one in shapes:
+            drawn.points = one.points[k]
+            drawn.cell_data["colour"] = one.colours[k]
+        if k == 0 or views[k] is not views[k - 1]:
+            _look(plotter, views[k])
         plotter.render()
         yield np.asarray(plotter.screenshot(return_img=True))
     plotter.close()
+
+
+def _add(
+    plotter: Any, points: Array, quads: NDArray[np.int64], colours: str | NDArray[np.uint8]
+) -> tuple[Any, pv.PolyData]:
+    """Actor and mesh of quadrangles in one colour, or each in its own."""
+    drawn = pv.PolyData(points, faces=np.column_stack([np.full(len(quads), 4), quads]).ravel())
+    if isinstance(colours, str):
+        return plotter.add_mesh(drawn, color=colours, **_MATTE), drawn
+    drawn.cell_data["colour"] = colours
+    return plotter.add_mesh(drawn, scalars="colour", rgb=True, **_MATTE), drawn
 
 
 def _look(plotter: Any, view: View) -> None:

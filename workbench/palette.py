@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["ABOVE_YIELD", "BAND", "INK", "MODEL_COLOURS", "ORIENTATION_COLOURS", "PART_COLOURS"]
+__all__ = ["ABOVE_YIELD", "BAND", "INK", "MODEL_COLOURS", "ORIENTATION_COLOURS", "PART_COLOURS", "STRAIN_COLOURS"]
 
 PART_COLOURS = ("#8f8f8f", "#3b3b3b", "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#f0e442")
 ORIENTATION_COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9")
@@ -10,3 +10,5 @@ MODEL_COLOURS = {"fe": "#1a1a1a", "section": "#009e73", "ancf": "#0072b2", "brus
 BAND = "rgba(0, 158, 115, 0.18)"
 INK = "#1a1a1a"
 ABOVE_YIELD = "#d55e00"
+STRAIN_COLOURS = ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")
+"""Ends and equal steps of viridis, from unstrained to most strained."""

@@ -22,12 +22,14 @@ from PIL import Image
 
 from contracts.errors import InputError
 from contracts.terrain import Terrain
+from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.vehicle.vehicle import VehicleMotion
 from workbench.rover_solids import body_names, ground_solids, rover_solids, square_size
 from workbench.solids import WORLD, Solid
 
 if TYPE_CHECKING:
+    from ancf_reduced.tire_mesh import Tire
     from workbench.figures_pyvista import View
 
 __all__ = ["framing", "shown_frames", "write_animation"]
@@ -37,7 +39,7 @@ IntArray = NDArray[np.int64]
 Direction = tuple[float, float, float]
 
 _PAGE = Path(__file__).parent / "templates" / "animation.html"
-_FRAMES = 270
+_FRAMES, _FRAMES_OF_TIRES = 270, 180
 _WIDTH, _TALLEST, _BORDER = 960, 640, 12
 _QUALITY = 50
 _ASIDE = (-0.55, -1.0, 0.45)
@@ -55,38 +57,50 @@ def write_animation(
     *,
     title: str = "Rover",
     up: Direction = (0.0, 0.0, 1.0),
+    tire: Tire | None = None,
+    most: int | None = None,
 ) -> None:
     """Write a page that plays a motion in any browser.
 
     Parameters
     ----------
-    motion : of the vehicle `build_rover` makes of ``design``; at most 270 of its times are drawn, evenly spread
+    motion : of the vehicle `build_rover` makes of ``design``
     terrain : the ground; drawn as far as 0.25 m beyond the wheels
     path : HTML file
     title : heading of the page
     up : upwards on the picture, against gravity; give it where a slope is a tilted gravity on level ground
+    tire : of all wheels of a `FlexibleMotion`; drawn as deformed and coloured by strain, with two wheels close by
+    most : times that are drawn at most, evenly spread; 270 without a tire, 180 with one
 
     Raises
     ------
     InputError
-        If the motion has another number of bodies than the design, or fewer than two times.
+        If the motion has another number of bodies than the design, fewer than two times, or no shapes of tires.
     """
     names = body_names(design)
     if motion.positions.shape[1] != len(names) or len(motion.times) < 2:
         value = f"{motion.positions.shape[1]} bodies at {len(motion.times)} times"
         rule = f"must be that of the design's {len(names)} bodies, at two times or more"
         raise InputError("motion to animate", value, rule, "give the design the vehicle was built of")
-    from workbench.figures_pyvista import draw_motion
-
-    chosen = shown_frames(motion.times)
+    chosen = shown_frames(motion.times, most or (_FRAMES if tire is None else _FRAMES_OF_TIRES))
     r, R = motion.positions[chosen], motion.rotations[chosen]
-    rover = rover_solids(design)
     wheels = [number for number, name in enumerate(names) if name.startswith("wheel_")]
     places = _trodden(r[:, wheels, :2], design.wheel_radius)
-    solids = [*rover, *ground_solids(terrain, places)]
-    view = framing(solids, r, R, up)
-    frames = [_webp(picture) for picture in draw_motion(solids, r, R, view)]
-    page = _page(motion, chosen, frames, view.size, (title, square_size(places)))
+    ground = ground_solids(terrain, places)
+    view = framing([*rover_solids(design), *ground], r, R, up)
+    if tire is None:
+        from workbench.figures_pyvista import draw_motion
+
+        pictures, size, legend = draw_motion([*rover_solids(design), *ground], r, R, view), view.size, ""
+    else:
+        from workbench.tire_animation import draw_on_tires
+
+        if not isinstance(motion, FlexibleMotion):
+            raise InputError("motion to animate", "rigid wheels", "has no shapes of tires", "leave out the tire")
+        solids = [*rover_solids(design, tire.preset.hub_radius), *ground]
+        pictures, size, legend = draw_on_tires(solids, (r, R), wheels, (tire, motion.vectors[chosen]), view)
+    frames = [_webp(picture) for picture in pictures]
+    page = _page(motion, chosen, frames, size, (title, square_size(places), legend))
     path.write_text(page, encoding="utf-8")
 
 
@@ -149,7 +163,7 @@ def _webp(picture: NDArray[np.uint8]) -> str:
 
 
 def _page(
-    motion: VehicleMotion, chosen: IntArray, frames: Sequence[str], size: tuple[int, int], words: tuple[str, float]
+    motion: VehicleMotion, chosen: IntArray, frames: Sequence[str], size: tuple[int, int], words: tuple[str, float, str]
 ) -> str:
     """The template filled in; the first body's speed and its way are shown."""
     t = motion.times[chosen]
@@ -157,10 +171,11 @@ def _page(
     way = np.linalg.norm(motion.positions[chosen, 0] - motion.positions[chosen[0], 0], axis=1)
     fitting = min(_SPEEDS, key=lambda s: abs(np.log(float(t[-1] - t[0]) / s / _WATCHED)))
     options = "".join(f'<option value="{s:g}"{" selected" * (s == fitting)}>{s:g} &times;</option>' for s in _SPEEDS)
-    title, squares = words
+    title, squares, legend = words
     return Template(_PAGE.read_text(encoding="utf-8")).substitute(
         title=html.escape(title),
         squares=f"{squares:g}",
+        legend=legend,
         width=size[0],
         height=size[1],
         options=options,

@@ -35,8 +35,11 @@ def body_names(design: RoverDesign) -> tuple[str, ...]:
     return tuple(body.name for body in _bodies(design))
 
 
-def rover_solids(design: RoverDesign) -> list[Solid]:
-    """All bodies, each in its own frame; wheels in three colours."""
+def rover_solids(design: RoverDesign, hub_radius: float | None = None) -> list[Solid]:
+    """All bodies, each in its own frame; wheels in three colours.
+
+    hub_radius : of wheels [m] of which only the hub is drawn, because their tires deform; None for whole wheels
+    """
     bodies = {body.name: (number, body) for number, body in enumerate(_bodies(design))}
     joints = _joint_points(design)
     solids = []
@@ -50,7 +53,9 @@ def rover_solids(design: RoverDesign) -> list[Solid]:
         arm, spindle, wheel = (bodies[f"{part}_{leg.name}"] for part in ("arm", "spindle", "wheel"))
         solids.append(_solid(*arm, [bar(leg.deployment, leg.steering, _BAR)], _ARM))
         solids.append(_solid(*spindle, _fork(leg, design.wheel_width), _SPINDLE))
-        for pieces, colour in _wheel(leg.drive, design.wheel_radius, design.wheel_width):
+        whole = design.wheel_radius, design.wheel_width
+        shown = _wheel(leg.drive, *whole) if hub_radius is None else _hub(leg.drive, hub_radius, design.wheel_width)
+        for pieces, colour in shown:
             solids.append(_solid(*wheel, pieces, colour))
     return solids
 
@@ -130,6 +135,15 @@ def _wheel(centre: tuple[float, float, float], radius: float, width: float) -> l
     grousers = [_radial(middle, (rim, radius), width, turn) for turn in turns]
     mark = [_radial(middle, (0.2 * radius, radius), width, 0.0)]
     return [(ring + spokes, _RIM), (grousers, _GROUSER), (mark, MARKER)]
+
+
+def _hub(centre: tuple[float, float, float], radius: float, width: float) -> list[tuple[list[Quads], str]]:
+    """A hub on which a tire is tied, with a mark across it; at the start the mark is ahead of the axle."""
+    middle = np.array(centre)
+    return [
+        ([tube(middle, (0.0, radius), width)], _RIM),
+        ([_radial(middle, (0.0, 0.98 * radius), 1.02 * width, 0.0)], MARKER),
+    ]
 
 
 def _radial(middle: FloatArray, ends: tuple[float, float], width: float, turn: float) -> Quads:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["WORLD", "Solid", "bar", "box", "joined", "tube"]
+__all__ = ["WORLD", "Deforming", "Solid", "bar", "box", "joined", "tube"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -45,6 +45,22 @@ class Solid:
         if self.body == WORLD:
             return self.points
         return np.asarray(positions[self.body] + self.points @ rotations[self.body].T)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Deforming:
+    """A surface that changes its shape.
+
+    Attributes
+    ----------
+    points : (n, n_points, 3) float [m], world, in each frame
+    quads : (m, 4) int, corners of its faces
+    colours : (n, m, 3) uint8, of each face in each frame
+    """
+
+    points: FloatArray
+    quads: IntArray
+    colours: NDArray[np.uint8]
 
 
 def box(centre: ArrayLike, size: ArrayLike) -> Quads:
