@@ -133,6 +133,15 @@ class Difference:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Warmth:
+    """The standing rover at a temperature [K]: modulus over that at 20 C [-], mean deflection of its wheels [m]."""
+
+    temperature: float
+    modulus_ratio: float
+    deflection: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LoadRow:
     """The kept tire at one mean load: its mean against the average, orientations inside, the worst; rover's weight?"""
 
@@ -155,6 +164,7 @@ class CrossCheck:
     period, mirrored : of the FE wheel
     mesh_study : numerical uncertainty of the FE load
     static_load : mean wheel load of the rover [N]
+    warmth : the kept tire with its stiffness scaled as the metal's modulus
     """
 
     stood: tuple[StoodTire, ...]
@@ -166,6 +176,11 @@ class CrossCheck:
     mirrored: bool
     mesh_study: MeshStudy
     static_load: float
+    warmth: tuple[Warmth, ...] = ()
+
+    def fe_deflection(self, modulus_ratio: float) -> float:
+        """Of the FE average under the rover with another modulus [m]: all loads of an elastic wheel go as E."""
+        return self.average.deflection_at(self.static_load / modulus_ratio)
 
     @property
     def best(self) -> StoodTire:

@@ -43,10 +43,11 @@ def stand(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
     preset = preset_from(numbers["preset"])
     try:
         points = _points(preset, inputs["loads"], progress)
+        deflections = [_mean_deflection(preset, ratio) for ratio in inputs["modulus_ratios"]]
     except (InputError, ConvergenceError) as error:
         write_result(out, {"points": [], FAILURE: str(error)})
         return 0
-    write_result(out, {"points": [asdict(point) for point in points], "period_deg": 360.0 / preset.spokes})
+    write_result(out, {"points": [asdict(point) for point in points], "deflections_at_modulus": deflections})
     return 0
 
 
@@ -64,6 +65,17 @@ def _points(preset: TirePreset, loads: list[float], progress: Progress) -> list[
             found += [WheelPoint(mean_load=rest.mean_load, orientation=o, load=f, deflection=d) for o, f, d in each]
         progress((first + n) / len(wheels))
     return found
+
+
+def _mean_deflection(preset: TirePreset, ratio: float) -> float:
+    """Of the standing rover's wheels in six orientations [m], with all stiffness of the tire times a ratio."""
+    E, k = ratio * preset.young_modulus, ratio * preset.contact_stiffness
+    design = replace(read_rover(), wheel_radius=preset.zero_radius, wheel_width=preset.width)
+    turned = 2.0 * np.pi / preset.spokes * np.arange(len(design.legs)) / len(design.legs)
+    tires = _tires(replace(preset, young_modulus=E, contact_stiffness=k))
+    (rest,) = stand_under_loads(design, tires, turned, [mean_static_load(design)])
+    _check_shape(tires, rest)
+    return float(rest.deflection.mean())
 
 
 def _tires(preset: TirePreset) -> WheelSet:

@@ -13,6 +13,7 @@ import numpy as np
 
 from contracts.curves import read_curve
 from contracts.errors import InputError
+from contracts.materials_temperature import temperature_data
 from contracts.records import Check, Role
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.scenario import mean_static_load
@@ -23,7 +24,7 @@ from workbench.graph_fit import fit_name
 from workbench.graph_section import section_task, without_planar_model
 from workbench.result_files import FAILURE, read_result
 from workbench.results import CURVE, model_curves
-from workbench.rover_crosscheck import ALLOWED, CrossCheck, Difference, StoodTire, WheelPoint, unsolved
+from workbench.rover_crosscheck import ALLOWED, CrossCheck, Difference, StoodTire, Warmth, WheelPoint, unsolved
 from workbench.study import Study
 from workbench.task import Task
 from workbench.topic import Topic
@@ -36,6 +37,8 @@ __all__ = ["ROVER_CROSSCHECK"]
 
 SWEEP = (160.0, 175.0, 190.0, 205.0, 220.0, 235.0, 250.0)
 """Mean wheel loads of the thesis' sweep [N]."""
+TEMPERATURES = (130.15, 233.15, 293.15, 308.15)
+"""-143, -40, 20 and 35 C [K]."""
 _REACH = 0.03
 """Deflection [m] that the FE curves must reach at least, for a wheel of the rover to stand on them."""
 
@@ -48,7 +51,11 @@ def _tasks(study: Study) -> Sequence[Task]:
         Task(
             name=f"rover_stands_{tire.name}",
             function="workbench.tasks_rover_crosscheck:stand",
-            inputs={"fit": fit_name(tire.name), "loads": list(SWEEP) if tire == section.kept else []},
+            inputs={
+                "fit": fit_name(tire.name),
+                "loads": list(SWEEP) if tire == section.kept else [],
+                "modulus_ratios": [ratio for _, ratio in _modulus_ratios()] if tire == section.kept else [],
+            },
             needs=(fit_name(tire.name),),
             sources=(*FILES, "ancf_reduced", "rover_dynamics", "workbench.ancf_tire", "workbench.rover_crosscheck"),
             libraries=("numpy", "numba", "scipy"),
@@ -58,6 +65,12 @@ def _tasks(study: Study) -> Sequence[Task]:
     ]
     points = curve_deflections(study)
     return tasks + [section_task(study, _section_name(o), o, points) for o in _section_orientations(study)]
+
+
+def _modulus_ratios() -> list[tuple[float, float]]:
+    """Temperature [K] and modulus of Ti-6Al-4V over that at 20 C."""
+    table = temperature_data("Ti-6Al-4V").modulus_ratio
+    return [(T, table.at(T)) for T in TEMPERATURES]
 
 
 def _section_name(orientation: float) -> str:
@@ -87,7 +100,14 @@ def _read(study: Study, folders: Mapping[str, Path]) -> CrossCheck:
         mirrored=is_mirrored(study),
         mesh_study=read_mesh_study(**mesh_study_inputs(study), folders=folders),
         static_load=mean_static_load(read_rover()),
+        warmth=_warmth(folders[f"rover_stands_{section.kept.name}"]),
     )
+
+
+def _warmth(folder: Path) -> tuple[Warmth, ...]:
+    found = read_result(folder).get("deflections_at_modulus", [])
+    pairs = zip(_modulus_ratios(), found, strict=False)
+    return tuple(Warmth(temperature=T, modulus_ratio=ratio, deflection=d) for (T, ratio), d in pairs)
 
 
 def _stood(name: str, folder: Path, spokes: int) -> StoodTire:

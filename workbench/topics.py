@@ -15,6 +15,7 @@ from workbench.topic_multibody import MULTIBODY
 from workbench.topic_orientations import ORIENTATIONS
 from workbench.topic_rover import ROVER
 from workbench.topic_rover_ancf import ROVER_ANCF
+from workbench.topic_rover_closer import ROVER_CLOSER
 from workbench.topic_rover_crosscheck import ROVER_CROSSCHECK
 from workbench.topic_section import SECTION
 from workbench.topic_speed import SPEED
@@ -38,6 +39,7 @@ TOPICS: tuple[Topic, ...] = (
     ROVER,
     ROVER_ANCF,
     ROVER_CROSSCHECK,
+    ROVER_CLOSER,
     VERIFICATION,
     SPEED,
 )

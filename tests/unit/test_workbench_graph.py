@@ -16,6 +16,7 @@ from workbench.task import Task, task_keys
 from workbench.topic_multibody import MULTIBODY
 from workbench.topic_rover import ROVER
 from workbench.topic_rover_ancf import ROVER_ANCF
+from workbench.topic_rover_closer import ROVER_CLOSER
 from workbench.topic_verification import VERIFICATION
 from workbench.topics import TOPICS
 
@@ -79,7 +80,8 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
     tolerance = report_tasks(_changed(study, "tolerances", initial_tangent=0.5), HERE)
     assert _new_keys(before, tolerance) == set()
     mesh = report_tasks(_changed(study, "mesh", element_size=7e-3), HERE)
-    verified = {task.name for topic in (VERIFICATION, MULTIBODY, ROVER, ROVER_ANCF) for task in topic.tasks(study)}
+    closed = (VERIFICATION, MULTIBODY, ROVER, ROVER_ANCF, ROVER_CLOSER)
+    verified = {task.name for topic in closed for task in topic.tasks(study)}
     kept = {"ancf_phi000", "ancf_phi045", "brush", "ancf_surfaces"} | refined | verified
     assert kept == set(task_keys(before)) - _new_keys(before, mesh)
 

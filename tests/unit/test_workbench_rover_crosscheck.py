@@ -15,7 +15,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.comparison import Comparison
 from workbench.mesh_study import MeshRun, MeshStudy
-from workbench.rover_crosscheck import CrossCheck, StoodTire, WheelPoint, image, lattice, unsolved
+from workbench.rover_crosscheck import CrossCheck, StoodTire, Warmth, WheelPoint, image, lattice, unsolved
 from workbench.study_file import built_in_study, read_study
 from workbench.tasks_rover_crosscheck import stand
 from workbench.topic_rover_crosscheck import ROVER_CROSSCHECK, SWEEP
@@ -61,6 +61,7 @@ def results(factor: float = 1.0) -> CrossCheck:
             orientation_deg=0.0, deflections=(0.02,), runs=(runs[0], runs[1], runs[2]), curves_factor=1.0
         ),
         static_load=STATIC,
+        warmth=(Warmth(temperature=130.15, modulus_ratio=1.1, deflection=0.0225),),
     )
 
 
@@ -117,6 +118,15 @@ def test_what_a_period_can_hold() -> None:
     assert found.spread(found.best)[0] == pytest.approx(0.05 / np.sqrt(2.0), rel=0.02)
 
 
+def test_a_colder_wheel_is_stiffer_by_its_modulus() -> None:
+    found = results()
+    assert found.fe_deflection(1.1) == pytest.approx(STATIC / 8000.0 / 1.1)
+    tasks = {task.name: task for task in ROVER_CROSSCHECK.tasks(STUDY)}
+    ratios = tasks["rover_stands_six_spokes"].inputs["modulus_ratios"]
+    assert ratios[2] == pytest.approx(1.0)
+    assert ratios[0] > ratios[1] > 1.0 > ratios[3]
+
+
 def test_tasks_of_the_built_in_study() -> None:
     tasks = {task.name: task for task in ROVER_CROSSCHECK.tasks(STUDY)}
     assert sum(name.startswith("crosscheck_phi") for name in tasks) == 8
@@ -130,7 +140,7 @@ def test_a_fit_without_a_result_is_passed_on(tmp_path: Path) -> None:
     (tmp_path / "fit").mkdir()
     (tmp_path / "fit" / "result.json").write_text(json.dumps({"failure": "no start"}), encoding="utf-8")
     (tmp_path / "out").mkdir()
-    stand({"fit": "f", "loads": []}, {"f": tmp_path / "fit"}, tmp_path / "out", lambda _: None)
+    stand({"fit": "f", "loads": [], "modulus_ratios": []}, {"f": tmp_path / "fit"}, tmp_path / "out", lambda _: None)
     assert json.loads((tmp_path / "out" / "result.json").read_text()) == {"points": [], "failure": "no start"}
 
 
@@ -146,3 +156,4 @@ def test_the_section_says_what_was_found() -> None:
     assert "5 orientations are solved by the solid model; the 8 others" in " ".join(text.split())
     assert text.count("crosscheck-sweep") > 1
     assert text.count("<td>section</td>") == 16
+    assert "-143 °C" in text
