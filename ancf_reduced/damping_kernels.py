@@ -32,7 +32,14 @@ from ancf_reduced.compiled import (
 from ancf_reduced.elastic_kernels import add_structure_force, base_vectors, gather, point_forces
 from ancf_reduced.tangent_kernels import SYMMETRIC, add_stiffness, mirror, to_structure
 
-__all__ = ["damping_force_kernel", "damping_position_kernel", "damping_velocity_kernel"]
+__all__ = [
+    "add_viscous_stiffness",
+    "damping_force_kernel",
+    "damping_position_kernel",
+    "damping_velocity_kernel",
+    "dual_vectors",
+    "products_of",
+]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -49,7 +56,7 @@ def _scaled(v: Vector, factor: float) -> Vector:
 
 
 @inlined
-def _dual_vectors(g: FloatArray, dual: FloatArray, volume: FloatArray, c: FloatArray) -> None:
+def dual_vectors(g: FloatArray, dual: FloatArray, volume: FloatArray, c: FloatArray) -> None:
     """Dual base vectors (3, 3, LANES) and c V (LANES,) from the base vectors g (3, 3, LANES)."""
     for q in range(LANES):
         a1, a2, a3 = vector_at(g, 0, q), vector_at(g, 1, q), vector_at(g, 2, q)
@@ -127,7 +134,7 @@ def damping_force_kernel(
         for k in range(len(D)):
             base_vectors(e, D[k], g)
             base_vectors(e_dot, D[k], rate)
-            _dual_vectors(g, dual, volume, c[k])
+            dual_vectors(g, dual, volume, c[k])
             _velocity_gradient(rate, dual, L)
             _viscous_stress(L, volume, moduli, T)
             _tractions(T, dual, P)
@@ -136,7 +143,7 @@ def damping_force_kernel(
 
 
 @inlined
-def _products(dual: FloatArray, products: FloatArray) -> None:
+def products_of(dual: FloatArray, products: FloatArray) -> None:
     """g^k . g^l (6, LANES)."""
     for k in range(3):
         for m in range(k, 3):
@@ -144,6 +151,25 @@ def _products(dual: FloatArray, products: FloatArray) -> None:
                 products[SYMMETRIC[k, m], q] = (
                     dual[k, 0, q] * dual[m, 0, q] + dual[k, 1, q] * dual[m, 1, q] + dual[k, 2, q] * dual[m, 2, q]
                 )
+
+
+@inlined
+def add_viscous_stiffness(
+    dual: FloatArray, products: FloatArray, volume: FloatArray, moduli: tuple[float, float], A: FloatArray
+) -> None:
+    """Add the derivative of P^k by the rate of g_l to A (9, 9, LANES), see the module's docstring."""
+    for k in range(3):
+        for m in range(3):
+            km = SYMMETRIC[k, m]
+            for i in range(3):
+                for j in range(3):
+                    same = moduli[1] if i == j else 0.0
+                    for q in range(LANES):
+                        A[3 * k + i, 3 * m + j, q] += volume[q] * (
+                            moduli[0] * dual[k, i, q] * dual[m, j, q]
+                            + moduli[1] * dual[m, i, q] * dual[k, j, q]
+                            + same * products[km, q]
+                        )
 
 
 @compiled
@@ -169,20 +195,10 @@ def damping_velocity_kernel(
         gather(p, elements[plate], frame[plate], e)
         for block in range(len(D)):
             base_vectors(e, D[block], g)
-            _dual_vectors(g, dual, volume, c[block])
-            _products(dual, products)
-            for k in range(3):
-                for m in range(3):
-                    km = SYMMETRIC[k, m]
-                    for i in range(3):
-                        for j in range(3):
-                            same = moduli[1] if i == j else 0.0
-                            for q in range(LANES):
-                                A[3 * k + i, 3 * m + j, q] = volume[q] * (
-                                    moduli[0] * dual[k, i, q] * dual[m, j, q]
-                                    + moduli[1] * dual[m, i, q] * dual[k, j, q]
-                                    + same * products[km, q]
-                                )
+            dual_vectors(g, dual, volume, c[block])
+            products_of(dual, products)
+            A[:] = 0.0
+            add_viscous_stiffness(dual, products, volume, moduli, A)
             add_stiffness(A, D[block], D[block], tangent[plate], True)
         mirror(tangent[plate])
         to_structure(tangent[plate], frame[plate], half)
@@ -251,11 +267,11 @@ def damping_position_kernel(
         for k in range(len(D)):
             base_vectors(e, D[k], g)
             base_vectors(e_dot, D[k], rate)
-            _dual_vectors(g, dual, volume, c[k])
+            dual_vectors(g, dual, volume, c[k])
             _velocity_gradient(rate, dual, L)
             _viscous_stress(L, volume, moduli, T)
             _tractions(T, dual, P)
-            _products(dual, products)
+            products_of(dual, products)
             _carried(L, dual, carried)
             _position_stiffness(P, L, dual, carried, products, volume, moduli, A)
             add_stiffness(A, D[k], D[k], tangent[plate], False)

@@ -20,6 +20,7 @@ from ancf_reduced.plate_assembly import dense_matrix
 from ancf_reduced.plate_mesh import PlateMesh
 from ancf_reduced.plate_tables import PlateTables, in_blocks, plate_tables
 from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape
+from ancf_reduced.step_kernels import step_matrix_kernel
 from ancf_reduced.tangent_kernels import tangent_kernel
 from contracts.errors import InputError, MeshError
 
@@ -162,6 +163,18 @@ class PlateModel:
         """Derivative C of the damping force C(p) p' by the rates, (n_plates, 48, 48) float, symmetric."""
         matrices = np.empty((len(self.mesh.elements), 48, 48))
         damping.damping_velocity_kernel(coordinates, *self._viscous, matrices)
+        return matrices
+
+    def step_matrices(self, coordinates: FloatArray, weights: Pair) -> FloatArray:
+        """Elastic tangents times the first weight plus damping matrices times the second, (n_plates, 48, 48) float."""
+        w_q, w_v = weights
+        matrices, lame = np.empty((len(self.mesh.elements), 48, 48)), (w_q * self.lame[0], w_q * self.lame[1])
+        viscosity = w_v * self.viscosity[0], w_v * self.viscosity[1]
+        at_points = self.weight, self.tables.gauss_weight
+        elements, frame, gradient, metric, *_ = self._elastic
+        step_matrix_kernel(coordinates, elements, frame, gradient, metric, at_points, lame, viscosity, matrices)
+        if self._relief is not None:
+            thickness.relief_tangent_kernel(coordinates, *self._relief[:-1], lame, matrices)
         return matrices
 
     def volume_ratio(self, coordinates: FloatArray) -> FloatArray:

@@ -26,7 +26,15 @@ from ancf_reduced.compiled import (
 )
 from ancf_reduced.elastic_kernels import base_vectors, gather, strain, stress
 
-__all__ = ["SYMMETRIC", "add_stiffness", "mirror", "tangent_kernel", "to_structure"]
+__all__ = [
+    "SYMMETRIC",
+    "add_stiffness",
+    "mirror",
+    "point_stiffness",
+    "stresses_and_normals",
+    "tangent_kernel",
+    "to_structure",
+]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -111,7 +119,7 @@ def to_structure(K: FloatArray, frame: FloatArray, half: FloatArray) -> None:
 
 
 @inlined
-def _stresses_and_normals(
+def stresses_and_normals(
     g: FloatArray, metric: FloatArray, moduli: FloatArray, S: FloatArray, h: FloatArray, B: FloatArray
 ) -> None:
     """Weighted stress S (6, LANES), h_k (3, 3, LANES) and B (6, LANES) at each point.
@@ -137,7 +145,7 @@ def _stresses_and_normals(
 
 
 @inlined
-def _point_stiffness(
+def point_stiffness(
     S: FloatArray, h: FloatArray, B: FloatArray, G: FloatArray, moduli: FloatArray, A: FloatArray
 ) -> None:
     """A (9, 9, LANES) of the module's docstring; G (6, LANES) is the inverse metric."""
@@ -185,8 +193,8 @@ def tangent_kernel(
             base_vectors(e, D[k], g)
             for q in range(LANES):
                 moduli[0, q], moduli[1, q] = w[plate, k, q] * lame[0], w[plate, k, q] * lame[1]
-            _stresses_and_normals(g, metric[plate, k], moduli, S, h, B)
-            _point_stiffness(S, h, B, metric[plate, k, 1], moduli, A)
+            stresses_and_normals(g, metric[plate, k], moduli, S, h, B)
+            point_stiffness(S, h, B, metric[plate, k, 1], moduli, A)
             add_stiffness(A, D[k], D[k], tangent[plate], True)
         mirror(tangent[plate])
         to_structure(tangent[plate], frame[plate], half)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
+from scipy.sparse.linalg import eigsh
 
 from ancf_reduced.contact_law import ContactLaw
 from ancf_reduced.explicit_dynamics import MotionState
@@ -185,7 +186,10 @@ def damped_model(tire: Tire, ratio: float) -> PlateModel:
     system = build_plate_system(unit, with_held_vectors(tire.mesh, held))
     z = system.reference()
     matrices = Linearisation(system)
-    K, M = np.asarray(matrices.elastic(z)), np.asarray(matrices.mass)
-    square, mode = eigh(K, M, subset_by_index=(0, 0))
+    K, M = matrices.elastic(z), matrices.mass
+    if isinstance(K, np.ndarray):
+        square, mode = eigh(np.asarray(K), np.asarray(M), subset_by_index=(0, 0))
+    else:
+        square, mode = eigsh(K, k=1, M=M, sigma=0.0, v0=np.ones(K.shape[0]))
     damping = float(mode[:, 0] @ (matrices.damping(z, 0.0 * z) @ mode[:, 0]))
     return replace(tire.model, viscosity=(0.0, 2.0 * ratio * math.sqrt(float(square[0])) / damping))

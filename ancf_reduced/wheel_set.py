@@ -79,21 +79,32 @@ class WheelSet:
         """Generalised forces (n_wheels, n, 3)."""
         return self.system.force(z.reshape(-1, 3), v.reshape(-1, 3)).reshape(z.shape)
 
-    def tangents(self, z: FloatArray, v: FloatArray, *, exact: bool = True) -> tuple[FloatArray, FloatArray]:
-        """Blocks (n_wheels, n_blocks, 3, 3) of minus the derivatives of `force`; else without the plates' damping by z.
-
-        That part costs as much as the others together and is of the order of viscosity times rate.
-        """
+    def tangents(self, z: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Blocks (n_wheels, n_blocks, 3, 3) of minus the derivatives of `force`."""
         p, p_dot = self.node_coordinates(z), self.node_rates(v)
         model = self.system.model
         stiffness = model.elastic_tangents(p)
         by_contact, damping = self.contact.tangents(p, p_dot)
         stiffness += by_contact
         if self.system.is_damped:
-            damping += model.damping_matrices(p)
-            if exact:
-                stiffness += model.damping_tangents(p, p_dot)[0]
+            by_position, by_rate = model.damping_tangents(p, p_dot)
+            stiffness += by_position
+            damping += by_rate
         return self.reduction(stiffness), self.reduction(damping)
+
+    def step_matrix(self, z: FloatArray, v: FloatArray, weights: tuple[float, float]) -> FloatArray:
+        """Blocks (n_wheels, n_blocks, 3, 3) of a sum of both tangents, without the plates' damping by z.
+
+        That part costs as much as the others together and is of the order of viscosity times rate.
+        """
+        p, (w_q, w_v) = self.node_coordinates(z), weights
+        matrices = self.system.model.step_matrices(p, weights)
+        by_position, by_rate = self.contact.tangents(p, self.node_rates(v))
+        by_position *= w_q
+        by_rate *= w_v
+        matrices += by_position
+        matrices += by_rate
+        return self.reduction(matrices)
 
     def node_coordinates(self, z: FloatArray) -> FloatArray:
         """Structure coordinates (n_wheels n_nodes, 4, 3) of all tires, wheel after wheel."""

@@ -105,10 +105,13 @@ class NodalTires(Protocol):
         z, v : (n_wheels, n, 3) float [m, -] and [m/s, 1/s]
         """
 
-    def tangents(self, z: FloatArray, v: FloatArray, *, exact: bool = True) -> tuple[FloatArray, FloatArray]:
-        """Minus the derivatives of `force` by z and by v, (n_wheels, n_blocks, 3, 3) each, blocks as in `pattern`.
+    def tangents(self, z: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Minus the derivatives of `force` by z and by v, (n_wheels, n_blocks, 3, 3) each, blocks as in `pattern`."""
 
-        With ``exact`` false terms of the first may be left out that are small where the tires deform slowly.
+    def step_matrix(self, z: FloatArray, v: FloatArray, weights: tuple[float, float]) -> FloatArray:
+        """Their sum with these weights, blocks (n_wheels, n_blocks, 3, 3), for Newton's method of a time step.
+
+        Terms of the first may be left out that are small where the tires deform slowly.
         """
 
     def contacts(self, z: FloatArray, v: FloatArray) -> TireContacts:

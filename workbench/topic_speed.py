@@ -20,6 +20,7 @@ from workbench.graph_section import without_planar_model
 from workbench.results import ModelCurves, model_curves
 from workbench.speed_aim import Aim
 from workbench.speed_ancf import ARITHMETIC, CHRONO, TIRE, ancf_aims
+from workbench.speed_flexible import flexible_aims
 from workbench.speed_rover import rover_aims
 from workbench.study import Study
 from workbench.task import Task
@@ -65,6 +66,7 @@ class SpeedResults:
     ranks: BenchmarkRecord
     ancf: BenchmarkRecord
     rover: BenchmarkRecord
+    flexible: BenchmarkRecord
     curves: tuple[CurveCost, ...]
 
     @property
@@ -84,7 +86,7 @@ class SpeedResults:
             Aim(title=fewer, found=self._least(calculix, ITERATIONS), limit=1.0, rule="more than"),
             Aim(title="Faster on two processes than on one", found=_ratio(self.ranks, RANKS), limit=1.6),
         ]
-        return [*aims, *ancf_aims(self.ancf), *rover_aims(self.rover), *self.own_aims]
+        return [*aims, *ancf_aims(self.ancf), *rover_aims(self.rover), *flexible_aims(self.flexible), *self.own_aims]
 
     @property
     def chrono(self) -> Mapping[str, float]:
@@ -149,7 +151,13 @@ def _cost(model: str, orientation: float, curves: ModelCurves) -> CurveCost:
 
 def kept_runs() -> dict[str, BenchmarkRecord]:
     """The kept runs by their names in `SpeedResults`."""
-    names = {"wheel": "fe_wheel", "ranks": "fe_ranks", "ancf": "ancf_tire", "rover": "rover_brush"}
+    names = {
+        "wheel": "fe_wheel",
+        "ranks": "fe_ranks",
+        "ancf": "ancf_tire",
+        "rover": "rover_brush",
+        "flexible": "rover_ancf",
+    }
     return {field: read_record(name) for field, name in names.items()}
 
 

@@ -58,10 +58,12 @@ class FlexibleMotion(VehicleMotion):
     Attributes
     ----------
     vectors, rates : (n, n_w, n_vectors, 3) float, of the tires [m, -] and [m/s, 1/s]
+    linearisations : matrices made for Newton's method
     """
 
     vectors: FloatArray
     rates: FloatArray
+    linearisations: int = 0
 
 
 def rigid_tire_mass(tires: NodalTires) -> FloatArray:

@@ -165,6 +165,7 @@ class _Run:
             rejected=self.rejected,
             vectors=z,
             rates=v,
+            linearisations=self.solver.linearisations,
         )
 
     def _stopped(self, t: float, rows: list[tuple[FloatArray, ...]]) -> ConvergenceError:

@@ -61,21 +61,15 @@ class CondensedTires:
     stiffness: FloatArray
 
 
-def condense(
-    tires: NodalTires, tangents: tuple[FloatArray, FloatArray], axes: FloatArray, weights: tuple[float, float, float]
-) -> CondensedTires:
+def condense(tires: NodalTires, blocks: FloatArray, axes: FloatArray, c: float) -> CondensedTires:
     """Build them.
 
     Parameters
     ----------
-    tangents : stiffness and damping of `NodalTires.tangents`, world axes
+    blocks : dt gamma C + dt^2 beta K, of `NodalTires.step_matrix`, world axes
     axes : (n_w, 3, 3) float, columns are the hubs' axes
-    weights : c; dt gamma; dt^2 beta
+    c : weight of the mass
     """
-    c, w_v, w_q = weights
-    K, C = tangents
-    blocks = w_v * C
-    blocks += w_q * K
     blocks = _turned(blocks, axes)
     rows, columns = tires.pattern.T
     blocks += c * tires.mass[rows, columns][:, None, None] * np.eye(3)

@@ -1,11 +1,14 @@
 """One step of the generalised-alpha method for a vehicle on flexible tires, by Newton's method.
 
 The tires are condensed onto their hubs, see `linear_solves`, so that the linear system has the size of the joints. A
-matrix serves until it is slow. Verified by tests/verification/test_flexible_motion.py.
+matrix serves as long as the iterations it still needs cost less than another. Contact forces have kinks, between whose
+sides a fixed matrix can go to and fro without end: there only a share of each change is made. Verified by
+tests/verification/test_flexible_motion.py.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,8 +23,11 @@ __all__ = ["StepEnd", "StepSolver"]
 
 FloatArray = NDArray[np.float64]
 
-_SLOW = 0.3
-"""Ratio of one change to the one before, above which the matrix is made anew."""
+_WORTH = 5.0
+"""Iterations still expected above which the matrix is made anew; it takes the time of as many."""
+_STALLED, _WORSE, _SHARE = 0.7, 2.0, 0.5
+"""With a new matrix: ratio of one change to the one before above which only a share is made, above which the step has
+failed, and the share."""
 _SAME = 0.01
 """Relative difference of two steps' lengths that may share a matrix."""
 _OLD = 0.1
@@ -82,7 +88,7 @@ class StepSolver:
         """
         system, earlier = self._system, (before.A, before.Z)
         A, Z = before.instant.a.copy(), before.instant.z_acceleration.copy()
-        last, fresh = np.inf, False
+        last, fresh, share = np.inf, False, 1.0
         for iteration in range(method.iterations):
             after = system.advanced(before.instant, earlier, (A, Z), known, (dt, method))
             if not np.isfinite(after.z).all():
@@ -90,14 +96,16 @@ class StepSolver:
             residual = system.residual(after, known)
             if self._matrix is None or not self._matrix.serves(dt, method):
                 fresh = self._linearise(after, dt, method)
-            size = dt * dt * self._correct(after, residual, A, Z)
+            size = dt * dt * self._correct(after, residual, (A, Z), share)
             if size < method.tolerance * (1.0 if iteration or fresh else _OLD):
                 after = system.advanced(before.instant, earlier, (A, Z), known, (dt, method))
                 error = method.error * dt * dt * self._largest(A - before.A, Z - before.Z)
                 return StepEnd(instant=after, A=A, Z=Z), error
-            if not np.isfinite(size) or (fresh and iteration > 2 and size > last):
+            if not np.isfinite(size) or (fresh and iteration > 2 and size > _WORSE * last):
                 break
-            if size > _SLOW * last and not fresh:
+            if fresh and size > _STALLED * last:
+                share = _SHARE
+            if not fresh and _left(size, last, method.tolerance) > _WORTH:
                 fresh = self._linearise(after, dt, method)
                 size = np.inf
             last = size
@@ -110,14 +118,16 @@ class StepSolver:
     def _linearise(self, after: Instant, dt: float, method: Method) -> bool:
         """Make the matrix anew; true."""
         system, tires = self._system, self._system.tires
-        tangents = tires.tangents(*system.whole(after), exact=False)
-        condensed = condense(tires, tangents, system.axes(after), method.weights(dt))
+        c, w_v, w_q = method.weights(dt)
+        blocks = tires.step_matrix(*system.whole(after), (w_q, w_v))
+        condensed = condense(tires, blocks, system.axes(after), c)
         self._matrix = _Matrix(tires=condensed, dt=dt, method=method)
         self.linearisations += 1
         return True
 
-    def _correct(self, after: Instant, residual: Residual, A: FloatArray, Z: FloatArray) -> float:
-        """Newton's change of A and Z, made in place; its largest entry."""
+    def _correct(self, after: Instant, residual: Residual, of: tuple[FloatArray, FloatArray], share: float) -> float:
+        """A share of Newton's change of A and Z, made in place; largest entry of the whole change."""
+        A, Z = of
         assert self._matrix is not None
         tires, system, R, J = self._matrix.tires, self._system, self._system.axes(after), after.J
         c, _, w_q = self._matrix.method.weights(self._matrix.dt)
@@ -132,10 +142,17 @@ class StepSolver:
         change[free] = np.linalg.solve(matrix[np.ix_(free, free)], right[free])
         held = tires.solve(in_hub) - np.matmul(tires.follow, (twists @ change)[..., None])[..., 0]
         of_tires = held.reshape(Z.shape) @ to_hub
-        A += change
-        Z += of_tires
+        A += share * change
+        Z += share * of_tires
         self.iterations += 1
         return self._largest(change, of_tires)
+
+
+def _left(size: float, last: float, goal: float) -> float:
+    """Iterations until changes fall from ``size`` to the goal if they go on as from the last; 0 after the first."""
+    if size >= last:
+        return math.inf
+    return math.log(goal / size) / math.log(size / last) if math.isfinite(last) else 0.0
 
 
 def _turning(z: FloatArray, forces: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from ancf_reduced.plate_assembly import dense_matrix
 from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.plate_model import PlateModel, build_plate_model
+from ancf_reduced.plate_model import PlateModel, PoissonLocking, build_plate_model
 from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import thesis_preset
 from contracts.errors import InputError
@@ -91,3 +91,15 @@ def test_a_rate_of_strain_taken_for_the_rate_of_deformation_is_caught(model: Pla
 def test_negative_viscosity_is_refused(model: PlateModel) -> None:
     with pytest.raises(InputError, match="viscosity mu_v"):
         build_plate_model(model.mesh, young_modulus=1.0, poisson_ratio=0.0, density=1.0, viscosity=(0.0, -1.0))
+
+
+@pytest.mark.parametrize("locking", PoissonLocking)
+def test_a_steps_matrix_is_the_weighted_sum(locking: PoissonLocking, state: tuple[np.ndarray, np.ndarray]) -> None:
+    """One pass over the points and two; with relief of Poisson locking too."""
+    mesh = build_tire(thesis_preset()).mesh
+    elastic = {"young_modulus": 3e5, "poisson_ratio": 0.3, "density": 1.0}
+    model = build_plate_model(mesh, **elastic, viscosity=VISCOSITY, poisson_locking=locking)
+    K, C = model.elastic_tangents(state[0]), model.damping_matrices(state[0])
+    found = model.step_matrices(state[0], (0.2, 7.0))
+    assert np.abs(found - (0.2 * K + 7.0 * C)).max() < 1e-12 * np.abs(found).max()
+    assert min(np.abs(0.2 * K).max(), np.abs(7.0 * C).max()) > 1e-3 * np.abs(found).max()

@@ -9,10 +9,12 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from ancf_reduced import linearisation
 from ancf_reduced.plate_system import PlateSystem, build_plate_system
 from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import thesis_preset
 from ancf_reduced.vector_coordinates import with_reference_node
+from ancf_reduced.wheel_rig import damped_model
 from ancf_reduced.wheel_set import THESIS_LAW, WheelSet, wheel_set
 from contracts.errors import InputError
 from contracts.terrain import Plane
@@ -91,3 +93,11 @@ def test_the_account_is_that_of_the_power() -> None:
 def test_no_wheels_are_refused() -> None:
     with pytest.raises(InputError, match=r"wheels = 0: must be 1 or more"):
         wheel_set(TIRE, Plane(), 0)
+
+
+def test_viscosity_from_sparse_matrices_is_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tires of many plates have sparse matrices; the first mode's damping must not depend on that."""
+    full = damped_model(TIRE, 0.05).viscosity
+    monkeypatch.setattr(linearisation, "_SMALL", 0)
+    assert damped_model(TIRE, 0.05).viscosity == pytest.approx(full, rel=1e-8)
+    assert damped_model(TIRE, 0.06).viscosity != pytest.approx(full, rel=1e-8)

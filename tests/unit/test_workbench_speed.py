@@ -21,6 +21,8 @@ from workbench.number_format import displayed
 from workbench.results import ModelCurves
 from workbench.speed_aim import Aim
 from workbench.speed_ancf import CHRONO, ancf_aims
+from workbench.speed_flexible import FASTER as FLEXIBLE_FASTER
+from workbench.speed_flexible import STRAIGHT_PATH, TIME, flexible_aims
 from workbench.speed_rover import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME, rover_aims
 from workbench.topic_speed import RANKS, SPEED, CurveCost, SpeedResults, _costs, kept_runs
 
@@ -89,6 +91,15 @@ def test_aims_of_the_rover_follow_the_kept_run() -> None:
     assert theirs == pytest.approx(ours, rel=0.5)
     alone = tuple(r for r in record.rows if r.case != BESIDE_EXUDYN)
     assert len(rover_aims(replace(record, rows=alone))) == 2
+
+
+def test_the_aim_of_the_rover_on_ancf_tires_follows_the_kept_run() -> None:
+    record = read_record("rover_ancf")
+    for seconds, met in ((19.9, True), (20.1, False)):
+        rows = tuple(replace(r, ours=seconds) if r.metric == TIME else r for r in record.rows)
+        assert [aim.met for aim in flexible_aims(replace(record, rows=rows))] == [met]
+    spent = record.row(STRAIGHT_PATH, TIME).ours
+    assert record.row(STRAIGHT_PATH, FLEXIBLE_FASTER).ours == pytest.approx(40.0 / spent)
 
 
 def test_the_check_fails_where_a_curve_took_too_many_iterations() -> None:
