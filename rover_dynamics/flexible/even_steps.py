@@ -22,7 +22,8 @@ class EvenSteps:
 
     Attributes
     ----------
-    tolerance : estimated error of a step in joint coordinates and positions of nodes [m, rad]
+    tolerance : estimated error of a step in joint coordinates and positions of nodes [m, rad]; what the default leaves
+        in motions of the rover is in benchmarks/README.md
     first, shortest, longest : steps [s]
     spectral_radius : at infinity, from 0 to 1; below one the highest frequencies are damped [-]
 
