@@ -129,7 +129,8 @@ class _Run:
         joints = kept["joints0"], kept["joints1"], kept["joints2"]
         tires = kept["tires0"], kept["tires1"], kept["tires2"]
         now = StepEnd(instant=self.system.instant(joints, tires), A=kept["A"], Z=kept["Z"])
-        self.accepted, self.rejected, self.solver.iterations = (int(count) for count in kept["counts"])
+        counts = [int(count) for count in kept["counts"]]
+        self.accepted, self.rejected, self.solver.iterations, self.solver.linearisations = counts
         names = sorted(name for name in kept if name.startswith("rows"))
         rows = list(zip(*(kept[name] for name in names), strict=True))
         t, length, last = kept["clock"].tolist()
@@ -143,7 +144,7 @@ class _Run:
         arrays = {f"joints{k}": part for k, part in enumerate((i.q, i.v, i.a))}
         arrays |= {f"tires{k}": part for k, part in enumerate((i.z, i.z_rate, i.z_acceleration))}
         arrays |= {f"rows{k}": column for k, column in enumerate(columns)}
-        counts = np.array([self.accepted, self.rejected, self.solver.iterations])
+        counts = np.array([self.accepted, self.rejected, self.solver.iterations, self.solver.linearisations])
         arrays |= {"A": now.A, "Z": now.Z, "clock": np.array(clock), "counts": counts}
         self.checkpoint.write(arrays)
 

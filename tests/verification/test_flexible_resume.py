@@ -65,7 +65,7 @@ def _killed(wheel: FlexibleVehicle, path: Path) -> Path:
 
 def _same(a: FlexibleMotion, b: FlexibleMotion) -> bool:
     arrays = ("times", "positions", "rotations", "velocities", "tires", "wrenches", "vectors", "rates")
-    counts = (a.steps, a.iterations, a.rejected) == (b.steps, b.iterations, b.rejected)
+    counts = all(getattr(a, n) == getattr(b, n) for n in ("steps", "iterations", "rejected", "linearisations"))
     return counts and all(getattr(a, name).tobytes() == getattr(b, name).tobytes() for name in arrays)
 
 
