@@ -26,7 +26,7 @@ from rover_dynamics.rover.rover_file import RoverDesign
 __all__ = ["Standing", "stand_under_loads"]
 
 FloatArray = NDArray[np.float64]
-_STEPS = EvenSteps(tolerance=1e-2, first=1e-3, longest=0.5)
+_STEPS = EvenSteps(tolerance=1e-3, first=1e-3, longest=0.5)
 """Errors on the way do not matter; Newton's method ends at a hundredth of the tolerance times the step squared."""
 _SETTLES = 20.0
 _RESTS = 1e-4
