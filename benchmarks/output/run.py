@@ -61,7 +61,7 @@ class Run:
             "cores": os.cpu_count() or 1,
             "load": round(self._load, 2),
             "system": f"{platform.system()} {platform.machine()}, Python {platform.python_version()}",
-            "versions": dict(library_versions(LIBRARIES)) | self._versions,
+            "versions": {n: v for n, v in library_versions(LIBRARIES).items() if v != "missing"} | self._versions,
         }
 
 
