@@ -23,15 +23,19 @@ _WHEEL = "front_right"
 def rover_ancf_figures(results: AncfRover) -> dict[str, str]:
     """HTML by name, after the thesis' figures."""
     return {
-        "fig18": _both(results, "drop", f"{_WHEEL}_load_N", "wheel load, front right [N]", until=1.0),
-        "fig19": _both(results, "drop", f"{_WHEEL}_deflection_m", "deflection, front right [mm]", 1e3, until=1.0),
-        "fig22": _sweep(results),
-        "fig23": _both(results, "straight", "body_vx_m_s", "speed [mm/s]", 1e3),
-        "fig24": _both(
+        "rover_ancf_fig18": _both(results, "drop", f"{_WHEEL}_load_N", "wheel load, front right [N]", until=1.0),
+        "rover_ancf_fig19": _both(
+            results, "drop", f"{_WHEEL}_deflection_m", "deflection, front right [mm]", 1e3, until=1.0
+        ),
+        "rover_ancf_fig22": _sweep(results),
+        "rover_ancf_fig23": _both(results, "straight", "body_vx_m_s", "speed [mm/s]", 1e3),
+        "rover_ancf_fig24": _both(
             results, "straight", f"{_WHEEL}_deflection_m", "deflection, front right [mm]", 1e3, since=15.0, until=35.0
         ),
-        "fig25": _both(results, "traction", f"{_WHEEL}_tractive_N", "tractive force, front right [N]", until=2.0),
-        "spectrum": _spectrum(results),
+        "rover_ancf_fig25": _both(
+            results, "traction", f"{_WHEEL}_tractive_N", "tractive force, front right [N]", until=2.0
+        ),
+        "rover_ancf_spectrum": _spectrum(results),
     }
 
 

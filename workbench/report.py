@@ -24,7 +24,7 @@ from workbench.series import series_links
 from workbench.study import Study
 from workbench.topics import topics_of
 
-__all__ = ["PageContent", "render", "verdict"]
+__all__ = ["PageContent", "joined_figures", "render", "verdict"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -152,12 +152,23 @@ def _figures(content: PageContent) -> tuple[dict[str, str], dict[str, InputError
     lacking = {}
     for topic in topics_of(study):
         try:
-            figures |= topic.figures(study, found.topics[topic.name])
+            figures = joined_figures(figures, topic.figures(study, found.topics[topic.name]))
         except InputError as error:
             if not content.provenance["partial"]:
                 raise
             lacking[topic.name] = error
     return figures, lacking
+
+
+def joined_figures(figures: Mapping[str, str], more: Mapping[str, str]) -> dict[str, str]:
+    """Both; a name that two topics give would let one section show the other's figure.
+
+    Verified by tests/unit/test_workbench_page_figures.py.
+    """
+    twice = sorted(figures.keys() & more.keys())
+    if twice:
+        raise ValueError(f"figures of two topics have the same name: {', '.join(twice)}")
+    return {**figures, **more}
 
 
 def _deformed(pictures: Path) -> list[Path]:
