@@ -77,7 +77,7 @@ def row(case: str, metric: str, unit: str, ours: float, peer: float | None) -> d
 
 def measured(size: str, ranks: int) -> dict[str, float]:
     """Numbers of one run in processes of its own."""
-    from workbench.ranks import mpiexec
+    from workbench.execution.ranks import mpiexec
 
     answer = ANSWERS / f"fe_ranks_{ranks}.tmp"
     answer.parent.mkdir(parents=True, exist_ok=True)

@@ -18,7 +18,7 @@ from typer.exceptions import TyperException
 from contracts.errors import WorkbenchError
 
 if TYPE_CHECKING:
-    from workbench.runner import Computing
+    from workbench.execution.runner import Computing
 
 __all__ = ["app", "main"]
 
@@ -80,7 +80,7 @@ def report(
     ] = False,
 ) -> None:
     """Compute everything a study asks for, compare, and write the report."""
-    from workbench.commands import run_report
+    from workbench.commands.report import run_report
 
     raise typer.Exit(run_report(study, out, store, _computing(workers, ranks, scheduler), full=full))
 
@@ -98,7 +98,7 @@ def mesh(
     store: Store = DEFAULT_STORE,
 ) -> None:
     """Build and check the mesh; write .msh, .vtu, .step, a summary and a picture. Of the ANCF tire: .step."""
-    from workbench.command_surfaces import run_mesh_of
+    from workbench.commands.mesh import run_mesh_of
 
     raise typer.Exit(run_mesh_of(study, model, orientation, tuple(deflection or ()), out, store))
 
@@ -117,7 +117,7 @@ def stiffness(
     scheduler: Scheduler = None,
 ) -> None:
     """Stiffness curves of one model."""
-    from workbench.commands import run_stiffness
+    from workbench.commands.stiffness import run_stiffness
 
     computing = _computing(workers, ranks, scheduler)
     raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, computing))
@@ -136,7 +136,7 @@ def calibrate_thickness(
     scheduler: Scheduler = None,
 ) -> None:
     """Find the strip thickness for an initial tangent: section model first, confirmed by the solid one. The default."""
-    from workbench.command_calibrate import run_calibrate
+    from workbench.commands.calibrate import run_calibrate
 
     raise typer.Exit(run_calibrate(study, target, out, store, _computing(workers, ranks, scheduler)))
 
@@ -156,7 +156,7 @@ def calibrate_ancf(
     scheduler: Scheduler = None,
 ) -> None:
     """Fit the ANCF tire to the finite element curves of every orientation."""
-    from workbench.command_calibrate_ancf import run_calibrate_ancf
+    from workbench.commands.calibrate_ancf import run_calibrate_ancf
 
     raise typer.Exit(run_calibrate_ancf(study, tire, out, store, _computing(workers, ranks, scheduler)))
 
@@ -188,7 +188,7 @@ def rover(
     names: Annotated[bool, typer.Option("--list", help="Show the scenarios.")] = False,
 ) -> None:
     """One scenario of the rover: its time series, and what it ends with."""
-    from workbench.command_rover import RoverChoices, list_scenarios, run_rover
+    from workbench.commands.rover import RoverChoices, list_scenarios, run_rover
 
     choices = RoverChoices(
         tire=tire, rover=rover_file, gravity=gravity, terrain=terrain, start=start, rocks=rocks, animate=animate
@@ -203,7 +203,7 @@ def compare(
     max_load: Annotated[float | None, typer.Option(help="End where the reference reaches this load [N].")] = None,
 ) -> None:
     """Compare two curves, from anywhere, with metrics."""
-    from workbench.commands import run_compare
+    from workbench.commands.compare import run_compare
 
     raise typer.Exit(run_compare(curve, reference, max_load))
 
@@ -211,13 +211,13 @@ def compare(
 @app.command()
 def doctor() -> None:
     """Show the versions found, what is missing and how to install it."""
-    from workbench.commands import run_doctor
+    from workbench.commands.doctor import run_doctor
 
     raise typer.Exit(run_doctor())
 
 
 def _computing(workers: int | None, ranks: int, scheduler: str | None) -> Computing:
-    from workbench.runner import Computing
+    from workbench.execution.runner import Computing
 
     return Computing(workers=workers or max(1, min(2, os.cpu_count() or 1) // ranks), ranks=ranks, scheduler=scheduler)
 

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from workbench.study_file import built_in_study
+from workbench.study.reading import built_in_study
 
 ROOT = Path(__file__).parents[2]
 

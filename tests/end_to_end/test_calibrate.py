@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.end_to_end.small_study import run
-from workbench.calibration import strip_thicknesses
-from workbench.study_file import read_study
+from workbench.comparison.calibration import strip_thicknesses
+from workbench.study.reading import read_study
 
 
 def test_calibrate_finds_a_thickness_the_solid_model_confirms(workspace: Path, tmp_path: Path) -> None:

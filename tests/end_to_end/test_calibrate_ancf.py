@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.end_to_end.small_study import run, small_study_text
-from workbench.study_file import read_study
+from workbench.study.reading import read_study
 
 
 def test_the_fitted_tire_lands_in_a_study(workspace: Path, tmp_path: Path) -> None:

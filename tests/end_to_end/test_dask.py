@@ -12,10 +12,10 @@ from distributed import LocalCluster
 
 from tests.end_to_end.small_study import run
 from tests.unit.test_workbench_runner import PROBE, Recorder
-from workbench.errors import RunError
-from workbench.runner import Computing, run_tasks
-from workbench.store import Store
-from workbench.task import Task
+from workbench.execution.errors import RunError
+from workbench.execution.runner import Computing, run_tasks
+from workbench.execution.store import Store
+from workbench.execution.task import Task
 
 
 @pytest.fixture(scope="module")

@@ -24,13 +24,13 @@ from contracts.mesh import TaggedMesh
 from reference_fe.verification.structured_hexahedra import block_mesh
 from tests.end_to_end.small_study import run
 from tests.unit.test_workbench_runner import Recorder
-from workbench.fingerprint import file_sha256
-from workbench.mesh_file import MESH, write_mesh
-from workbench.result_files import FAILURE, read_result, write_result
-from workbench.runner import run_tasks
-from workbench.store import Store
-from workbench.task import Progress, Task
-from workbench.tasks_fe import solve_orientation
+from workbench.execution.fingerprint import file_sha256
+from workbench.execution.result_files import FAILURE, read_result, write_result
+from workbench.execution.runner import run_tasks
+from workbench.execution.store import Store
+from workbench.execution.task import Progress, Task
+from workbench.tasks.fe import solve_orientation
+from workbench.tasks.mesh_file import MESH, write_mesh
 
 REASON = "orientation 0 deg, curve reached 3 mm: a made-up reason; try another wheel"
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from contracts.series import read_series
-from workbench.series import series_files
-from workbench.study_file import built_in_study, read_study
-from workbench.tasks_ancf_dynamics import move_wheel
-from workbench.topic_ancf_dynamics import ANCF_DYNAMICS, AncfMotions
+from workbench.report.series import series_files
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.ancf_dynamics import move_wheel
+from workbench.topics.ancf_dynamics import ANCF_DYNAMICS, AncfMotions
 
 
 @pytest.fixture(scope="module")

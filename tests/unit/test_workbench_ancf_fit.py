@@ -15,17 +15,17 @@ from ancf_reduced.tire_parameters import Parameter
 from ancf_reduced.tire_preset import thesis_preset
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import InputError, StudyError
-from workbench.ancf_fit import average_error, fitted_deflections, perturbed, read_fit
-from workbench.graph import report_tasks
-from workbench.graph_fit import fit_tasks
-from workbench.results import ModelCurves
-from workbench.study import Study
-from workbench.study_file import built_in_study, read_study
-from workbench.study_models import fit_start
-from workbench.study_rewrite import rewritten_table
-from workbench.tasks_fit import evaluate, fit
-from workbench.topic_ancf_fit import AncfFits
-from workbench.topics import topics_of
+from workbench.comparison.ancf_fit import average_error, fitted_deflections, perturbed, read_fit
+from workbench.comparison.results import ModelCurves
+from workbench.graph.fit import fit_tasks
+from workbench.graph.study_graph import report_tasks
+from workbench.study.model import Study
+from workbench.study.model_parameters import fit_start
+from workbench.study.reading import built_in_study, read_study
+from workbench.study.rewrite import rewritten_table
+from workbench.tasks.fit import evaluate, fit
+from workbench.topics.ancf_fit import AncfFits
+from workbench.topics.registry import topics_of
 
 D = np.linspace(0.0, 0.03, 16)
 LINE = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=D, load=8e3 * D)

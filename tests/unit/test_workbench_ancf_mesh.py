@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from workbench.study_file import built_in_study, read_study
-from workbench.tasks_ancf_mesh import solve_refined
-from workbench.topic_ancf_mesh import ANCF_MESH, FACTORS, AncfMeshRow, AncfMeshStudy
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.ancf_mesh import solve_refined
+from workbench.topics.ancf_mesh import ANCF_MESH, FACTORS, AncfMeshRow, AncfMeshStudy
 
 
 @pytest.fixture(scope="module")

@@ -11,13 +11,13 @@ import pytest
 from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import thesis_preset
 from contracts.errors import InputError
-from workbench.checks_models import surfaces_check
-from workbench.command_surfaces import deflections_si, run_mesh_of
-from workbench.graph_surfaces import report_surfaces_task, surfaces_task
-from workbench.result_files import read_result
-from workbench.study_file import built_in_study, read_study
-from workbench.study_sections import ToleranceSection
-from workbench.tasks_ancf_surfaces import read_back_deviation, write_surfaces
+from workbench.checks.models import surfaces_check
+from workbench.commands.mesh import deflections_si, run_mesh_of
+from workbench.execution.result_files import read_result
+from workbench.graph.surfaces import report_surfaces_task, surfaces_task
+from workbench.study.reading import built_in_study, read_study
+from workbench.study.sections import ToleranceSection
+from workbench.tasks.ancf_surfaces import read_back_deviation, write_surfaces
 
 
 def _ignore(fraction: float) -> None:

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError
-from workbench.calibration import calibrate, scaled_study, strip_thicknesses
-from workbench.study_file import built_in_study, read_study
-from workbench.study_rewrite import rewritten_study
+from workbench.comparison.calibration import calibrate, scaled_study, strip_thicknesses
+from workbench.study.reading import built_in_study, read_study
+from workbench.study.rewrite import rewritten_study
 
 
 def power(scale: float, exponent: float = 2.9) -> Callable[[float], float]:

@@ -12,7 +12,7 @@ import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.records import Check
-from workbench.checks_fe import (
+from workbench.checks.fe import (
     band_checks,
     mesh_checks,
     reach_check,
@@ -20,13 +20,13 @@ from workbench.checks_fe import (
     spread_checks,
     yield_check,
 )
-from workbench.checks_models import agreement_checks, ancf_checks, preset_error, user_checks
-from workbench.comparison import exit_status, overall_status
-from workbench.mesh_study import MeshRun
-from workbench.preset_table import preset_table
-from workbench.results import ModelCurves, UserCurve
-from workbench.study import thesis_band
-from workbench.study_sections import ToleranceSection
+from workbench.checks.models import agreement_checks, ancf_checks, preset_error, user_checks
+from workbench.checks.preset_table import preset_table
+from workbench.comparison.comparison import exit_status, overall_status
+from workbench.comparison.mesh_study import MeshRun
+from workbench.comparison.results import ModelCurves, UserCurve
+from workbench.study.model import thesis_band
+from workbench.study.sections import ToleranceSection
 
 TOLERANCES = ToleranceSection(reference_wheel=True)
 D = np.linspace(0.0, 0.036, 37)

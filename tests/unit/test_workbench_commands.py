@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError, StudyError
-from workbench.commands import naming
-from workbench.doctor import NEEDED
-from workbench.errors import InterruptedRunError, RunError
+from workbench.commands.computing import naming
+from workbench.execution.doctor import NEEDED
+from workbench.execution.errors import InterruptedRunError, RunError
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")

@@ -12,12 +12,12 @@ import pytest
 from contracts.curves import StiffnessCurve
 from reference_fe.contact_obstacle import ContactMethod
 from reference_fe.obstacles import HalfRoundRock, Plane, StepEdge
-from workbench.graph_fe import fe_inputs
-from workbench.study import Study
-from workbench.study_file import built_in_study, read_study
-from workbench.tasks_contact import obstacle_of
-from workbench.tasks_fe import load_case
-from workbench.topic_contact import CONTACT, ContactRun, PenaltyStudy
+from workbench.graph.fe import fe_inputs
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.contact import obstacle_of
+from workbench.tasks.fe import load_case
+from workbench.topics.contact import CONTACT, ContactRun, PenaltyStudy
 
 
 @pytest.fixture(scope="module")

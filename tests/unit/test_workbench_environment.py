@@ -15,9 +15,9 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import StudyError
 from contracts.materials import AISI_301, TI_6AL_4V, Material
 from contracts.materials_temperature import REFERENCE_TEMPERATURE
-from workbench.checks_environment import EnvironmentRun, Series, environment_checks
-from workbench.study_file import built_in_study, read_study
-from workbench.topic_environment import chosen_points, environment_tasks
+from workbench.checks.environment import EnvironmentRun, Series, environment_checks
+from workbench.study.reading import built_in_study, read_study
+from workbench.topics.environment import chosen_points, environment_tasks
 
 COLD = 130.15
 STUDY: Any = SimpleNamespace()

@@ -11,12 +11,12 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.full_study import full_study, is_mirrored, rotational_period
-from workbench.graph import report_tasks
-from workbench.study import Study
-from workbench.study_file import built_in_study, read_study
-from workbench.study_rules import broken_rules
-from workbench.topic_orientations import ORIENTATIONS, OrientationMap
+from workbench.graph.study_graph import report_tasks
+from workbench.study.full import full_study, is_mirrored, rotational_period
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+from workbench.study.rules import broken_rules
+from workbench.topics.orientations import ORIENTATIONS, OrientationMap
 
 HERE = built_in_study().parent
 

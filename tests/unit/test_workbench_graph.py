@@ -7,18 +7,18 @@ from pathlib import Path
 
 import pytest
 
-from workbench.fingerprint import canonical_json
-from workbench.graph import mesh_tasks, orientation_name, report_tasks, stiffness_tasks
-from workbench.study import Study, WheelStudy
-from workbench.study_file import built_in_study, read_study
-from workbench.study_models import wheel_design
-from workbench.task import Task, task_keys
-from workbench.topic_multibody import MULTIBODY
-from workbench.topic_rover import ROVER
-from workbench.topic_rover_ancf import ROVER_ANCF
-from workbench.topic_rover_closer import ROVER_CLOSER
-from workbench.topic_verification import VERIFICATION
-from workbench.topics import TOPICS
+from workbench.execution.fingerprint import canonical_json
+from workbench.execution.task import Task, task_keys
+from workbench.graph.study_graph import mesh_tasks, orientation_name, report_tasks, stiffness_tasks
+from workbench.study.model import Study, WheelStudy
+from workbench.study.model_parameters import wheel_design
+from workbench.study.reading import built_in_study, read_study
+from workbench.topics.multibody import MULTIBODY
+from workbench.topics.registry import TOPICS
+from workbench.topics.rover import ROVER
+from workbench.topics.rover_ancf import ROVER_ANCF
+from workbench.topics.rover_closer import ROVER_CLOSER
+from workbench.topics.verification import VERIFICATION
 
 HERE = built_in_study().parent
 
@@ -94,8 +94,8 @@ def test_stiffness_tasks_take_the_orientations_asked_for(study: Study) -> None:
 
 
 def test_text_of_a_user_curve_is_part_of_the_key(study: Study, tmp_path: Path) -> None:
-    from workbench.study import CompareSection
-    from workbench.study_sections import CurveSection
+    from workbench.study.model import CompareSection
+    from workbench.study.sections import CurveSection
 
     section = CurveSection(file="mine.csv", label="mine", source="me")
     with_curve = study.model_copy(update={"compare": CompareSection(curves=(section,))})
@@ -106,7 +106,7 @@ def test_text_of_a_user_curve_is_part_of_the_key(study: Study, tmp_path: Path) -
 
 
 def test_the_preset_is_solved_at_the_deflections_of_its_table(study: Study) -> None:
-    from workbench.preset_table import preset_table
+    from workbench.checks.preset_table import preset_table
 
     def points(changed: Study) -> list[float]:
         (task,) = (t for t in report_tasks(changed, HERE) if t.name == "ancf_phi000")

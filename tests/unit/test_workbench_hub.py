@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve
-from workbench.graph import report_tasks
-from workbench.study import Study
-from workbench.study_file import built_in_study, read_study
-from workbench.topic_hub import HUB, HubRun, HubStudy, held_parts
+from workbench.graph.study_graph import report_tasks
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+from workbench.topics.hub import HUB, HubRun, HubStudy, held_parts
 
 HERE = built_in_study().parent
 

@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve, read_curve, write_curve
-from workbench.checks_energy import energy_check
-from workbench.checks_fe import solver_checks, spread_checks
-from workbench.checks_models import agreement_checks
-from workbench.checks_section import section_checks
-from workbench.result_files import FAILURE
-from workbench.results import ModelCurves, mean_curve
-from workbench.study_sections import ToleranceSection
+from workbench.checks.energy import energy_check
+from workbench.checks.fe import solver_checks, spread_checks
+from workbench.checks.models import agreement_checks
+from workbench.checks.section import section_checks
+from workbench.comparison.results import ModelCurves, mean_curve
+from workbench.execution.result_files import FAILURE
+from workbench.study.sections import ToleranceSection
 
 TOLERANCES = ToleranceSection(reference_wheel=True)
 REASON = "orientation 15 deg, no point of the curve reached: a made-up reason"

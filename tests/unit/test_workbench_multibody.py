@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-import workbench.report
+import workbench.report.page
 from contracts.records import Check
-from workbench.result_files import read_result, write_result
-from workbench.study_file import built_in_study, read_study
-from workbench.tasks_multibody import measure_work
-from workbench.topic_multibody import ALLOWED, MULTIBODY, MultibodyResults
-from workbench.topics import TOPICS
+from workbench.execution.result_files import read_result, write_result
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.multibody import measure_work
+from workbench.topics.multibody import ALLOWED, MULTIBODY, MultibodyResults
+from workbench.topics.registry import TOPICS
 
 MEASURED = {  # error and relative change of energy of the last run of the report
     ("pendulum", "explicit", 1e-10): (3.4e-10, 1.9e-10),
@@ -103,7 +103,7 @@ def test_a_row_that_is_missing_is_an_error(results: MultibodyResults) -> None:
 
 def test_figures_of_the_section_exist(results: MultibodyResults) -> None:
     figures = MULTIBODY.figures(read_study(built_in_study()), results)
-    folder = Path(workbench.report.__file__).parent / "templates"
+    folder = Path(workbench.report.page.__file__).parent / "templates"
     text = (folder / "section_multibody.html.j2").read_text(encoding="utf-8")
     assert set(re.findall(r"figures\.(\w+)", text)) == set(figures)
     assert "A02 four-bar, N = 40, implicit" in figures["seconds"]

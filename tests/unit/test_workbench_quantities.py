@@ -7,7 +7,7 @@ import math
 import pytest
 from pydantic_core import PydanticCustomError
 
-from workbench.quantities import to_si
+from workbench.study.quantities import to_si
 
 
 @pytest.mark.parametrize(

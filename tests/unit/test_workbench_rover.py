@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-import workbench.report
+import workbench.report.page
 from contracts.records import Check
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
-from workbench.result_files import read_result
-from workbench.series import series_files
-from workbench.study_file import built_in_study, read_study
-from workbench.tasks_rover import drive_rover
-from workbench.topic_rover import CLOSED_FORMS, MISSION, ROVER, THESIS, RoverResults
+from workbench.execution.result_files import read_result
+from workbench.report.series import series_files
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.rover import drive_rover
+from workbench.topics.rover import CLOSED_FORMS, MISSION, ROVER, THESIS, RoverResults
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +84,9 @@ def test_series_and_figures_of_the_section_exist(results: RoverResults) -> None:
     study = read_study(built_in_study())
     published = series_files(ROVER.series(study, results))
     assert set(published) == {f"{name}_brush.csv" for name in SCENARIOS}
-    text = (Path(workbench.report.__file__).parent / "templates" / "section_rover.html.j2").read_text(encoding="utf-8")
+    text = (Path(workbench.report.page.__file__).parent / "templates" / "section_rover.html.j2").read_text(
+        encoding="utf-8"
+    )
     assert set(re.findall(r"figures\.(\w+)", text)) == set(ROVER.figures(study, results))
 
 

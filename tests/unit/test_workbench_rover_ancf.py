@@ -9,22 +9,22 @@ import jinja2
 import numpy as np
 import pytest
 
-import workbench.report
+import workbench.report.page
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.number_format import displayed
-from workbench.result_files import read_result
-from workbench.rover_ancf_results import AncfRover, Drive, read_drive
-from workbench.rover_ancf_runs import ancf_run
-from workbench.series import series_links
-from workbench.study import Study
-from workbench.study_file import built_in_study, read_study
-from workbench.tasks_rover_ancf import drive_on_ancf_tires
-from workbench.topic_rover_ancf import LONG, ROVER_ANCF, SHORT, runs_of
+from workbench.comparison.rover_ancf_results import AncfRover, Drive, read_drive
+from workbench.execution.result_files import read_result
+from workbench.report.number_format import displayed
+from workbench.report.series import series_links
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.rover_ancf import drive_on_ancf_tires
+from workbench.tasks.rover_ancf_runs import ancf_run
+from workbench.topics.rover_ancf import LONG, ROVER_ANCF, SHORT, runs_of
 
 SPIN = 0.1364
 FOLDED = "a tire folds at t = 0.3 s"
@@ -141,7 +141,7 @@ def test_another_period_or_load_fails_the_gates(study: Study, results: AncfRover
 
 
 def test_the_section_shows_both_tires_and_what_stopped(study: Study, results: AncfRover) -> None:
-    loader = jinja2.FileSystemLoader(Path(workbench.report.__file__).parent / "templates")
+    loader = jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates")
     environment = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, autoescape=True)
     environment.filters["number"] = displayed
     series, figures = series_links(ROVER_ANCF.series(study, results)), ROVER_ANCF.figures(study, results)

@@ -8,16 +8,16 @@ import jinja2
 import numpy as np
 import pytest
 
-import workbench.report
+import workbench.report.page
 from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
 from tests.unit.test_workbench_tire_animation import TIRE, flexible
-from workbench.series import series_links
-from workbench.study_file import built_in_study, read_study
-from workbench.tasks_rover_closer import body_series
-from workbench.topic_rover_closer import ROVER_CLOSER, CloserLook, spectrum
+from workbench.report.series import series_links
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.rover_closer import body_series
+from workbench.topics.rover_closer import ROVER_CLOSER, CloserLook, spectrum
 
 T = np.arange(0.0, 20.0, 0.05)
 STUDY = read_study(built_in_study())
@@ -70,7 +70,7 @@ def test_what_is_read_from_the_series() -> None:
 def test_the_section_shows_what_there_is() -> None:
     found = look()
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(workbench.report.__file__).parent / "templates"),
+        loader=jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates"),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
     )
@@ -88,7 +88,7 @@ def test_the_section_shows_what_there_is() -> None:
 
 def test_one_task_where_the_rover_stands_on_the_wheel() -> None:
     (task,) = ROVER_CLOSER.tasks(STUDY)
-    assert task.function == "workbench.tasks_rover_closer:drive_closely"
+    assert task.function == "workbench.tasks.rover_closer:drive_closely"
     short = STUDY.fe.model_copy(update={"max_deflection": 0.006})
     assert ROVER_CLOSER.applies(STUDY)
     assert not ROVER_CLOSER.applies(STUDY.model_copy(update={"fe": short}))

@@ -10,15 +10,15 @@ import jinja2
 import numpy as np
 import pytest
 
-import workbench.report
+import workbench.report.page
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.comparison import Comparison
-from workbench.mesh_study import MeshRun, MeshStudy
-from workbench.rover_crosscheck import CrossCheck, StoodTire, Warmth, WheelPoint, image, lattice, unsolved
-from workbench.study_file import built_in_study, read_study
-from workbench.tasks_rover_crosscheck import stand
-from workbench.topic_rover_crosscheck import ROVER_CROSSCHECK, SWEEP
+from workbench.comparison.comparison import Comparison
+from workbench.comparison.mesh_study import MeshRun, MeshStudy
+from workbench.comparison.rover_crosscheck import CrossCheck, StoodTire, Warmth, WheelPoint, image, lattice, unsolved
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.rover_crosscheck import stand
+from workbench.topics.rover_crosscheck import ROVER_CROSSCHECK, SWEEP
 
 D = np.linspace(0.0, 0.04, 41)
 STUDY = read_study(built_in_study())
@@ -147,7 +147,7 @@ def test_a_fit_without_a_result_is_passed_on(tmp_path: Path) -> None:
 def test_the_section_says_what_was_found() -> None:
     found = results(1.04)
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(workbench.report.__file__).parent / "templates"),
+        loader=jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates"),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
     )

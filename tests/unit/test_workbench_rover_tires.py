@@ -16,7 +16,7 @@ from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, mean_static_load, run_scenario, scenario_series
-from workbench.rover_tires import START_HEIGHT, on_ancf_tires, unfolded
+from workbench.tasks.rover_tires import START_HEIGHT, on_ancf_tires, unfolded
 
 DESIGN = read_rover()
 

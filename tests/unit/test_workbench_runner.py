@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from workbench.errors import RunError
-from workbench.runner import Computing, run_tasks
-from workbench.store import Entry, Store
-from workbench.task import Task, task_keys
+from workbench.execution.errors import RunError
+from workbench.execution.runner import Computing, run_tasks
+from workbench.execution.store import Entry, Store
+from workbench.execution.task import Task, task_keys
 
 PROBE = "tests.unit.workbench_probe_tasks"
 

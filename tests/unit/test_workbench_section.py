@@ -9,15 +9,15 @@ import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.errors import InputError
-from workbench.checks_section import largest_difference, section_checks
-from workbench.graph import report_tasks, stiffness_tasks
-from workbench.results import ModelCurves
-from workbench.study import Study
-from workbench.study_file import built_in_study, read_study
-from workbench.study_sections import ToleranceSection
-from workbench.task import task_keys
-from workbench.topic_section import SectionRuns
-from workbench.topics import topics_of
+from workbench.checks.section import largest_difference, section_checks
+from workbench.comparison.results import ModelCurves
+from workbench.execution.task import task_keys
+from workbench.graph.study_graph import report_tasks, stiffness_tasks
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+from workbench.study.sections import ToleranceSection
+from workbench.topics.registry import topics_of
+from workbench.topics.section import SectionRuns
 
 D = np.linspace(0.0, 0.03, 16)
 

@@ -9,7 +9,7 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.series import TimeSeries, series_text
-from workbench.series import is_ours, series_file, series_files, series_links
+from workbench.report.series import is_ours, series_file, series_files, series_links
 
 
 def _series(scenario: str, tire: str) -> TimeSeries:

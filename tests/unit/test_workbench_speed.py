@@ -11,20 +11,20 @@ import jinja2
 import numpy as np
 import pytest
 
-import workbench.report
+import workbench.report.page
 from benchmarks.fe_wheel import CASES
 from benchmarks.output.run import Run
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.errors import InputError
-from workbench.benchmark_record import read_record
-from workbench.number_format import displayed
-from workbench.results import ModelCurves
-from workbench.speed_aim import Aim
-from workbench.speed_ancf import CHRONO, ancf_aims
-from workbench.speed_flexible import FASTER as FLEXIBLE_FASTER
-from workbench.speed_flexible import STRAIGHT_PATH, TIME, flexible_aims
-from workbench.speed_rover import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME, rover_aims
-from workbench.topic_speed import RANKS, SPEED, CurveCost, SpeedResults, _costs, kept_runs
+from workbench.checks.benchmark_record import read_record
+from workbench.checks.speed_aim import Aim
+from workbench.checks.speed_ancf import CHRONO, ancf_aims
+from workbench.checks.speed_flexible import FASTER as FLEXIBLE_FASTER
+from workbench.checks.speed_flexible import STRAIGHT_PATH, TIME, flexible_aims
+from workbench.checks.speed_rover import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME, rover_aims
+from workbench.comparison.results import ModelCurves
+from workbench.report.number_format import displayed
+from workbench.topics.speed import RANKS, SPEED, CurveCost, SpeedResults, _costs, kept_runs
 
 SOLID = CurveCost(model="fe", orientation=15.0, dofs=40, points=18, increments=19, iterations=72, solve_s=9.0)
 
@@ -121,7 +121,7 @@ def test_cost_is_read_from_the_stored_numbers() -> None:
 
 
 def test_the_section_says_met_and_missed() -> None:
-    loader = jinja2.FileSystemLoader(Path(workbench.report.__file__).parent / "templates")
+    loader = jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates")
     environment = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, autoescape=True)
     environment.filters["number"] = displayed
     found = results(SOLID, replace(SOLID, model="section", solve_s=6.0))

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from contracts.errors import InputError
-from workbench.fingerprint import canonical_json, source_hash, text_sha256
-from workbench.store import MANIFEST, Store
+from workbench.execution.fingerprint import canonical_json, source_hash, text_sha256
+from workbench.execution.store import MANIFEST, Store
 
 KEY = text_sha256("a task")
 RECORD = {"task": "t", "wall_s": 1.5, "dofs": 7}

@@ -16,14 +16,14 @@ from ancf_reduced.tire_preset import thesis_preset
 from contracts.curves import read_curve
 from contracts.errors import StudyError
 from geometry.surface_step import write_surfaces_step
-from workbench.ancf_tire import tire_from, tire_values
-from workbench.graph import report_tasks, stiffness_tasks
-from workbench.study import Study
-from workbench.study_file import built_in_study, read_study
-from workbench.study_models import ancf_mesh, ancf_preset
-from workbench.study_rewrite import rewritten_study, rewritten_table
-from workbench.task import Task
-from workbench.tasks_ancf import solve_orientation
+from workbench.execution.task import Task
+from workbench.graph.study_graph import report_tasks, stiffness_tasks
+from workbench.study.model import Study
+from workbench.study.model_parameters import ancf_mesh, ancf_preset
+from workbench.study.reading import built_in_study, read_study
+from workbench.study.rewrite import rewritten_study, rewritten_table
+from workbench.tasks.ancf import solve_orientation
+from workbench.tasks.ancf_tire import tire_from, tire_values
 
 TIRE = build_tire(thesis_preset())
 SURFACES = plate_surfaces(TIRE.mesh, TIRE.mesh.reference_coordinates())

@@ -15,10 +15,10 @@ from contracts.curves import StiffnessCurve, read_curve, write_curve
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from rover_dynamics.brush_tire import THESIS_BRUSH
-from workbench import tasks_ancf, tasks_brush, tasks_metrics
-from workbench.field_file import write_fields
-from workbench.mesh_file import read_mesh, write_mesh
-from workbench.result_files import read_result, write_result
+from workbench.execution.result_files import read_result, write_result
+from workbench.tasks import ancf, brush, metrics
+from workbench.tasks.field_file import write_fields
+from workbench.tasks.mesh_file import read_mesh, write_mesh
 
 
 def _ignore(fraction: float) -> None:
@@ -28,7 +28,7 @@ def _ignore(fraction: float) -> None:
 def test_ancf_task_writes_the_curve_of_the_preset(tmp_path: Path) -> None:
     inputs = {"preset": asdict(thesis_preset()), "orientation_deg": 45.0, "deflections": [0.0, 0.005, 0.02]}
     inputs["preset"]["contact_points"] = list(inputs["preset"]["contact_points"])  # as JSON brings it back
-    dofs = tasks_ancf.solve_orientation(inputs, {}, tmp_path, _ignore)
+    dofs = ancf.solve_orientation(inputs, {}, tmp_path, _ignore)
     assert dofs == 96
     curve = read_curve(tmp_path / "curve.csv")
     assert float(curve.load_at(0.02)) == pytest.approx(137.7, abs=0.1)
@@ -36,7 +36,7 @@ def test_ancf_task_writes_the_curve_of_the_preset(tmp_path: Path) -> None:
 
 
 def test_brush_task_writes_the_line(tmp_path: Path) -> None:
-    tasks_brush.solve({"parameters": asdict(THESIS_BRUSH), "max_deflection": 0.036}, {}, tmp_path, _ignore)
+    brush.solve({"parameters": asdict(THESIS_BRUSH), "max_deflection": 0.036}, {}, tmp_path, _ignore)
     assert float(read_curve(tmp_path / "curve.csv").load_at(0.02)) == pytest.approx(165.0)
 
 
@@ -54,7 +54,7 @@ def test_metrics_task_pairs_models_and_user_curves(tmp_path: Path) -> None:
     needs = {name: _folder(tmp_path, name, slope) for name, slope in slopes.items()}
     text = "deflection_m,load_N\n0,0\n0.036,252\n"
     user = {"text": text, "label": "mine", "orientation": 45.0}
-    tasks_metrics.measure({"max_load": 250.0, "user_curves": [user]}, needs, tmp_path, _ignore)
+    metrics.measure({"max_load": 250.0, "user_curves": [user]}, needs, tmp_path, _ignore)
     numbers = read_result(tmp_path)
     assert set(numbers) == {"ancf_average", "brush", "ancf_phi45", "user_0"}
     assert numbers["brush"]["relative_l2"] == pytest.approx(0.0, abs=1e-12)
@@ -67,7 +67,7 @@ def test_metrics_task_refuses_a_user_orientation_nobody_computed(tmp_path: Path)
     needs = {name: _folder(tmp_path, name, 8000.0) for name in ("fe_phi000", "ancf_phi000", "brush")}
     user = {"text": "deflection_m,load_N\n0,0\n0.03,240\n", "label": "mine", "orientation": 30.0}
     with pytest.raises(InputError, match="30 deg"):
-        tasks_metrics.measure({"max_load": 250.0, "user_curves": [user]}, needs, tmp_path, _ignore)
+        metrics.measure({"max_load": 250.0, "user_curves": [user]}, needs, tmp_path, _ignore)
 
 
 def _cube() -> TaggedMesh:

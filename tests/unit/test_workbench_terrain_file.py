@@ -11,7 +11,7 @@ import rasterio
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
-from workbench.terrain_file import read_height_field
+from workbench.study.terrain_file import read_height_field
 
 FloatArray = NDArray[np.float64]
 HEIGHTS = np.random.default_rng(0).normal(size=(6, 5))

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-import workbench.report
-from workbench.study import Study
-from workbench.study_file import built_in_study, read_study
-from workbench.topics import TOPICS, topics_of
+import workbench.report.page
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+from workbench.topics.registry import TOPICS, topics_of
 
-TEMPLATES = Path(workbench.report.__file__).parent / "templates"
+TEMPLATES = Path(workbench.report.page.__file__).parent / "templates"
 
 
 @pytest.fixture(scope="module")

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from workbench.checks_verification_ancf import ANCF_BENCHMARKS
-from workbench.figures_verification_ancf import ancf_verification_figures
-from workbench.topic_verification import ModelVerification
-from workbench.verification_lines import benchmark_lines
+from workbench.checks.verification_ancf import ANCF_BENCHMARKS
+from workbench.comparison.verification_lines import benchmark_lines
+from workbench.figures.verification_ancf import ancf_verification_figures
+from workbench.topics.verification import ModelVerification
 
 type Results = dict[str, dict[str, Any]]
 

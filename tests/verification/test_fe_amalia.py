@@ -22,8 +22,8 @@ from contracts.materials import Material
 from geometry import WheelDesign, build_mesh
 from geometry.sidewall import SidewallSprings, sidewall_profile
 from reference_fe.wheel import WheelLoadCase, solve_wheel
-from workbench.study_file import read_study
-from workbench.study_models import wheel_design
+from workbench.study.model_parameters import wheel_design
+from workbench.study.reading import read_study
 
 ROOT = Path(__file__).parents[2]
 PUBLISHED = tomllib.loads((ROOT / "tests/data/wheels/amalia.toml").read_text(encoding="utf-8"))

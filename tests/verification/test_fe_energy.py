@@ -23,7 +23,7 @@ from geometry.planar import build_planar_mesh
 from reference_fe.obstacles import HalfRoundRock
 from reference_fe.section import solve_section
 from reference_fe.wheel import WheelLoadCase, solve_wheel
-from workbench.checks_energy import energy_error, quadrature_error
+from workbench.checks.energy import energy_error, quadrature_error
 
 STEPS = 8
 END = 0.004

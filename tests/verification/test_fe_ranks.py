@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from tests.end_to_end.small_study import ROOT, environment
-from workbench.ranks import mpiexec
+from workbench.execution.ranks import mpiexec
 
 NOISE = ("force_imbalance", "moment_imbalance", "relative_residual")
 

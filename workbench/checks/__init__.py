@@ -1,0 +1,1 @@
+"""Numbers with a rule: what passes, and where the rule comes from."""

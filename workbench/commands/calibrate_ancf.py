@@ -1,0 +1,141 @@
+"""``workbench calibrate ancf``: fits the ANCF tires of a study to its FE curves and writes a study with the kept one.
+
+Verified by tests/end_to_end/test_calibrate_ancf.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from contracts.errors import InputError
+from workbench.comparison.ancf_fit import FittedTire, read_fit
+from workbench.execution.errors import RunError
+from workbench.execution.progress import RunDisplay
+from workbench.execution.runner import Computing, run_tasks
+from workbench.execution.store import Store
+from workbench.execution.task import Task
+from workbench.graph.fit import AS_IT_IS, fit_name, fit_tasks
+from workbench.graph.study_graph import report_tasks
+from workbench.report.number_format import displayed
+from workbench.report.outputs import check_folder, check_targets, publish, to_json
+from workbench.study.model import Study
+from workbench.study.model_parameters import ancf_preset
+from workbench.study.reading import built_in_study, read_study
+from workbench.study.rewrite import rewritten_study, rewritten_table
+from workbench.tasks.ancf_tire import preset_from
+
+__all__ = ["run_calibrate_ancf"]
+
+console = Console()
+_UNITS = {"young_modulus": "Pa", "density": "kg/m^3", "contact_stiffness": "N/m", "phase": "rad"}
+_LENGTHS = ("outer_radius", "datum_radius", "hub_radius", "rim_thickness", "spoke_thickness")
+_COUNTS = ("circumferential_plates", "spokes")
+
+
+def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, store: Path, computing: Computing) -> int:
+    """Fit the study's tires, or one of them; 0 if the kept one follows the FE average within the study's tolerance."""
+    path = study_path or built_in_study()
+    study = _chosen(read_study(path), tire)
+    section = study.ancf_fit
+    assert section is not None
+    check_folder(out)
+    name = f"{path.stem}_fitted.toml"
+    check_targets(out, ("ancf_fit.json", name))
+    tasks = _with_needs(fit_tasks(study), report_tasks(study, path.parent))
+    with RunDisplay(console, len(tasks)) as display:
+        entries = run_tasks(tasks, Store(store), display, computing)
+    own = read_fit("own", entries[AS_IT_IS].path)
+    tires = [read_fit(t.name, entries[fit_name(t.name)].path) for t in section.tires]
+    kept = next(t for t in tires if t.name == section.kept.name)
+    note = f"ANCF tire fitted to the FE curves by workbench calibrate ancf: {kept.name}"
+    text = rewritten_study(path.read_text(encoding="utf-8"), {}, note, path.parent)
+    summary = {"schema": 1, "study": study.name, "kept": kept.name, "own": dict(own.numbers)}
+    summary["tires"] = [{"name": t.name, **t.numbers} for t in tires]
+    curves = [curve for t in tires for curve in (*t.curves.values(), t.average)]
+    text = rewritten_table(text, "ancf", _values(kept), without=["surfaces"])
+    publish(out, {name: text, "ancf_fit.json": to_json(summary)}, curves)
+    _check_rewritten(out / name, kept)
+    _print([own, *tires], kept)
+    console.print(f"study: {out / name}", highlight=False, markup=False, soft_wrap=True)
+    return 0 if abs(kept.numbers["average"]["largest"]) <= study.tolerances.ancf_fit else 1
+
+
+def _chosen(study: Study, tire: str | None) -> Study:
+    """The study with all its tires to be fitted, or with one of them; InputError if there is none."""
+    section = study.ancf_fit
+    if section is None:
+        raise InputError("[ancf_fit]", "missing", "is needed to fit the ANCF tire", "copy it from studies/exomars.toml")
+    if tire is None:
+        return study
+    chosen = tuple(t for t in section.tires if t.name == tire)
+    if not chosen:
+        known = ", ".join(t.name for t in section.tires)
+        raise InputError("tire", tire, f"is none of the study's ({known})", "name one of [[ancf_fit.tires]]")
+    return study.model_copy(update={"ancf_fit": section.model_copy(update={"tires": chosen, "keep": tire})})
+
+
+def _with_needs(wanted: Sequence[Task], known: Sequence[Task]) -> list[Task]:
+    """The tasks wanted and all they need, in the order of the graph."""
+    by_name, needed = {task.name: task for task in known}, set[str]()
+    open_names = [task.name for task in wanted]
+    while open_names:
+        name = open_names.pop()
+        if name not in needed:
+            needed.add(name)
+            open_names += by_name[name].needs
+    return [task for task in known if task.name in needed]
+
+
+def _values(tire: FittedTire) -> dict[str, str]:
+    """Keys of [ancf] as TOML text, with the fitted tire's numbers to seven digits, the FE's orientations."""
+    preset = tire.numbers["preset"]
+    values = {name: f'"{1e3 * preset[name]:.7g} mm"' for name in _LENGTHS}
+    values |= {name: f'"{preset[name]:.7g} {unit}"' for name, unit in _UNITS.items()}
+    values |= {name: str(preset[name]) for name in _COUNTS}
+    orientations = ", ".join(f'"{o:g} deg"' for o in tire.numbers["orientations_deg"])
+    return values | {"orientations": f"[{orientations}]", "thesis_preset": "false"}
+
+
+def _check_rewritten(path: Path, tire: FittedTire) -> None:
+    """Make sure that the study written says what was found, however the old one was laid out."""
+    study = read_study(path)
+    if study.ancf.surfaces is not None:
+        raise RunError(f"{path}: [ancf] surfaces could not be taken out of this file; remove it by hand")
+    found, wanted = ancf_preset(study), preset_from(tire.numbers["preset"])
+    for name in (*_LENGTHS, *_UNITS, *_COUNTS):
+        value, goal = getattr(found, name), getattr(wanted, name)
+        if abs(value - goal) > 1e-5 * abs(goal):
+            raise RunError(f"{path}: [ancf] {name} could not be written into this file; set it by hand: {goal:g}")
+
+
+def _print(tires: Sequence[FittedTire], kept: FittedTire) -> None:
+    """Errors of every tire, then the kept one's parameters."""
+    low, high = kept.numbers["load_range_N"]
+    table = Table(title=f"against the FE curves, {low:.0f} to {high:.0f} N", title_justify="left")
+    for column in ("tire", "spokes", "rim plates", "average: largest", "at", *(f"{o:g} deg" for o in kept.curves)):
+        table.add_column(column, justify="left" if column == "tire" else "right")
+    for tire in tires:
+        n = tire.numbers
+        each = [f"{100.0 * e:.1f} %" for e in n["relative_rms"]]
+        worst = f"{100.0 * n['average']['largest']:+.2f} %", f"{n['average']['at_load']:.0f} N"
+        mesh = str(n["preset"]["spokes"]), str(n["preset"]["circumferential_plates"])
+        table.add_row(tire.name, *mesh, *worst, *each)
+    console.print(table)
+    table = Table(title=f"{kept.name}: parameters, 95 % intervals", title_justify="left")
+    for column in ("parameter", "value", "from the fit", f"spread of {kept.numbers['refits']} refits"):
+        table.add_column(column, justify="left" if column == "parameter" else "right")
+    for row in kept.numbers["parameters"]:
+        fitted = "at its bound" if row["at_bound"] else _interval(row["interval"], row["unit"])
+        table.add_row(row["name"], displayed(row["value"], row["unit"]), fitted, _interval(row["spread"], row["unit"]))
+    console.print(table)
+    for pair in kept.numbers["indistinguishable"]:
+        console.print(f"cannot be told apart: {' and '.join(pair)}", highlight=False)
+
+
+def _interval(ends: Sequence[Any] | None, unit: str) -> str:
+    return "–" if ends is None else " … ".join(displayed(float(value), unit) for value in ends)

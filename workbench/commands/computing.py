@@ -1,0 +1,52 @@
+"""What commands share: a study's tasks computed with a display, and whose failure it was.
+
+Verified by tests/unit/test_workbench_commands.py and tests/end_to_end/test_commands.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+
+from contracts.errors import InputError, StudyError
+from workbench.execution.errors import InterruptedRunError, RunError
+from workbench.execution.progress import RunDisplay
+from workbench.execution.runner import Computing, run_tasks
+from workbench.execution.store import Entry, Store
+from workbench.execution.task import Task
+
+__all__ = ["complain_of_early_ends", "computed", "console", "naming"]
+
+console = Console()
+
+
+def computed(study_path: Path, tasks: Sequence[Task], store: Path, computing: Computing) -> dict[str, Entry]:
+    """Run a study's graph with a display; entries in the order of the graph."""
+    results = Store(store)
+    with naming(study_path), RunDisplay(console, len(tasks)) as display:
+        entries = run_tasks(tasks, results, display, computing)
+    console.print(
+        f"{len(tasks) - display.reused} tasks computed, {display.reused} reused", highlight=False, markup=False
+    )
+    return {task.name: entries[task.name] for task in tasks}
+
+
+@contextmanager
+def naming(study_path: Path) -> Iterator[None]:
+    """Put the study's path in front of what a task of it complains of."""
+    try:
+        yield
+    except (StudyError, InterruptedRunError):
+        raise
+    except (InputError, RunError) as error:
+        raise RunError(f"{study_path}: {error}") from error
+
+
+def complain_of_early_ends(path: Path, reasons: Mapping[str, str]) -> None:
+    """Everything is written; now say, as the run's one error, which curves are partial and why."""
+    if reasons:
+        told = "; ".join(f"{task} did not converge, its curve is partial: {why}" for task, why in reasons.items())
+        raise RunError(f"{path}: {told}")

@@ -1,0 +1,80 @@
+"""``workbench mesh``: the wheel's mesh, or the reduced tire's surfaces, loaded or not, as STEP files.
+
+Verified by tests/end_to_end/test_commands.py and tests/end_to_end/test_surfaces.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from pydantic_core import PydanticCustomError
+
+from contracts.errors import InputError
+from workbench.commands.computing import computed, console, naming
+from workbench.commands.stiffness import check_orientation
+from workbench.execution.progress import RunDisplay
+from workbench.execution.result_files import read_result
+from workbench.execution.runner import Computing, run_tasks
+from workbench.execution.store import Store
+from workbench.graph.study_graph import mesh_tasks
+from workbench.graph.surfaces import surfaces_task
+from workbench.report.outputs import check_folder, copy_files
+from workbench.study.quantities import to_si
+from workbench.study.reading import read_study
+
+__all__ = ["deflections_si", "run_mesh_of"]
+
+
+def run_mesh_of(
+    study_path: Path, model: str, orientation_deg: float, deflections: Sequence[str], out: Path, store: Path
+) -> int:
+    """The wheel's mesh, or the surfaces of the ANCF tire unloaded and at deflections such as ``"10 mm"``."""
+    if model not in ("fe", "ancf"):
+        raise InputError("model", model, "is not known", "give fe or ancf")
+    if model == "ancf":
+        check_orientation(orientation_deg)
+        return _run_surfaces(study_path, orientation_deg, deflections, out, store)
+    if deflections:
+        raise InputError("deflection", deflections[0], "is for the ANCF tire only", "add --model ancf")
+    return _run_mesh(study_path, out, store)
+
+
+def _run_mesh(study_path: Path, out: Path, store: Path) -> int:
+    """Mesh files, summary and picture of a study's wheel."""
+    study = read_study(study_path)
+    check_folder(out)
+    entries = computed(study_path, mesh_tasks(study, with_files=True), store, Computing(workers=1))
+    files = entries["mesh_files"]
+    for path in copy_files(files.path, sorted(files.manifest["files"]), out):
+        console.print(str(path), highlight=False, markup=False, soft_wrap=True)
+    return 0
+
+
+def _run_surfaces(study_path: Path, orientation_deg: float, deflections: Sequence[str], out: Path, store: Path) -> int:
+    """One STEP file of the unloaded tire, one for each deflection; says how far what is read back lies off."""
+    study = read_study(study_path)
+    task = surfaces_task(study, orientation_deg, deflections_si(deflections))
+    check_folder(out)
+    with naming(study_path), RunDisplay(console, 1) as display:
+        entry = run_tasks([task], Store(store), display, Computing(workers=1))[task.name]
+    for name, deviation in read_result(entry.path)["read_back_m"].items():
+        (path,) = copy_files(entry.path, [f"{name}.step"], out)
+        text = f"{path} (read back: {1e9 * deviation:.2g} nm off at most)"
+        console.print(text, highlight=False, markup=False, soft_wrap=True)
+    return 0
+
+
+def deflections_si(texts: Sequence[str]) -> tuple[float, ...]:
+    """Deflections [m] in increasing order, each once; raises InputError for one that is no length above zero."""
+    found = set()
+    for text in texts:
+        try:
+            value = to_si(text, "m")
+        except PydanticCustomError as error:
+            context = error.context or {}
+            raise InputError("deflection", repr(text), str(context["rule"]), str(context["hint"])) from error
+        if not value > 0.0:
+            raise InputError("deflection", repr(text), "must be greater than zero", "write it like '10 mm'")
+        found.add(value)
+    return tuple(sorted(found))

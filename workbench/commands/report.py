@@ -1,0 +1,79 @@
+"""``workbench report``: everything a study asks for, compared, and written as a page and its files.
+
+Verified by tests/end_to_end/test_report.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.table import Table
+
+from contracts.records import Check
+from workbench.commands.computing import complain_of_early_ends, computed, console, naming
+from workbench.execution.runner import Computing
+from workbench.execution.store import Entry
+from workbench.graph.study_graph import report_tasks
+from workbench.report.outputs import check_folder, junit, publish, summary, to_json
+from workbench.study.full import full_study
+from workbench.study.reading import built_in_study, read_study
+
+__all__ = ["run_report"]
+
+
+def run_report(study_path: Path | None, out: Path, store: Path, computing: Computing, *, full: bool = False) -> int:
+    """Everything a study asks for, or its full study, then the report."""
+    path = study_path or built_in_study()
+    study = read_study(path)
+    if full:
+        with naming(path):
+            study = full_study(study)
+    check_folder(out)
+    entries = computed(path, report_tasks(study, path.parent), store, computing)
+
+    from workbench.comparison.comparison import compare, exit_status
+    from workbench.comparison.results import task_timings
+    from workbench.report.page import PageContent, render
+    from workbench.report.provenance import provenance
+    from workbench.topics.registry import topics_of
+
+    with naming(path):
+        found = compare(study, {name: entry.path for name, entry in entries.items()})
+    timings, origin = task_timings(entries), provenance(path, entries)
+    content = PageContent(
+        study=study, found=found, pictures=entries["pictures"].path, timings=timings, provenance=origin
+    )
+    texts = {
+        "report.html": render(content),
+        "junit.xml": junit(study.name, found.checks),
+        "summary.json": to_json(summary(study.name, found.checks, timings, origin)),
+    }
+    curves = [*found.fe.by_orientation.values(), found.fe.average]
+    curves += [*found.ancf.by_orientation.values(), found.ancf.average, found.brush]
+    curves += [curve for topic in topics_of(study) for curve in topic.curves(study, found.topics[topic.name])]
+    series = [one for topic in topics_of(study) for one in topic.series(study, found.topics[topic.name])]
+    publish(out, texts, curves, _field_files(entries), series)
+    _print_checks(found.checks)
+    console.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)
+    complain_of_early_ends(path, origin["partial"])
+    return exit_status(found.checks)
+
+
+def _field_files(entries: dict[str, Entry]) -> dict[str, Path]:
+    """``fe_phi000_200N.vtu`` -> the file in the store."""
+    found = [(name, path) for name, entry in entries.items() for path in sorted(entry.path.glob("fields_*N.vtu"))]
+    return {f"{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
+
+
+def _print_checks(checks: Sequence[Check]) -> None:
+    from workbench.report.number_format import displayed
+
+    table = Table(title="checks", title_justify="left")
+    for column in ("status", "role", "check", "value", "tolerance"):
+        table.add_column(column, overflow="fold")
+    colours = {"pass": "green", "fail": "red", "error": "yellow"}
+    for c in checks:
+        status = f"[{colours[c.status]}]{c.status}[/]"
+        table.add_row(status, c.role, c.title, displayed(c.value, c.unit, c.quantity), c.tolerance)
+    console.print(table)

@@ -1,0 +1,194 @@
+"""``workbench rover``: one scenario of the rover on the tires and the ground asked for, its series, a short table.
+
+Verified by tests/end_to_end/test_rover.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from contracts.errors import ConvergenceError, InputError
+from contracts.series import write_series
+from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
+from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, gravity_named, read_rover
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
+from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
+from workbench.execution.errors import RunError
+from workbench.report.number_format import displayed
+from workbench.report.outputs import check_folder, check_targets
+from workbench.report.series import SERIES_FOLDER, series_file
+
+__all__ = ["RoverChoices", "list_scenarios", "run_rover"]
+
+console = Console()
+_TIRES = ("rigid", "brush", "ancf")
+
+
+def list_scenarios() -> int:
+    """Print every scenario's name, what it is and its source."""
+    table = Table(title="scenarios of the rover", title_justify="left")
+    for column in ("scenario", "what happens", "source"):
+        table.add_column(column, overflow="fold")
+    for scenario in SCENARIOS.values():
+        table.add_row(scenario.name, scenario.title, scenario.source)
+    console.print(table)
+    return 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoverChoices:
+    """What a user may choose beside the scenario.
+
+    Attributes
+    ----------
+    tire : brush, rigid or ancf
+    rover : rover file, or None for the thesis' rover
+    gravity : mars or earth, or None for the rover file's
+    terrain : file of a height field to drive on, or None
+    start : where on it the rover starts, x and y in the file's coordinates [m]; None for its origin
+    rocks : seed of random rocks to drive on, or None
+    animate : whether to write a page that plays the motion
+    """
+
+    tire: str = "brush"
+    rover: Path | None = None
+    gravity: str | None = None
+    terrain: Path | None = None
+    start: tuple[float, float] | None = None
+    rocks: int | None = None
+    animate: bool = False
+
+
+def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -> int:
+    """Run one scenario, write its series and, if wanted, a page that plays it; print what it ends with.
+
+    Raises
+    ------
+    InputError
+        For a scenario, tire, rover or ground that cannot be used.
+    RunError
+        If the motion stops early; its series is written, marked partial.
+    """
+    scenario, design = _chosen(name, choices)
+    check_folder(out)
+    if choices.tire == "ancf":
+        scenario = _resumed(scenario, design, store)
+    with console.status(f"{scenario.name}: {scenario.title}"):
+        run = run_scenario(scenario, design)
+        series = scenario_series(run)
+        file = f"{SERIES_FOLDER}/{series_file(series)}"
+        page = out / f"{scenario.name}.html"
+        check_targets(out, [file, page.name] if choices.animate else [file])
+        write_series(series, out / file)
+        if choices.animate:
+            _animate(scenario, design, run, page)
+        if run.stopped is None:
+            outcomes = [*scenario.judge(run), *_more(scenario, design)]
+    if run.stopped is not None:
+        raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
+    _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)
+    for what, path in [("series", out / file), *([("animation", page)] if choices.animate else [])]:
+        console.print(f"{what}: {path}", highlight=False, markup=False, soft_wrap=True)
+    return 0
+
+
+def _resumed(scenario: Scenario, design: RoverDesign, store: Path) -> Scenario:
+    """The scenario on ANCF tires with its checkpoint in the store, named after what decides its motion."""
+    from workbench.execution.store import Store
+    from workbench.execution.task import Task
+    from workbench.tasks.rover_tires import resuming
+
+    task = Task(
+        name=f"rover_{scenario.name}",
+        function="workbench.tasks.rover_tires:on_ancf_tires",
+        inputs={"scenario": scenario.name, "title": scenario.title, "rover": repr(design)},
+        sources=("contracts", "ancf_reduced", "rover_dynamics"),
+        libraries=("numpy", "numba", "scipy"),
+    )
+    return resuming(scenario, Store(store).checkpoint(task.key({})))
+
+
+def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:
+    """What is studied and searched beside the run; says why where it cannot be."""
+    found: list[Outcome] = []
+    for part in (scenario.study, scenario.search):
+        try:
+            found += part(scenario, design) if part else ()
+        except ConvergenceError as error:
+            console.print(f"study of {scenario.name} left out: {error}", highlight=False, markup=False, soft_wrap=True)
+    return found
+
+
+def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Path) -> None:
+    from workbench.figures.rover_animation import write_animation
+
+    (x, y, z), tire = scenario.tilt.gravity(1.0), None
+    if isinstance(run.motion, FlexibleMotion):
+        from ancf_reduced.tire_mesh import build_tire
+        from ancf_reduced.tire_preset import thesis_preset
+
+        tire = build_tire(thesis_preset())
+    ground = scenario.terrain(design)
+    write_animation(run.motion, design, ground, page, title=scenario.title, up=(-x, -y, -z), tire=tire)
+
+
+def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDesign]:
+    """The scenario with the tires and on the ground asked for, and the rover."""
+    _check_tire(choices.tire)
+    if name is None:
+        raise InputError("scenario", "nothing", "is missing", f"give one of {', '.join(SCENARIOS)}")
+    scenario, design = scenario_named(name), read_rover(choices.rover or EXOMARS_ROVER)
+    if choices.gravity is not None:
+        design = replace(design, gravity=gravity_named(choices.gravity))
+    if choices.tire == "rigid":
+        scenario = on_rigid_tires(scenario)
+    elif choices.tire == "ancf":
+        from workbench.tasks.rover_tires import on_ancf_tires
+
+        scenario = on_ancf_tires(scenario)
+    return _on_ground(scenario, design, choices), design
+
+
+def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -> Scenario:
+    if choices.terrain is not None and choices.rocks is not None:
+        raise InputError("terrain", f"{choices.terrain} and rocks", "are two grounds", "give --terrain or --rocks")
+    if choices.start is not None and choices.terrain is None:
+        raise InputError(
+            "start", f"{choices.start} m", "is a place on a height field", "give --terrain, or leave it out"
+        )
+    if choices.rocks is not None:
+        rocks = rocks_on_the_way(scenario, design, choices.rocks)
+        return on_terrain(scenario, design, rocks, f"random rocks, seed {choices.rocks}")
+    if choices.terrain is None:
+        return scenario
+    from workbench.study.terrain_file import read_height_field
+
+    field = read_height_field(choices.terrain)
+    x, y = (place - begin for place, begin in zip(field.origin, choices.start or (0.0, 0.0), strict=True))
+    return on_terrain(scenario, design, replace(field, origin=(x, y)), choices.terrain.name)
+
+
+def _check_tire(tire: str) -> None:
+    if tire not in _TIRES:
+        raise InputError("tire", repr(tire), "is not known", "give rigid, brush or ancf")
+
+
+def _print_outcomes(title: str, outcomes: Sequence[Outcome]) -> None:
+    table = Table(title=title, title_justify="left")
+    table.add_column("quantity", overflow="fold")
+    for column in ("value", "reference", "required", "margin", "verdict"):
+        table.add_column(column, justify="right")
+    for one in outcomes:
+        sign = ">=" if one.at_least else "<="
+        required = "" if one.limit is None else f"{sign} {displayed(one.limit, one.unit)}"
+        verdict = {None: "", True: "met", False: "not met"}[one.met]
+        numbers = ["" if v is None else displayed(v, one.unit) for v in (one.value, one.reference, one.margin)]
+        table.add_row(one.quantity, numbers[0], numbers[1], required, numbers[2], verdict)
+    console.print(table)

@@ -1,0 +1,152 @@
+"""The comparison: stored results in, checks and verdict out. Verified by tests/unit/test_workbench_checks.py."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from contracts.curves import StiffnessCurve, read_curve
+from contracts.records import Check, Status
+from workbench.checks.convergence import COMPLETE, completeness_check
+from workbench.checks.energy import energy_check
+from workbench.checks.fe import (
+    band_checks,
+    mesh_checks,
+    reach_check,
+    solver_checks,
+    spread_checks,
+    yield_check,
+)
+from workbench.checks.limits import circumferential_tangent_check, overlap_checks
+from workbench.checks.models import agreement_checks, ancf_checks, surfaces_check, user_checks
+from workbench.comparison.agreement import Agreement, agreements, noted
+from workbench.comparison.mesh_study import MeshStudy
+from workbench.comparison.results import CURVE, ModelCurves, UserCurve, model_curves
+from workbench.execution.result_files import early_ends, read_result
+from workbench.graph.study_graph import degrees
+from workbench.graph.surfaces import SURFACES
+from workbench.study.full import rotational_period
+from workbench.study.model import Study
+from workbench.study.model_parameters import part_materials
+from workbench.topics.mesh_study import MESH_STUDY
+from workbench.topics.registry import topics_of
+
+__all__ = ["Comparison", "compare", "exit_status", "overall_status"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Comparison:
+    """Everything the report shows that came out of the results.
+
+    Attributes
+    ----------
+    fe, ancf : curves of both wheel models
+    brush : the brush line
+    users : the user's own curves
+    mesh, mesh_whole : numbers of both meshes
+    metrics : distances between curves by pair
+    topics : results of each topic by its name
+    agreement_limit : relative L2 difference up to which two models agree [-]
+    checks : the verdict, line by line
+    """
+
+    fe: ModelCurves
+    ancf: ModelCurves
+    brush: StiffnessCurve
+    users: tuple[UserCurve, ...]
+    mesh: Mapping[str, Any]
+    mesh_whole: Mapping[str, Any]
+    metrics: Mapping[str, Any]
+    topics: Mapping[str, Any]
+    agreement_limit: float
+    checks: tuple[Check, ...]
+
+    @property
+    def mesh_study(self) -> MeshStudy:
+        """Three meshes, and the numerical uncertainty they give every FE curve."""
+        study = self.topics[MESH_STUDY.name]
+        assert isinstance(study, MeshStudy)
+        return study
+
+    @property
+    def agreements(self) -> Mapping[str, Agreement]:
+        """Each pair of the metrics judged against the limit and the numerical uncertainty."""
+        return agreements(self.metrics, self.fe, self.mesh_study, self.agreement_limit)
+
+
+def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
+    """Read the results of ``report_tasks`` and hold them against their references.
+
+    Parameters
+    ----------
+    study : supplies references and tolerances
+    folders : result folder of each task by name
+    """
+    fe, ancf = model_curves("fe", folders), model_curves("ancf", folders)
+    metrics = read_result(folders["metrics"])
+    comparison = Comparison(
+        fe=fe,
+        ancf=ancf,
+        brush=read_curve(folders["brush"] / CURVE, model="brush"),
+        users=_users(study, folders["metrics"]),
+        mesh=read_result(folders["mesh"]),
+        mesh_whole=read_result(folders["mesh_whole"]),
+        metrics=metrics,
+        topics={topic.name: topic.read(study, folders) for topic in topics_of(study)},
+        agreement_limit=study.tolerances.model_agreement,
+        checks=(),
+    )
+    complete = completeness_check(early_ends(folders))
+    return replace(comparison, checks=(complete, *_checks(study, comparison, folders)))
+
+
+def _checks(study: Study, found: Comparison, folders: Mapping[str, Path]) -> list[Check]:
+    tol, fe = study.tolerances, found.fe
+    strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
+    checks = band_checks(fe, study.reference, tol)
+    checks += [*solver_checks(fe, found.mesh_study.runs, tol), reach_check(fe, tol)]
+    checks.append(energy_check(list(fe.by_orientation.values()), tol.fe_energy))
+    checks += mesh_checks(found.mesh, found.mesh_whole, tol)
+    checks.append(surfaces_check(read_result(folders[SURFACES])["read_back_m"], tol))
+    checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
+    checks += noted(agreement_checks(found.metrics, tol), found.agreements)
+    checks += [
+        *spread_checks(fe, tol),
+        yield_check(fe, strength),
+        *overlap_checks(fe, inner_contact=study.fe.inner_contact),
+    ]
+    checks.append(circumferential_tangent_check(fe, study.reference, tol, rotational_period(study)))
+    checks += noted(user_checks(found.users, found.metrics, tol), found.agreements)
+    return checks + [c for topic in topics_of(study) for c in topic.checks(study, found, found.topics[topic.name])]
+
+
+def _users(study: Study, folder: Path) -> tuple[UserCurve, ...]:
+    return tuple(
+        UserCurve(
+            label=section.label,
+            curve=replace(read_curve(folder / f"user_{i}.csv", model=section.label), source=section.source),
+            orientation_deg=None if section.orientation is None else degrees(section.orientation),
+        )
+        for i, section in enumerate(study.compare.curves)
+    )
+
+
+def overall_status(checks: Sequence[Check]) -> Status:
+    """``error`` if a run ended early, else what the gates say: ``fail``, ``error`` without a value, ``pass``."""
+    if _ended_early(checks):
+        return "error"
+    gates = {c.status for c in checks if c.role == "gate"}
+    return "fail" if "fail" in gates else "error" if "error" in gates else "pass"
+
+
+def exit_status(checks: Sequence[Check]) -> int:
+    """0 if every gate passed, 2 if a run ended before its target, else 1."""
+    if _ended_early(checks):
+        return 2
+    return 0 if overall_status(checks) == "pass" else 1
+
+
+def _ended_early(checks: Sequence[Check]) -> bool:
+    return any(c.id == COMPLETE and c.status == "error" for c in checks)

@@ -1,0 +1,1 @@
+"""Tasks run by workers, their results kept under the hash of all they depend on."""

@@ -1,0 +1,124 @@
+"""Worker processes on this machine, one task at a time each.
+
+Verified by tests/unit/test_workbench_runner.py.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+
+from workbench.execution.jobs import Job, Lost, Message
+from workbench.execution.worker import serve
+
+__all__ = ["LocalWorkers"]
+
+_SINGLE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+
+
+@dataclass(slots=True, kw_only=True)
+class _Slot:
+    """One worker process and the job it runs, if any."""
+
+    process: BaseProcess
+    pipe: Connection
+    job: Job | None = None
+
+
+class LocalWorkers:
+    """The worker processes of one run; a worker that dies is replaced by a new one.
+
+    Parameters
+    ----------
+    count : processes at once
+    log : file that takes what tasks and solvers print
+    """
+
+    def __init__(self, count: int, log: Path) -> None:
+        self.log = log
+        self._slots = [self._spawn() for _ in range(count)]
+
+    @property
+    def free(self) -> int:
+        """Number of workers without a job."""
+        return sum(slot.job is None for slot in self._slots)
+
+    def start(self, job: Job) -> None:
+        """Hand a job to a free worker."""
+        slot = next(slot for slot in self._slots if slot.job is None)
+        slot.job = job
+        with suppress(OSError):  # a worker that died while idle is reported by the next `wait`
+            slot.pipe.send(job)
+
+    def wait(self) -> Sequence[tuple[str, Message]]:
+        """Block until busy workers have something to say: task name and message."""
+        busy = {slot.pipe: i for i, slot in enumerate(self._slots) if slot.job is not None}
+        return [self._hear(busy[pipe]) for pipe in wait(list(busy)) if isinstance(pipe, Connection)]
+
+    def stop(self) -> None:
+        """End every worker, a busy one by force."""
+        for slot in self._slots:
+            slot.pipe.close()
+            if slot.job is not None:
+                slot.process.kill()
+        for slot in self._slots:
+            slot.process.join(10.0)
+
+    def _spawn(self) -> _Slot:
+        context = multiprocessing.get_context("spawn")
+        ours, theirs = context.Pipe()
+        process = context.Process(target=serve, args=(theirs, self.log), daemon=True)
+        with _worker_surroundings():
+            process.start()
+        theirs.close()
+        return _Slot(process=process, pipe=ours)
+
+    def _hear(self, number: int) -> tuple[str, Message]:
+        slot = self._slots[number]
+        assert slot.job is not None
+        name = slot.job.name
+        try:
+            message: Message = slot.pipe.recv()
+        except (EOFError, OSError):
+            message = Lost(how=_end_of(slot.process))
+            slot.pipe.close()
+            self._slots[number] = self._spawn()
+            return name, message
+        if message.last:
+            slot.job = None
+        return name, message
+
+
+def _end_of(process: BaseProcess) -> str:
+    process.join(5.0)
+    code = process.exitcode
+    if code is not None and code < 0:
+        return f"signal {-code} ({signal.Signals(-code).name})"
+    return f"exit status {code}"
+
+
+@contextmanager
+def _worker_surroundings() -> Iterator[None]:
+    """What a worker inherits at its start: one thread in BLAS, and deafness to Ctrl-C, which its parent hears."""
+    before = {name: os.environ.get(name) for name in _SINGLE_THREAD}
+    os.environ.update(_SINGLE_THREAD)
+    in_main = threading.current_thread() is threading.main_thread()
+    handler = signal.signal(signal.SIGINT, signal.SIG_IGN) if in_main else None
+    try:
+        yield
+    finally:
+        if in_main:
+            signal.signal(signal.SIGINT, handler)
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value

@@ -1,0 +1,209 @@
+"""Runs a task graph on workers and keeps every finished result in the store.
+
+Verified by tests/unit/test_workbench_runner.py and tests/end_to_end/test_resume.py.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from workbench.execution.errors import InterruptedRunError, RunError
+from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
+from workbench.execution.local_workers import LocalWorkers
+from workbench.execution.ranks import mpiexec
+from workbench.execution.store import Entry, Store
+from workbench.execution.task import Task, task_keys
+
+__all__ = ["RESTARTS", "Computing", "Listener", "Workers", "run_tasks"]
+
+RESTARTS = 2
+"""How often a task is started again after its worker died under it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Computing:
+    """Who computes.
+
+    Attributes
+    ----------
+    workers : local processes, one task each
+    ranks : MPI processes for each task that can be shared between them; results differ by round-off only
+    scheduler : address of a Dask scheduler, e.g. ``"tcp://host:8786"``, whose workers compute instead
+    """
+
+    workers: int = 2
+    ranks: int = 1
+    scheduler: str | None = None
+
+
+class Listener(Protocol):
+    """Hears what happens to tasks; the command line shows it."""
+
+    def started(self, name: str) -> None:
+        """The task began to run."""
+
+    def progressed(self, name: str, fraction: float) -> None:
+        """The task is this far, 0 to 1."""
+
+    def finished(self, name: str, entry: Entry, reused: bool) -> None:
+        """The result is in the store, computed now or found there."""
+
+    def restarted(self, name: str, reason: str) -> None:
+        """The task's worker died; the task will run again, from its last checkpoint if it keeps one."""
+
+    def failed(self, name: str, message: str) -> None:
+        """The task failed; those that do not need it go on."""
+
+
+class Workers(Protocol):
+    """Whoever computes: processes of this machine, or a cluster."""
+
+    log: Path
+
+    @property
+    def free(self) -> int:
+        """How many more jobs can start now."""
+
+    def start(self, job: Job) -> None:
+        """Start a job."""
+
+    def wait(self) -> Sequence[tuple[str, Message]]:
+        """Block until there is news: task names and messages."""
+
+    def stop(self) -> None:
+        """End everything that still runs."""
+
+
+def run_tasks(
+    tasks: Sequence[Task], store: Store, listener: Listener, computing: Computing | None = None
+) -> dict[str, Entry]:
+    """Run every task that the store does not hold yet.
+
+    A worker that dies costs no more than what its task did since its last checkpoint: the task starts again, twice at
+    most. A task that fails stops those that need it; all others run to their end before the error is raised.
+
+    Parameters
+    ----------
+    tasks : graph in an order where each task follows those it needs
+    store : where results are found and kept
+    listener : told of every start, progress and end
+    computing : who computes; two local processes if left out
+
+    Returns
+    -------
+    entries : result of each task by name
+
+    Raises
+    ------
+    RunError
+        If a task fails, its workers die again and again, or the user interrupts; what had finished stays in the store.
+    """
+    store.sweep()
+    keys = task_keys(tuple(tasks))
+    entries: dict[str, Entry] = {}
+    for task in tasks:
+        entry = store.get(keys[task.name])
+        if entry is not None:
+            entries[task.name] = entry
+            listener.finished(task.name, entry, reused=True)
+    waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -t.cost)
+    if waiting:
+        log = store.root / "log" / f"run-{os.getpid()}.log"
+        computing = computing or Computing()
+        workers = _workers(computing, len(waiting), log)
+        _Run(store, keys, listener, workers, computing.ranks).run(waiting, entries)
+    return entries
+
+
+def _workers(computing: Computing, tasks: int, log: Path) -> Workers:
+    if computing.ranks > 1:
+        mpiexec()
+    if computing.scheduler is not None:
+        from workbench.execution.dask_workers import DaskWorkers
+
+        return DaskWorkers(computing.scheduler, log)
+    return LocalWorkers(min(computing.workers, tasks), log)
+
+
+class _Run:
+    """One run: which task may start, what became of it."""
+
+    def __init__(self, store: Store, keys: Mapping[str, str], listener: Listener, workers: Workers, ranks: int) -> None:
+        self.store, self.keys, self.listener, self.workers, self.ranks = store, keys, listener, workers, ranks
+        self.running: dict[str, tuple[Task, Path]] = {}
+        self.restarts: Counter[str] = Counter()
+        self.failures: list[str] = []
+
+    def run(self, waiting: list[Task], entries: dict[str, Entry]) -> None:
+        """Dispatch until nothing can start and nothing runs; always ends the workers."""
+        try:
+            while self._dispatch(waiting, entries) or self.running:
+                for name, message in self.workers.wait():
+                    self._hear(name, message, waiting, entries)
+        except KeyboardInterrupt:
+            raise InterruptedRunError("interrupted; finished results are kept, start again to go on") from None
+        finally:
+            self.workers.stop()
+            for _, folder in self.running.values():
+                shutil.rmtree(folder, ignore_errors=True)
+        if self.failures:
+            raise RunError("; ".join(self.failures))
+
+    def _dispatch(self, waiting: list[Task], entries: Mapping[str, Entry]) -> bool:
+        """Start what can start; whether anything did."""
+        ready = [t for t in waiting if all(n in entries for n in t.needs)][: self.workers.free]
+        for task in ready:
+            waiting.remove(task)
+            folder = self.store.scratch()
+            self.running[task.name] = task, folder
+            needs = {name: entries[name].path for name in task.needs}
+            checkpoint = self.store.checkpoint(self.keys[task.name]) if task.resumable else None
+            job = Job(
+                name=task.name,
+                function=task.function,
+                inputs=task.inputs,
+                needs=needs,
+                folder=folder,
+                origin=task.origin(),
+                checkpoint=checkpoint,
+                ranks=self.ranks if task.shared else 1,
+            )
+            self.workers.start(job)
+            self.listener.started(task.name)
+        return bool(ready)
+
+    def _hear(self, name: str, message: Message, waiting: list[Task], entries: dict[str, Entry]) -> None:
+        """Take one message about a running task."""
+        if isinstance(message, Progressed):
+            self.listener.progressed(name, message.fraction)
+            return
+        task, folder = self.running.pop(name)
+        if isinstance(message, Done):
+            record = {"task": name, "inputs": task.inputs, "wall_s": message.wall_s, "dofs": message.dofs}
+            record["needs"] = {needed: self.keys[needed] for needed in task.needs}
+            entries[name] = self.store.put(self.keys[name], folder, record)
+            self.listener.finished(name, entries[name], reused=False)
+            return
+        shutil.rmtree(folder, ignore_errors=True)
+        if isinstance(message, Lost) and self.restarts[name] < RESTARTS:
+            self.restarts[name] += 1
+            waiting.insert(0, task)
+            self.listener.restarted(name, f"its worker ended with {message.how}")
+            return
+        self.failures.append(self._failure(name, message))
+        self.listener.failed(name, self.failures[-1])
+
+    def _failure(self, name: str, message: Failed | Lost) -> str:
+        if isinstance(message, Failed):
+            where = f"; the traceback is in {self.workers.log}" if message.traceback else ""
+            return f"task {name} failed: {message.message}{where}"
+        return (
+            f"the worker of task {name} ended with {message.how}, {RESTARTS + 1} times; finished results are kept, "
+            f"start again to go on (out of memory? use --workers 1); its output is in {self.workers.log}"
+        )

@@ -1,0 +1,145 @@
+"""The result store: plain files under the hash of everything they depend on.
+
+An entry is the folder ``STORE/ab/abcdef.../`` with result files and ``manifest.json``, which holds the SHA-256 of each
+file. An entry appears by one rename, so that it is whole or absent; one that was damaged later is recognised by its
+checksums and computed again. Verified by tests/unit/test_workbench_store.py.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import shutil
+import socket
+import time
+import uuid
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from contracts.errors import InputError
+from workbench.execution.fingerprint import file_sha256
+
+__all__ = ["MANIFEST", "Entry", "Store"]
+
+MANIFEST = "manifest.json"
+_SCHEMA = 1
+_FORGOTTEN_AFTER = 30 * 86400.0
+"""Age at which the checkpoint of a task that nobody started again is dropped [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entry:
+    """One finished result.
+
+    Attributes
+    ----------
+    key : SHA-256 of everything the result depends on
+    path : folder that holds its files
+    manifest : what was recorded with it: task, inputs, files, wall time, unknowns
+    """
+
+    key: str
+    path: Path
+    manifest: Mapping[str, Any]
+
+    @property
+    def wall_s(self) -> float:
+        """Wall time of the computation [s]."""
+        return float(self.manifest["wall_s"])
+
+    @property
+    def dofs(self) -> int:
+        """Number of unknowns, 0 where it has no meaning."""
+        return int(self.manifest.get("dofs", 0))
+
+
+class Store:
+    """A folder of results, safe against killed runs, damaged files and two runs at once."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        try:
+            for name in ("tmp", "log", "checkpoints"):
+                (root / name).mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            rule = f"cannot be used: {error.filename} cannot be a folder ({error.strerror})"
+            raise InputError("result store", root, rule, "choose another with --store") from error
+
+    def folder(self, key: str) -> Path:
+        """Folder of the entry with this key, whether it exists or not."""
+        return self.root / key[:2] / key
+
+    def get(self, key: str) -> Entry | None:
+        """The entry, or None if it is absent, torn or damaged (any file missing or with another checksum)."""
+        path = self.folder(key)
+        try:
+            manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
+            whole = manifest["schema"] == _SCHEMA and manifest["key"] == key
+            whole = whole and all(file_sha256(path / name) == digest for name, digest in manifest["files"].items())
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+            return None
+        return Entry(key=key, path=path, manifest=manifest) if whole else None
+
+    def scratch(self) -> Path:
+        """A new empty folder inside the store, to be filled and then handed to ``put``."""
+        name = f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+        path = self.root / "tmp" / name
+        path.mkdir()
+        return path
+
+    def checkpoint(self, key: str) -> Path:
+        """File in which the running task of this key keeps how far it came; dropped once its entry is stored."""
+        return self.root / "checkpoints" / f"{key}.npz"
+
+    def put(self, key: str, filled: Path, record: Mapping[str, Any]) -> Entry:
+        """Turn a filled scratch folder into the entry ``key`` by one rename.
+
+        If another run stored the same key first, its whole entry is kept and ours dropped: both hold the same result.
+        """
+        files = {p.relative_to(filled).as_posix(): file_sha256(p) for p in sorted(filled.rglob("*")) if p.is_file()}
+        manifest = {**record, "schema": _SCHEMA, "key": key, "files": files, "stored_at": time.time()}
+        (filled / MANIFEST).write_text(json.dumps(manifest, indent=1, allow_nan=False), encoding="utf-8")
+        target = self.folder(key)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        for _ in range(10):
+            try:
+                filled.replace(target)
+                self._forget(key)
+                return Entry(key=key, path=target, manifest=manifest)
+            except OSError:
+                found = self.get(key)
+                if found is not None:
+                    shutil.rmtree(filled, ignore_errors=True)
+                    return found
+                self._set_aside(target)
+        raise InputError("result store", target, "cannot be replaced", "check the folder's permissions")
+
+    def _set_aside(self, target: Path) -> None:
+        """Move a damaged entry out of the way; another run may do so at the same moment."""
+        trash = self.root / "tmp" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+        try:
+            target.replace(trash)
+        except OSError:
+            return
+        shutil.rmtree(trash, ignore_errors=True)
+
+    def _forget(self, key: str) -> None:
+        """Remove the checkpoint of this key, with halves of it that a killed run left."""
+        for path in (self.root / "checkpoints").glob(f"*{key}*"):
+            path.unlink(missing_ok=True)
+
+    def sweep(self) -> None:
+        """Remove scratch folders left by runs on this machine that no longer live, and checkpoints nobody resumed."""
+        for path in (self.root / "checkpoints").iterdir():
+            with contextlib.suppress(FileNotFoundError):
+                if time.time() - path.stat().st_mtime > _FORGOTTEN_AFTER:
+                    path.unlink()
+        host = socket.gethostname()
+        for path in (self.root / "tmp").iterdir():
+            name, _, _ = path.name.rpartition("-")
+            owner, _, pid = name.rpartition("-")
+            if owner == host and pid.isdigit() and not Path(f"/proc/{pid}").exists():
+                shutil.rmtree(path, ignore_errors=True)

@@ -1,0 +1,79 @@
+"""A task: one function call whose result is stored under the hash of everything it depends on.
+
+Verified by tests/unit/test_workbench_runner.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from workbench.execution.fingerprint import canonical_json, library_versions, source_hash, text_sha256
+
+__all__ = ["Progress", "Task", "TaskFunction", "task_keys"]
+
+type Progress = Callable[[float], None]
+"""Called by a task with the fraction done, 0 to 1."""
+
+type TaskFunction = Callable[[Mapping[str, Any], Mapping[str, Path], Path, Progress], int]
+"""``(inputs, folders of the tasks it needs, folder to fill, progress) -> number of unknowns``.
+
+That of a resumable task takes ``checkpoint`` too, the path of a file: it goes on from what it finds there.
+"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Task:
+    """One node of the task graph.
+
+    Attributes
+    ----------
+    name : unique in the graph, e.g. ``"fe_phi015"``
+    function : ``"module:function"``, a TaskFunction, imported in the worker only
+    inputs : JSON values only
+    needs : names of the tasks whose results it reads
+    sources : packages and modules whose source text decides the result
+    libraries : distributions whose version decides the result
+    cost : expected wall time, only to start long tasks first [s]
+    resumable : the function takes a ``checkpoint``
+    shared : several MPI processes may run it together
+    """
+
+    name: str
+    function: str
+    inputs: Mapping[str, Any]
+    needs: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
+    libraries: tuple[str, ...] = ()
+    cost: float = 1.0
+    resumable: bool = False
+    shared: bool = False
+
+    def key(self, needed_keys: Mapping[str, str]) -> str:
+        """SHA-256 of function, inputs, source text, library versions and the keys of what it needs."""
+        return text_sha256(
+            canonical_json(
+                {
+                    "function": self.function,
+                    "inputs": self.inputs,
+                    "needs": {name: needed_keys[name] for name in self.needs},
+                    **self.origin(),
+                }
+            )
+        )
+
+    def origin(self) -> dict[str, Mapping[str, str]]:
+        """Hash of each source and version of each library that decides the result, under "sources" and "libraries"."""
+        modules = (self.function.partition(":")[0], *self.sources)
+        sources = {name: source_hash(name) for name in modules}
+        return {"sources": sources, "libraries": library_versions(self.libraries)}
+
+
+def task_keys(tasks: tuple[Task, ...]) -> dict[str, str]:
+    """Key of every task; tasks must come after those they need."""
+    keys: dict[str, str] = {}
+    for task in tasks:
+        keys[task.name] = task.key(keys)
+    return keys

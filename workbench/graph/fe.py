@@ -1,0 +1,119 @@
+"""Tasks of the mesh and of the continuum model, which the report's topics share.
+
+Verified by tests/unit/test_workbench_graph.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from typing import Any, TypedDict
+
+import numpy as np
+
+from workbench.execution.task import Task
+from workbench.study.model import Study
+from workbench.study.model_parameters import wheel_design
+
+__all__ = [
+    "FE",
+    "FILES",
+    "HUB_PARTS",
+    "INNER_STIFFNESS",
+    "MESH",
+    "Origin",
+    "curve_deflections",
+    "degrees",
+    "fe_inputs",
+    "fe_task",
+    "mesh_task",
+    "orientation_name",
+]
+
+
+class Origin(TypedDict):
+    """Which source text and which libraries decide a task's result."""
+
+    sources: tuple[str, ...]
+    libraries: tuple[str, ...]
+
+
+FILES = ("contracts", "workbench.tasks.mesh_file", "workbench.execution.result_files")
+MESH = Origin(sources=(*FILES, "geometry", "workbench.study.model_parameters"), libraries=("gmsh", "numpy"))
+FE = Origin(
+    sources=(*FILES, "reference_fe", "workbench.tasks.field_file"),
+    libraries=("dolfinx-solver-real", "fenics-ufl", "fenics-basix", "fenics-ffcx", "numpy", "numba"),
+)
+HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
+"""Parts within the springs' welds on the hub, outside to inside."""
+INNER_STIFFNESS = 1e11
+"""Penalty stiffness between the wheel's own parts [N/m^3]."""
+
+
+def degrees(angle: float) -> float:
+    """Angle in degrees, free of the last digits' noise."""
+    return round(math.degrees(angle), 9)
+
+
+def orientation_name(model: str, orientation_deg: float) -> str:
+    """``fe_phi015``; fractions of a degree as ``fe_phi022.5``."""
+    whole, _, fraction = f"{orientation_deg:.6f}".partition(".")
+    fraction = fraction.rstrip("0")
+    return f"{model}_phi{int(whole):03d}" + (f".{fraction}" if fraction else "")
+
+
+def mesh_task(
+    study: Study, name: str, changes: Mapping[str, Any] | None = None, *, cost: float, factor: float | None = None
+) -> Task:
+    """A mesh of the study's wheel, with its own refinement factor and with other options changed."""
+    mesh = study.mesh
+    options = {
+        "element_size": mesh.element_size,
+        "axial_size": mesh.axial_size,
+        "thickness_elements": mesh.thickness_elements,
+        "order": mesh.order,
+        "half_width": mesh.half_width,
+        "refinement": dict(mesh.refinement),
+        "parts": "flexible" if study.fe.hub == "rigid" else "all",
+        "factor": factor or mesh.factor,
+    }
+    wheel = study.model_dump(mode="json", include={"name", "wheel", "materials"})
+    inputs = {"wheel": wheel, "options": options | dict(changes or {})}
+    return Task(name=name, function="workbench.tasks.mesh:build", inputs=inputs, cost=cost, **MESH)
+
+
+def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]) -> dict[str, Any]:
+    """Inputs of ``workbench.tasks.fe:solve_orientation`` as the study has them."""
+    fe = study.fe
+    return {
+        "orientation_deg": orientation_deg,
+        "deflections": list(deflections),
+        "max_load": fe.max_load,
+        "snapshot_loads": list(fe.snapshot_loads),
+        "material_law": fe.material_law,
+        "contact_stiffness": fe.contact_stiffness,
+        "contact_method": fe.contact_method,
+        "friction": fe.friction,
+        "obstacle": fe.obstacle.model_dump(mode="json"),
+        "camber_deg": degrees(fe.camber),
+        "inner_contact": fe.inner_contact,
+        "inner_contact_stiffness": INNER_STIFFNESS,
+        "relative_tolerance": fe.relative_tolerance,
+        "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
+        "materials": {part: asdict(m) for part, m in wheel_design(study).materials.items()},
+    }
+
+
+def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh", *, cost: float = 100.0) -> Task:
+    """One orientation solved on the mesh of the task ``mesh``."""
+    function = "workbench.tasks.fe:solve_orientation"
+    long = {"resumable": True, "shared": True}
+    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), cost=cost, **long, **FE)
+
+
+def curve_deflections(study: Study) -> list[float]:
+    """Deflections [m] of the points of every FE curve."""
+    fe = study.fe
+    grid = np.linspace(0.0, fe.max_deflection, fe.points + 1)[1:].round(12).tolist()
+    return sorted({*grid, *np.round(study.mesh_study.deflections, 12).tolist()})

@@ -1,0 +1,152 @@
+"""From a study to the tasks that compute it. Verified by tests/unit/test_workbench_graph.py."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from workbench.checks.preset_table import preset_table
+from workbench.execution.task import Task
+from workbench.graph.fe import (
+    FILES,
+    MESH,
+    Origin,
+    curve_deflections,
+    degrees,
+    fe_inputs,
+    fe_task,
+    mesh_task,
+    orientation_name,
+)
+from workbench.graph.section import section_tasks
+from workbench.graph.surfaces import report_surfaces_task
+from workbench.study.model import Study
+from workbench.study.model_parameters import ancf_tire, brush_parameters, wheel_design
+from workbench.topics.registry import topics_of
+
+__all__ = ["Model", "degrees", "mesh_tasks", "orientation_name", "report_tasks", "stiffness_tasks"]
+
+type Model = str
+"""``"fe"``, ``"section"``, ``"ancf"`` or ``"brush"``."""
+
+
+_ANCF = Origin(sources=(*FILES, "ancf_reduced", "workbench.tasks.ancf_tire"), libraries=("numpy", "numba"))
+_BRUSH = Origin(sources=("contracts", "rover_dynamics.brush_tire"), libraries=("numpy",))
+_METRICS = Origin(
+    sources=(*FILES, "workbench.comparison.metrics", "workbench.comparison.results"),
+    libraries=("numpy", "objective-rating-metrics"),
+)
+_PICTURES = Origin(
+    sources=(*FILES, "workbench.figures.stills", "workbench.figures.palette"), libraries=("pyvista", "vtk")
+)
+_COMPARED_UP_TO = 250.0
+"""End of the load range over which the models are compared [N]: the upper wheel load of the thesis' sweep."""
+
+
+def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
+    """Everything the report shows. ``curve_folder`` is where the study's own curve files lie."""
+    fe = tuple(degrees(o) for o in study.fe.orientations)
+    ancf = tuple(degrees(o) for o in study.ancf.orientations)
+    tasks = [*mesh_tasks(study), *_fe_tasks(study, fe)]
+    tasks += [*_ancf_tasks(study, ancf), _brush_task(study), report_surfaces_task(study)]
+    tasks += [task for topic in topics_of(study) for task in topic.tasks(study)]
+    curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi"))]
+    tasks.append(_metrics_task(study, (*curves, "brush"), curve_folder))
+    tasks.append(_picture_task(study, fe))
+    return tuple(tasks)
+
+
+def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
+    """The mesh that is solved, and the whole wheel with every part for the picture and the mass; their files."""
+    whole = mesh_task(study, "mesh_whole", {"parts": "all", "half_width": False}, cost=20.0, factor=1.0)
+    solved = mesh_task(study, "mesh", cost=15.0)
+    if not with_files:
+        return solved, whole
+    sources = (*MESH["sources"], *_PICTURES["sources"], "workbench.tasks.mesh")
+    files = Task(
+        name="mesh_files",
+        function="workbench.tasks.mesh_files:write_files",
+        inputs={"wheel": whole.inputs["wheel"]},
+        needs=("mesh", "mesh_whole"),
+        sources=sources,
+        libraries=(*MESH["libraries"], *_PICTURES["libraries"], "meshio"),
+    )
+    return solved, whole, files
+
+
+def stiffness_tasks(study: Study, model: Model, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
+    """Curves of one model; no orientation means those of the study."""
+    if model == "fe":
+        wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
+        return (mesh_task(study, "mesh", cost=15.0), *_fe_tasks(study, wanted))
+    if model == "section":
+        return tuple(section_tasks(study, orientations_deg))
+    if model == "ancf":
+        return tuple(_ancf_tasks(study, orientations_deg or [degrees(o) for o in study.ancf.orientations]))
+    return (_brush_task(study),)
+
+
+def _fe_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
+    points = curve_deflections(study)
+    return [fe_task(orientation_name("fe", o), fe_inputs(study, o, points)) for o in orientations_deg]
+
+
+def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
+    ancf = study.ancf
+    grid = np.linspace(0.0, ancf.max_deflection, ancf.points + 1).round(12).tolist()
+    points = sorted({*grid, *_table_deflections(study)})
+    tire = ancf_tire(study)
+    return [
+        Task(
+            name=orientation_name("ancf", orientation),
+            function="workbench.tasks.ancf:solve_orientation",
+            inputs=tire | {"orientation_deg": orientation, "deflections": points},
+            cost=10.0,
+            **_ANCF,
+        )
+        for orientation in orientations_deg
+    ]
+
+
+def _table_deflections(study: Study) -> list[float]:
+    """Deflections of the preset's table [m] that the study reaches, solved themselves and never interpolated."""
+    if not study.ancf.thesis_preset:
+        return []
+    return [d for d in preset_table()[:, 0].round(12).tolist() if d <= study.ancf.max_deflection]
+
+
+def _brush_task(study: Study) -> Task:
+    end = max(study.fe.max_deflection, study.ancf.max_deflection)
+    inputs = {"parameters": asdict(brush_parameters(study)), "max_deflection": end}
+    return Task(name="brush", function="workbench.tasks.brush:solve", inputs=inputs, **_BRUSH)
+
+
+def _metrics_task(study: Study, curves: Sequence[str], curve_folder: Path) -> Task:
+    """Distances between curves; the text of the user's own curves is part of the inputs."""
+    users = [
+        {
+            **section.model_dump(mode="json"),
+            "orientation": None if section.orientation is None else degrees(section.orientation),
+            "text": (curve_folder / section.file).read_text(encoding="utf-8"),
+        }
+        for section in study.compare.curves
+    ]
+    inputs = {"max_load": _COMPARED_UP_TO, "user_curves": users}
+    function = "workbench.tasks.metrics:measure"
+    return Task(name="metrics", function=function, inputs=inputs, needs=tuple(curves), cost=8.0, **_METRICS)
+
+
+def _picture_task(study: Study, orientations_deg: Sequence[float]) -> Task:
+    first = orientation_name("fe", orientations_deg[0])
+    strength = min(material.yield_strength for material in wheel_design(study).materials.values())
+    return Task(
+        name="pictures",
+        function="workbench.tasks.pictures:draw",
+        inputs={"orientation_deg": orientations_deg[0], "yield_strength": strength},
+        needs=("mesh_whole", "mesh", first),
+        cost=10.0,
+        **_PICTURES,
+    )

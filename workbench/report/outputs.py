@@ -1,0 +1,184 @@
+"""Writes results into the user's folder: whole files only, each put in place by one rename.
+
+Verified by tests/unit/test_workbench_outputs.py.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from contracts.curves import StiffnessCurve, write_curve
+from contracts.errors import InputError
+from contracts.records import Check, Timing
+from contracts.series import TimeSeries, write_series
+from workbench.comparison.comparison import overall_status
+from workbench.report.series import SERIES_FOLDER, is_ours, series_files
+
+__all__ = ["check_folder", "check_targets", "copy_files", "curve_file", "junit", "publish", "summary", "to_json"]
+
+
+def check_folder(out: Path) -> None:
+    """Make sure before any computing that ``out`` can be a folder of ours."""
+    for folder in (out, *out.absolute().parents):
+        if folder.is_symlink() and not folder.exists():
+            rule = f"cannot be made: {folder} is a link to nothing"
+            raise InputError("output folder", out, rule, "mend the link or choose another with --out")
+    probe = next(p for p in (out, *out.absolute().parents) if p.exists())
+    if not probe.is_dir():
+        raise InputError("output folder", out, f"cannot be made: {probe} is a file", "choose another with --out")
+    if not os.access(probe, os.W_OK):
+        raise InputError("output folder", out, "cannot be written", "choose another with --out")
+
+
+def check_targets(out: Path, names: Iterable[str]) -> None:
+    """Make sure that each file of these names (with ``/`` for folders in it) can take its place in ``out``."""
+    for name in names:
+        target = out / name
+        hint = "move it away or choose another folder with --out"
+        if target.is_dir():
+            raise InputError("output file", target, "is a folder", hint)
+        if (target.parent.exists() or target.parent.is_symlink()) and not target.parent.is_dir():
+            raise InputError("output folder", target.parent, "is not a folder", hint)
+
+
+def copy_files(folder: Path, names: Sequence[str], out: Path) -> list[Path]:
+    """Copy a task's files into the user's folder, each put in place whole; returns where they are."""
+    out.mkdir(parents=True, exist_ok=True)
+    check_targets(out, names)
+    for name in names:
+        fresh = out / f".{name}.new-{os.getpid()}"
+        shutil.copyfile(folder / name, fresh)
+        fresh.replace(out / name)
+    return [out / name for name in names]
+
+
+def curve_file(curve: StiffnessCurve) -> str:
+    """``{model}_phi{DDD}.csv`` or ``{model}_average.csv``; the brush has one line only, its average."""
+    from workbench.graph.study_graph import orientation_name
+
+    if curve.orientation_deg is None:
+        return f"{curve.model}_average.csv"
+    return f"{orientation_name(curve.model, curve.orientation_deg)}.csv"
+
+
+def publish(
+    out: Path,
+    texts: Mapping[str, str],
+    curves: Sequence[StiffnessCurve] = (),
+    fields: Mapping[str, Path] | None = None,
+    series: Sequence[TimeSeries] = (),
+) -> None:
+    """Write everything beside ``out`` first, then move it in; our files of an earlier run that are gone are removed.
+
+    Parameters
+    ----------
+    out : the user's folder; other files in it stay
+    texts : file name -> content; the last one is moved last and so marks a complete set
+    curves : written to ``out/curves``
+    fields : file name -> file to copy to ``out/fields``
+    series : written to ``out/series``
+
+    Raises
+    ------
+    InputError
+        If a folder stands where a file belongs, or a file where a folder belongs, or two series have one name; nothing
+        was moved then.
+    """
+    named = series_files(series)
+    out.mkdir(parents=True, exist_ok=True)
+    names = [*texts, *(f"curves/{curve_file(curve)}" for curve in curves), *(f"fields/{name}" for name in fields or {})]
+    names += [f"{SERIES_FOLDER}/{name}" for name in named]
+    check_targets(out, names if fields is None else [*names, "fields/.vtu"])
+    _sweep(out)
+    fresh = out / f".new-{os.getpid()}"
+    try:
+        (fresh / "curves").mkdir(parents=True)
+        (fresh / "fields").mkdir()
+        for curve in curves:
+            write_curve(curve, fresh / "curves" / curve_file(curve))
+        for name, one in named.items():
+            write_series(one, fresh / SERIES_FOLDER / name)
+        for name, path in (fields or {}).items():
+            shutil.copyfile(path, fresh / "fields" / name)
+        for name, text in texts.items():
+            (fresh / name).write_text(text, encoding="utf-8")
+        if curves:
+            _replace_files(fresh / "curves", out / "curves", _is_curve_or_field)
+        if named:
+            _replace_files(fresh / SERIES_FOLDER, out / SERIES_FOLDER, is_ours)
+        if fields is not None:
+            _replace_files(fresh / "fields", out / "fields", _is_curve_or_field)
+        for name in texts:
+            (fresh / name).replace(out / name)
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
+
+
+def _sweep(out: Path) -> None:
+    """Remove what a run killed while publishing left behind."""
+    for left in out.glob(".new-*"):
+        if not Path(f"/proc/{left.name.removeprefix('.new-')}").exists():
+            shutil.rmtree(left, ignore_errors=True)
+
+
+def _is_curve_or_field(name: str) -> bool:
+    return name.startswith(("fe_", "section_", "ancf_", "brush_")) and name.endswith((".csv", ".vtu"))
+
+
+def _replace_files(fresh: Path, target: Path, is_ours: Callable[[str], bool]) -> None:
+    """Move files in, then remove those of ours that the new set does not have."""
+    target.mkdir(exist_ok=True)
+    names = {path.name for path in fresh.iterdir()}
+    for path in fresh.iterdir():
+        path.replace(target / path.name)
+    for old in target.iterdir():
+        if is_ours(old.name) and old.name not in names:
+            old.unlink()
+
+
+def summary(
+    study: str, checks: Sequence[Check], timings: Sequence[Timing], provenance: Mapping[str, Any]
+) -> dict[str, Any]:
+    """``summary.json``, schema 1."""
+    return {
+        "schema": 1,
+        "study": study,
+        "status": overall_status(checks),
+        "checks": [{name: getattr(c, name) for name in Check.__slots__} for c in checks],
+        "timings": [{name: getattr(t, name) for name in Timing.__slots__} for t in timings],
+        "provenance": dict(provenance),
+    }
+
+
+def junit(study: str, checks: Sequence[Check]) -> str:
+    """The checks as JUnit XML: a failed gate is a failure, a failed finding is noted in the case's output."""
+    gates = [c for c in checks if c.role == "gate"]
+    counts = {
+        "tests": str(len(checks)),
+        "failures": str(sum(c.status == "fail" for c in gates)),
+        "errors": str(sum(c.status == "error" for c in gates)),
+        "skipped": "0",
+    }
+    root = ElementTree.Element("testsuites", {"name": "workbench", **counts})
+    suite = ElementTree.SubElement(root, "testsuite", {"name": study, **counts})
+    for check in checks:
+        case = ElementTree.SubElement(suite, "testcase", {"classname": f"{study}.{check.role}", "name": check.id})
+        text = f"{check.title}: {check.quantity} {check.value} {check.unit}, {check.tolerance} of {check.reference}"
+        if check.role == "gate" and check.status != "pass":
+            kind = "failure" if check.status == "fail" else "error"
+            ElementTree.SubElement(case, kind, {"message": text}).text = f"source: {check.source}"
+        else:
+            ElementTree.SubElement(case, "system-out").text = f"{check.status}: {text}; source: {check.source}"
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
+
+
+def to_json(value: Mapping[str, Any]) -> str:
+    """Indented JSON text; refuses NaN."""
+    return json.dumps(value, indent=2, allow_nan=False, ensure_ascii=False) + "\n"

@@ -1,0 +1,1 @@
+"""Study files: sections, rules, units, and what the models get from them."""

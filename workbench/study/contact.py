@@ -1,0 +1,56 @@
+"""Sections of a study file about contact with the ground: its shape, and the study of the penalty.
+
+Verified by tests/unit/test_workbench_contact.py.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from workbench.study.quantities import Angle, Length
+
+__all__ = ["ObstacleSection", "PenaltyStudySection", "PlaneSection"]
+
+_Positive = Field(gt=0.0)
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class PlaneSection(_Section):
+    """Flat ground."""
+
+    shape: Literal["plane"] = "plane"
+
+
+class StepSection(_Section):
+    """A block's edge before the wheel: height over the lower ground, edge radius, place ahead of the hub [m], yaw."""
+
+    shape: Literal["step"]
+    height: Annotated[Length, _Positive]
+    edge_radius: Annotated[Length, _Positive]
+    position: Length = 0.0
+    yaw: Angle = 0.0
+
+
+class RockSection(_Section):
+    """A half-round rock: radius, place of its axis ahead of the hub [m], yaw of the axis against the lateral [rad]."""
+
+    shape: Literal["half_round_rock"]
+    radius: Annotated[Length, _Positive]
+    position: Length = 0.0
+    yaw: Angle = 0.0
+
+
+ObstacleSection = Annotated[PlaneSection | StepSection | RockSection, Field(discriminator="shape")]
+
+
+class PenaltyStudySection(_Section):
+    """How far the load depends on the contact penalty, at one orientation [rad] and deflection [m]."""
+
+    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    deflection: Annotated[Length, _Positive] = 0.010

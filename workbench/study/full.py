@@ -1,0 +1,85 @@
+"""The fine study of ``workbench report --full``: every orientation of one period of the wheel, on a finer mesh.
+
+Verified by tests/unit/test_workbench_full_study.py and tests/end_to_end/test_full_report.py.
+"""
+
+from __future__ import annotations
+
+import math
+
+from contracts.errors import InputError
+from workbench.graph.fe import degrees
+from workbench.study.model import Study
+from workbench.study.wheel import ImpactSpringsSection
+
+__all__ = ["full_study", "is_mirrored", "rotational_period"]
+
+_SAME = 1e-6
+"""Two angles closer than this are one [deg]."""
+
+
+def rotational_period(study: Study) -> float:
+    """Smallest turn that maps the wheel onto itself [deg]: the full turn over the common divisor of all counts."""
+    return 360.0 / math.gcd(*(count for count, _ in _patterns(study)))
+
+
+def is_mirrored(study: Study) -> bool:
+    """Whether the wheel is its own mirror image about position 0, so that phi and -phi give the same curve."""
+    two_sided = all(springs.shape == "hoop" for springs in _springs(study))
+    return two_sided and all(_is_whole(2.0 * phase * count / 360.0) for count, phase in _patterns(study))
+
+
+def _springs(study: Study) -> list[ImpactSpringsSection]:
+    """Sets of springs that bear on the load: those on a rigid hub do not."""
+    impact = study.wheel.impact_springs
+    return [*study.wheel.springs, *([impact] if impact is not None and study.fe.hub == "elastic" else [])]
+
+
+def _patterns(study: Study) -> list[tuple[int, float]]:
+    """(count, phase [deg]) of everything that repeats around the axle and bears on the load."""
+    patterns = [(springs.count, degrees(springs.phase)) for springs in _springs(study)]
+    others = (study.wheel.grousers, study.wheel.sidewall_springs)
+    return patterns + [(part.count, degrees(part.phase)) for part in others if part is not None]
+
+
+def full_study(study: Study) -> Study:
+    """The study with all orientations from 0 to the period, the finer mesh and its own mesh study.
+
+    The initial tangent is still that of the study's own orientations, on which its strip was chosen: the same check
+    on a finer mesh. That of the mean around the wheel is another check.
+
+    Raises
+    ------
+    InputError
+        If the step does not divide the period, or an orientation the study names is not one of its multiples.
+    """
+    full, period = study.full, rotational_period(study)
+    step = degrees(full.orientation_step)
+    if not _is_whole(period / step):
+        rule = f"must divide {period:g} deg, after which the wheel repeats itself"
+        raise InputError("full.orientation_step", f"{step:g} deg", rule, "choose 5 or 10 deg")
+    steps = [i * step for i in range(round(period / step))]
+    for orientation in (degrees(o) for o in study.fe.orientations):
+        if not any(abs(orientation - o) < _SAME for o in steps):
+            rule = f"is not among 0 to {steps[-1]:g} deg by {step:g} deg"
+            raise InputError("fe.orientations", f"{orientation:g} deg", rule, "choose another full.orientation_step")
+    chosen_on = study.tolerances.initial_tangent_orientations or study.fe.orientations
+    return study.model_copy(
+        update={
+            "tolerances": study.tolerances.model_copy(update={"initial_tangent_orientations": chosen_on}),
+            "title": f"{study.title}: full study",
+            "fe": study.fe.model_copy(update={"orientations": tuple(math.radians(o) for o in steps)}),
+            "mesh": study.mesh.model_copy(update={"factor": full.factor}),
+            "rover": study.rover.model_copy(update={"on_ancf_tires": _more(study.rover.on_ancf_tires)}),
+            "mesh_study": study.mesh_study.model_copy(update={"factors": full.mesh_study_factors}),
+        }
+    )
+
+
+def _more(on_ancf_tires: str) -> str:
+    """Every run on ANCF tires, unless the rover does not run on ANCF tires at all."""
+    return "none" if on_ancf_tires == "none" else "all"
+
+
+def _is_whole(number: float) -> bool:
+    return abs(number - round(number)) < _SAME

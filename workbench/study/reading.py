@@ -1,0 +1,185 @@
+"""Reads a study file; every defect becomes one StudyError with file, key, value, rule and what to try.
+
+Verified by tests/unit/test_workbench_study.py and tests/end_to_end/test_bad_studies.py.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from contracts.curves import read_curve
+from contracts.errors import InputError, StudyError
+from workbench.study.model import Study
+from workbench.study.model_parameters import SectionInputError, ancf_mesh, ancf_preset, brush_parameters, wheel_design
+from workbench.study.rules import broken_rules
+
+__all__ = ["built_in_study", "read_study"]
+
+_HINTS = {
+    "extra_forbidden": ("is not a known key", "remove it or correct its spelling"),
+    "missing": ("is missing", "add it to the study file"),
+}
+
+
+def built_in_study() -> Path:
+    """Path of the ExoMars study: in the installed package, or in ``studies/`` of a checkout."""
+    here = Path(__file__).parents[1]
+    for path in (here / "studies" / "exomars.toml", here.parent / "studies" / "exomars.toml"):
+        if path.is_file():
+            return path
+    raise StudyError("exomars.toml", "", "", "the built-in study was not found", "give the path of a study file")
+
+
+def read_study(path: Path) -> Study:
+    """Read, check and freeze a study file.
+
+    Raises
+    ------
+    StudyError
+        For the first defect found: unreadable file, TOML syntax, unknown or missing key, wrong type, unit or range,
+        parts that do not fit together, a user curve or an ANCF tire's surfaces that cannot be used.
+    """
+    table = _read_table(path)
+    try:
+        study = Study.model_validate(table)
+    except ValidationError as error:
+        raise _study_error(path, error) from error
+    study = _with_surfaces_from(study, path.parent)
+    try:
+        wheel_design(study)
+        ancf_preset(study)
+        brush_parameters(study)
+    except SectionInputError as error:
+        key = _key_of(error, table)
+        raise StudyError(path, key, error.value, f"{error.what} {error.rule}", error.hint) from error
+    for broken in broken_rules(study):
+        raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
+    _check_surfaces(path, study, table)
+    _check_curves(path, study)
+    return study
+
+
+def _read_table(path: Path) -> dict[str, Any]:
+    example = "copy studies/exomars.toml and change it"
+    if path.is_dir():
+        raise StudyError(path, "", "", "is a folder, not a study file", "give the path of a .toml file")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError as error:
+        raise StudyError(path, "", "", "does not exist", "check the path of the study file") from error
+    except UnicodeDecodeError as error:
+        raise StudyError(path, "", "", f"is not UTF-8 text (byte {error.start})", "save the file as UTF-8") from error
+    except OSError as error:
+        raise StudyError(path, "", "", f"cannot be read ({error.strerror})", "check its permissions") from error
+    if not text.strip():
+        raise StudyError(path, "", "", "is empty", example)
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise StudyError(path, "", "", f"is not valid TOML: {error}", example) from error
+
+
+def _study_error(path: Path, error: ValidationError) -> StudyError:
+    """Turn pydantic's first complaint into our message; an unknown key comes before a missing one (a misspelling)."""
+    first = min(error.errors(), key=lambda e: e["type"] != "extra_forbidden" and e["type"] == "missing")
+    key = _dotted(first["loc"])
+    value = "" if first["type"] == "missing" else _shown(first["input"])
+    if first["type"] in _HINTS:
+        rule, hint = _HINTS[first["type"]]
+    elif first["type"] == "key_in_section":
+        rule, hint, value = (str(first["ctx"][name]) for name in ("rule", "hint", "value"))
+        key += f".{first['ctx']['key']}"
+    elif first["type"] == "quantity":
+        rule, hint = str(first["ctx"]["rule"]), str(first["ctx"]["hint"])
+    else:
+        rule = _lower_first(first["msg"].removeprefix("Value error, ").replace("Input should", "must"))
+        hint = "see studies/exomars.toml for an example"
+    return StudyError(path, key, value or "nothing", rule, hint)
+
+
+def _dotted(location: Sequence[int | str]) -> str:
+    """``("wheel", "springs", 0, "count")`` -> ``wheel.springs[0].count``."""
+    text = ""
+    for part in location:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else part
+    return text
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, dict | list | tuple):
+        return "a table" if isinstance(value, dict) else f"a list of {len(value)}"
+    return repr(value) if isinstance(value, str) else str(value)
+
+
+def _lower_first(text: str) -> str:
+    return text[:1].lower() + text[1:]
+
+
+def _key_of(error: SectionInputError, table: Mapping[str, Any]) -> str:
+    """Best key for a rule broken inside a section: the field whose words the error's ``what`` names."""
+    what = error.what.replace("_", " ")
+    best, longest = error.section, 0
+    for key, name in _leaves(error.section, table):
+        words = name.replace("_", " ")
+        if len(words) > longest and re.search(rf"\b{re.escape(words)}\b", what):
+            best, longest = key, len(words)
+    return best
+
+
+def _leaves(section: str, table: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """(key, words that name it) for each field below a section; a part's fields are named with the part."""
+    content: Any = table
+    for part in re.findall(r"[^.\[\]]+", section):
+        content = content[int(part)] if isinstance(content, list) else content.get(part, {})
+    leaves: list[tuple[str, str]] = []
+    for field, value in content.items():
+        leaves += _named(f"{section}.{field}", field, value)
+    return leaves
+
+
+def _named(key: str, name: str, value: Any) -> list[tuple[str, str]]:
+    if isinstance(value, dict):
+        inner = [item for field, v in value.items() for item in _field_names(key, name, field, v)]
+        return [(key, name), *inner]
+    if isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
+        sets = [_named(f"{key}[{i}]", str(v.get("name", name)), v) for i, v in enumerate(value)]
+        return [(key, "spring sets"), *(item for items in sets for item in items)]
+    return [(key, singular) for singular in {name, name.removesuffix("s")}]
+
+
+def _field_names(key: str, part: str, field: str, value: Any) -> list[tuple[str, str]]:
+    """Ways geometry names a field of a part: ``outer hub radius`` is ``outer_hub.outer_radius``."""
+    names = {f"{part} {field}", f"{part} {field.removesuffix('s')}", f"{part} {field.removeprefix('outer_')}"}
+    return [(f"{key}.{field}", name) for name in sorted(names)]
+
+
+def _with_surfaces_from(study: Study, folder: Path) -> Study:
+    """The study with the whole path of its ANCF tire's surfaces."""
+    if study.ancf.surfaces is None:
+        return study
+    surfaces = str((folder / study.ancf.surfaces).absolute())
+    return study.model_copy(update={"ancf": study.ancf.model_copy(update={"surfaces": surfaces})})
+
+
+def _check_surfaces(path: Path, study: Study, table: Mapping[str, Any]) -> None:
+    """Make the ANCF tire's plates once, so that a bad file is found before anything runs."""
+    try:
+        ancf_mesh(study)
+    except SectionInputError as error:
+        found = "" if error.what == "STEP file" else f"{error.what} = {error.value}: "
+        raise StudyError(path, error.section, table["ancf"]["surfaces"], f"{found}{error.rule}", error.hint) from error
+
+
+def _check_curves(path: Path, study: Study) -> None:
+    """Read the user's own curves once, so that a bad one is found before anything runs."""
+    for i, section in enumerate(study.compare.curves):
+        try:
+            read_curve(path.parent / section.file)
+        except InputError as error:
+            raise StudyError(path, f"compare.curves[{i}].file", section.file, error.rule, error.hint) from error

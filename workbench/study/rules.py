@@ -1,0 +1,146 @@
+"""Rules that bind several sections of a study file: part names, room for the deflection.
+
+Asked once the wheel and the tire are known to fit together. Verified by tests/unit/test_workbench_study.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from contracts.errors import InputError
+from workbench.study.model import Study
+from workbench.study.model_parameters import SectionInputError, fit_start, materials, wheel_design
+
+__all__ = ["BrokenRule", "broken_rules"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BrokenRule:
+    """A key of the study file, its value, the rule it breaks and what to try."""
+
+    key: str
+    value: str
+    rule: str
+    hint: str
+
+
+def broken_rules(study: Study) -> Iterator[BrokenRule]:
+    """Every rule between sections that the study breaks, in the order of the file."""
+    parts = tuple(wheel_design(study).materials)
+    for name, size in study.mesh.refinement.items():
+        if name not in parts:
+            yield BrokenRule(
+                key=f"mesh.refinement.{name}",
+                value=f"{1e3 * size:g} mm",
+                rule="names no part of the wheel",
+                hint=f"use {', '.join(parts)}",
+            )
+    yield from _of_the_curves(study)
+    tire, ancf = study.wheel.tire, study.ancf
+    yield from _room(
+        "fe", study.fe.max_deflection, tire.outer_radius - tire.thickness - study.wheel.outer_hub.outer_radius
+    )
+    yield from _room("ancf", ancf.max_deflection, (ancf.datum_radius or ancf.outer_radius) - ancf.hub_radius)
+    yield from _environment(study)
+    yield from _of_the_fit(study)
+
+
+def _environment(study: Study) -> Iterator[BrokenRule]:
+    """Its orientation must be one of the FE's, its materials known at every temperature."""
+    section = study.environment
+    if section is None:
+        return
+    if not any(abs(section.orientation - o) < 1e-9 for o in study.fe.orientations):
+        value, rule = f"{math.degrees(section.orientation):g} deg", "must be one of fe.orientations"
+        hint = "its curve at 20 C is what the others are held against"
+        yield BrokenRule(key="environment.orientation", value=value, rule=rule, hint=hint)
+    first = study.fe.max_deflection / study.fe.points
+    if section.max_deflection is not None and section.max_deflection < first:
+        value, rule = f"{1e3 * section.max_deflection:g} mm", f"lies before the first point, {1e3 * first:g} mm"
+        hint = "raise it, or fe.points"
+        yield BrokenRule(key="environment.max_deflection", value=value, rule=rule, hint=hint)
+    known = materials(study)
+    for name in section.variants:
+        if name not in known:
+            hint = f"add [materials.{name!r}] or remove it"
+            yield BrokenRule(key="environment.variants", value=name, rule="is not in [materials]", hint=hint)
+            return
+    used = {material.name: material for material in wheel_design(study).materials.values()}
+    for material in (used | {name: known[name] for name in section.variants}).values():
+        for temperature in section.temperatures:
+            try:
+                material.at(temperature)
+            except InputError as error:
+                value = f"{temperature - 273.15:g} C"
+                rule = f"{material.name}: {error.rule}"
+                yield BrokenRule(key="environment.temperatures", value=value, rule=rule, hint=error.hint)
+
+
+def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
+    """Mesh and hub study must lie on the FE curves: their orientations, their range, their mesh."""
+    fe, mesh_study = study.fe, study.mesh_study
+    for name, part in (("mesh_study", mesh_study), ("hub_study", study.hub_study)):
+        if part is not None and max(part.deflections) > fe.max_deflection:
+            yield BrokenRule(
+                key=f"{name}.deflections",
+                value=f"{1e3 * max(part.deflections):g} mm",
+                rule="must not exceed fe.max_deflection",
+                hint="choose smaller ones",
+            )
+    if not any(abs(mesh_study.orientation - o) < 1e-9 for o in fe.orientations):
+        yield BrokenRule(
+            key="mesh_study.orientation",
+            value=f"{math.degrees(mesh_study.orientation):g} deg",
+            rule="must be one of fe.orientations",
+            hint="add it there or choose one of them",
+        )
+    for angle in study.tolerances.initial_tangent_orientations or ():
+        if not any(abs(angle - o) < 1e-9 for o in fe.orientations):
+            key, value = "tolerances.initial_tangent_orientations", f"{math.degrees(angle):g} deg"
+            yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
+    penalty = study.penalty_study
+    if penalty is not None and penalty.deflection > fe.max_deflection:
+        value, rule = f"{1e3 * penalty.deflection:g} mm", "must not exceed fe.max_deflection"
+        yield BrokenRule(key="penalty_study.deflection", value=value, rule=rule, hint="choose a smaller one")
+    if fe.turned and study.mesh.half_width:
+        rule = "turns the ground out of the plane of symmetry that mesh.half_width relies on"
+        yield BrokenRule(key="fe.camber", value="not 0", rule=rule, hint="set mesh.half_width = false")
+    if study.mesh.factor not in mesh_study.factors:
+        yield BrokenRule(
+            key="mesh_study.factors",
+            value=", ".join(f"{factor:g}" for factor in mesh_study.factors),
+            rule=f"must contain mesh.factor = {study.mesh.factor:g}, the mesh of the curves",
+            hint="the uncertainty is that of the curves' mesh",
+        )
+
+
+def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
+    """Each fitted tire must begin as a possible one, within its bounds."""
+    section = study.ancf_fit
+    for tire in section.tires if section is not None else ():
+        assert section is not None
+        key = f"ancf_fit.tires {tire.name}"
+        try:
+            start = fit_start(study, tire)
+        except SectionInputError as error:
+            yield BrokenRule(key=key, value=str(error.value), rule=f"{error.what} {error.rule}", hint=error.hint)
+            continue
+        for name in tire.free:
+            low, high = getattr(section.bounds, name)
+            value = getattr(start, "rim_thickness" if name == "thickness" else name)
+            if not low <= value <= high:
+                rule = f"{name} must begin within its bounds, {low:g} to {high:g} in SI units"
+                yield BrokenRule(key=key, value=f"{value:g}", rule=rule, hint="give a start or widen the bounds")
+
+
+def _room(section: str, deflection: float, gap: float) -> Iterator[BrokenRule]:
+    """The ground must stay below the hub: ``deflection`` < ``gap``, both in metres."""
+    if deflection >= gap:
+        yield BrokenRule(
+            key=f"{section}.max_deflection",
+            value=f"{1e3 * deflection:g} mm",
+            rule=f"must be less than the gap between rim and hub, {1e3 * gap:g} mm",
+            hint="give a smaller deflection or a smaller hub",
+        )

@@ -1,0 +1,300 @@
+"""Sections of a study file other than the wheel: materials, mesh, solvers, brush, comparison.
+
+Every model is frozen and refuses unknown keys. All values are SI after parsing. Verified by
+tests/unit/test_workbench_study.py.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    StrictBool,
+    StrictInt,
+    ValidatorFunctionWrapHandler,
+    field_validator,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
+
+from workbench.study.contact import ObstacleSection, PlaneSection
+from workbench.study.quantities import Angle, Bedding, Density, Force, Length, Number, Pressure, Stiffness, Viscosity
+
+__all__ = [
+    "AncfSection",
+    "BrushSection",
+    "CurveSection",
+    "Drop",
+    "FeSection",
+    "FullSection",
+    "HubStudySection",
+    "MaterialSection",
+    "MeshSection",
+    "MeshStudySection",
+    "Section",
+    "Thickness",
+    "ToleranceSection",
+    "VerificationSection",
+    "in_key",
+]
+
+Positive = Field(gt=0.0)
+NotNegative = Field(ge=0.0)
+
+
+def _between(low: float, high: float, words: str, hint: str) -> AfterValidator:
+    """Validator of an interval, both ends included, whose message gives it in the units a user writes."""
+
+    def check(value: float) -> float:
+        if not low <= value <= high:
+            rule = f"must lie between {words}" if math.isfinite(high) else f"must be at least {words}"
+            raise PydanticCustomError("quantity", "{rule}; {hint}", {"rule": rule, "hint": hint})
+        return value
+
+    return AfterValidator(check)
+
+
+def _all_different(orientations: tuple[float, ...]) -> tuple[float, ...]:
+    """Refuse an orientation given twice: it would be computed twice under one name."""
+    seen: set[float] = set()
+    for angle in orientations:
+        shown = round(math.degrees(angle), 6)
+        if shown in seen:
+            context = {"rule": f"holds {shown:g} deg twice", "hint": "give each orientation once"}
+            raise PydanticCustomError("quantity", "{rule}; {hint}", context)
+        seen.add(shown)
+    return orientations
+
+
+Orientations = Annotated[
+    tuple[Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)], ...], Field(min_length=1), AfterValidator(_all_different)
+]
+ElementSize = Annotated[Length, Positive, _between(0.2e-3, 0.5, "0.2 mm and 0.5 m", "8 mm is usual")]
+Thickness = Annotated[Length, Positive, _between(1e-5, math.inf, "0.01 mm", "check its unit; 0.6 mm is usual")]
+Modulus = Annotated[Pressure, Positive, _between(1e3, 1e13, "1e3 Pa and 1e13 Pa", "check its unit, e.g. 113.8 GPa")]
+Drop = Annotated[Length, Positive, _between(1e-3, math.inf, "1 mm", "check its unit; 36 mm is usual")]
+Factor = Annotated[Number, Field(ge=1.0, le=6.0)]
+GaussPoints = Annotated[StrictInt, Field(ge=1, le=10)]
+
+
+def in_key(key: str, value: object, rule: str, hint: str) -> PydanticCustomError:
+    """Error of one key that only its whole section can find."""
+    context = {"key": key, "value": str(value), "rule": rule, "hint": hint}
+    return PydanticCustomError("key_in_section", "{key} {rule}; {hint}", context)
+
+
+class Section(BaseModel):
+    """Base of every section: frozen, no unknown keys."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class MaterialSection(Section):
+    """One material: E [Pa], nu [-], rho [kg/m^3], R_p0.2 [Pa] at 20 C, where the numbers come from, and the name of its
+    data against temperature, if any."""
+
+    young_modulus: Modulus
+    poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
+    density: Annotated[Density, Positive]
+    yield_strength: Annotated[Pressure, Positive]
+    source: Annotated[str, Field(min_length=1)]
+    temperature_data: Annotated[str, Field(min_length=1)] | None = None
+
+
+class MeshSection(Section):
+    """Mesh of the wheel: element lengths along strips and along the axle [m], counts, geometry order, symmetry.
+
+    Every count of elements along strips and along the axle is then multiplied by ``factor`` and rounded up.
+    """
+
+    element_size: ElementSize
+    axial_size: ElementSize
+    thickness_elements: Annotated[StrictInt, Field(ge=1, le=8)] = 1
+    order: Literal[1, 2] = 2
+    factor: Factor = 1.0
+    half_width: StrictBool = True
+    refinement: dict[str, ElementSize] = Field(default_factory=dict)
+
+
+class FeSection(Section):
+    """Continuum finite element runs: orientations [rad], deflections [m], loads [N] of the full wheel."""
+
+    orientations: Orientations
+    max_deflection: Drop
+    points: Annotated[StrictInt, Field(ge=2, le=500)]
+    max_load: Annotated[Force, Positive]
+    snapshot_loads: tuple[Annotated[Force, Positive], ...] = ()
+    material_law: Literal["st_venant_kirchhoff", "neo_hookean"] = "st_venant_kirchhoff"
+    contact_stiffness: (
+        Annotated[Bedding, Positive, _between(1e6, 1e15, "1e6 N/m^3 and 1e15 N/m^3", "1e11 N/m^3 is usual")] | None
+    ) = 1e11
+    """None, written "auto", takes it from the local stiffness of the mesh."""
+    contact_method: Literal["penalty", "augmented_lagrangian"] = "penalty"
+    friction: Annotated[Number, NotNegative] = 0.0
+    obstacle: ObstacleSection = PlaneSection()
+    camber: Annotated[Angle, _between(-1.0, 1.0, "-57 deg and 57 deg", "10 deg is much")] = 0.0
+    inner_contact: StrictBool = True
+    """Whether springs, rim and hubs hold each other off; else they pass through each other."""
+    relative_tolerance: Annotated[Number, _between(1e-12, 1e-4, "1e-12 and 1e-4", "1e-8 is usual")] = 1e-8
+    hub: Literal["rigid", "elastic"] = "rigid"
+    """Rigid: the outer hub is held. Elastic: hubs, cone and impact springs deform; the inner hub's bore is held."""
+
+    @field_validator("contact_stiffness", mode="wrap")
+    @classmethod
+    def _automatic(cls, value: object, check: ValidatorFunctionWrapHandler) -> object:
+        return None if value == "auto" else check(value)
+
+    @property
+    def turned(self) -> bool:
+        """Whether the ground is turned out of the wheel's plane of symmetry."""
+        return bool(self.camber or getattr(self.obstacle, "yaw", 0.0))
+
+
+class MeshStudySection(Section):
+    """Three meshes of one family, which give the numerical uncertainty of the load at some deflections [m].
+
+    ``factors`` are those of ``mesh.factor``; one of them is that of the curves' mesh.
+    """
+
+    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
+    deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
+
+    @model_validator(mode="after")
+    def _increasing(self) -> MeshStudySection:
+        for key, values in (("factors", self.factors), ("deflections", self.deflections)):
+            if not all(b > a for a, b in pairwise(values)):
+                shown = ", ".join(f"{v:g}" for v in values)
+                raise in_key(key, shown, "must increase", "sort them and give each once")
+        return self
+
+
+class HubStudySection(Section):
+    """What elastic hubs, cone and impact springs add to the load, at one orientation and some deflections [m]."""
+
+    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020)
+
+
+class FullSection(Section):
+    """What ``workbench report --full`` takes instead: step of orientations [rad], mesh, meshes of the mesh study."""
+
+    orientation_step: Annotated[Angle, Positive] = math.radians(5.0)
+    factor: Factor = 1.5
+    mesh_study_factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
+
+    @model_validator(mode="after")
+    def _factors_hold_the_mesh(self) -> FullSection:
+        factors = self.mesh_study_factors
+        if self.factor not in factors or not all(b > a for a, b in pairwise(factors)):
+            shown = ", ".join(f"{factor:g}" for factor in factors)
+            raise in_key(
+                "mesh_study_factors", shown, f"must increase and contain factor = {self.factor:g}", "e.g. 1, 1.5, 2"
+            )
+        return self
+
+
+class VerificationSection(Section):
+    """Whether the report runs the benchmarks of finite elements and plates, which do not depend on the study."""
+
+    enabled: StrictBool = True
+
+
+class AncfSection(Section):
+    """The thesis' ANCF tire: dimensions [m], material, contact grid, orientations [rad], deflections [m]."""
+
+    outer_radius: Annotated[Length, Positive]
+    datum_radius: Annotated[Length, Positive] | None = None
+    hub_radius: Annotated[Length, Positive]
+    width: Annotated[Length, Positive]
+    rim_thickness: Annotated[Length, Positive]
+    spoke_thickness: Annotated[Length, Positive]
+    circumferential_plates: Annotated[StrictInt, Field(ge=3, le=96)]
+    spokes: Annotated[StrictInt, Field(ge=1, le=96)]
+    phase: Annotated[Angle, _between(-math.pi, math.pi, "-180 deg and 180 deg", "0 deg is usual")] = 0.0
+    plates_per_spoke: Annotated[StrictInt, Field(ge=1, le=32)] = 1
+    young_modulus: Modulus
+    poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
+    density: Annotated[Density, Positive]
+    contact_stiffness: Annotated[Stiffness, Positive]
+    contact_points: tuple[Annotated[StrictInt, Field(ge=2, le=100)], Annotated[StrictInt, Field(ge=2, le=100)]]
+    contact_layout: Literal["edges", "centres"] = "edges"
+    quadrature: tuple[GaussPoints, GaussPoints, GaussPoints] = (5, 5, 3)
+    orientations: Orientations
+    max_deflection: Drop
+    points: Annotated[StrictInt, Field(ge=2, le=500)]
+    thesis_preset: StrictBool = False
+    """True states that these are the thesis' numbers: the curve is then held against its known table."""
+    surfaces: Annotated[str, Field(min_length=1)] | None = None
+    """STEP file of the mid-surfaces of rim and spokes, in place of cylinder and planes; relative to the study file."""
+
+    @model_validator(mode="after")
+    def _phase_is_the_file_s(self) -> AncfSection:
+        if self.surfaces is not None and self.phase != 0.0:
+            rule = "must be 0 with surfaces, whose file says where the spokes stand"
+            raise in_key("phase", f"{math.degrees(self.phase):g} deg", rule, "turn the surfaces in the file")
+        return self
+
+
+class BrushSection(Section):
+    """The brush-type tire of Table II; slip stiffnesses read as N and N/rad."""
+
+    radial_stiffness: Annotated[Stiffness, Positive]
+    radial_damping: Annotated[Viscosity, NotNegative]
+    longitudinal_slip_stiffness: Annotated[Force, Positive]
+    cornering_stiffness_per_degree: Annotated[Force, Positive]
+    friction_min: Annotated[Number, Positive]
+    friction_max: Annotated[Number, Positive]
+    rolling_resistance: Annotated[Number, NotNegative]
+    source: Annotated[str, Field(min_length=1)]
+
+
+class CurveSection(Section):
+    """A user's own curve, e.g. digitised from a paper: CSV with ``deflection_m,load_N`` and where it comes from."""
+
+    file: Annotated[str, Field(min_length=1)]
+    label: Annotated[str, Field(min_length=1)]
+    source: Annotated[str, Field(min_length=1)]
+    compare_with: Literal["average", "orientation"] = "average"
+    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)] | None = None
+
+    @model_validator(mode="after")
+    def _orientation_if_wanted(self) -> CurveSection:
+        if (self.compare_with == "orientation") != (self.orientation is not None):
+            rule, hint = 'belongs to compare_with = "orientation", and only there', "give both or neither"
+            raise in_key("orientation", self.orientation, rule, hint)
+        return self
+
+
+class ToleranceSection(Section):
+    """How far a number may lie off; relative unless a unit is named. The gates' defaults are the project's own."""
+
+    initial_tangent: Annotated[Number, Positive] = 0.03
+    initial_tangent_up_to: Annotated[Length, Positive] = 0.005
+    initial_tangent_orientations: Orientations | None = None
+    """Those of fe.orientations whose mean the slope is taken of; all of them by default."""
+    ancf_preset: Annotated[Number, Positive] = 0.01
+    ancf_fit: Annotated[Number, Positive] = 0.03
+    flexible_mass: Annotated[Number, Positive] = 0.01
+    mesh_mass: Annotated[Number, Positive] = 0.001
+    min_scaled_jacobian: Annotated[Number, Positive] = 0.2
+    reach_deflection: Annotated[Length, Positive] = 0.030
+    reach_load: Annotated[Force, Positive] = 300.0
+    fe_residual: Annotated[Number, Positive] = 1e-8
+    fe_balance: Annotated[Number, Positive] = 1e-6
+    fe_energy: Annotated[Number, Positive] = 0.01
+    mesh_uncertainty: Annotated[Number, Positive] = 0.05
+    hub_compliance: Annotated[Number, Positive] = 0.01
+    surface_distance: Annotated[Length, Positive] = 1e-9
+    section_agreement: Annotated[Number, Positive] = 0.05
+    model_agreement: Annotated[Number, Positive] = 0.10
+    iso_rating: Annotated[Number, Positive] = 0.80
+    orientation_spread: Annotated[Number, Positive] = 0.50
+    reference_wheel: StrictBool = False
+    """True states that this wheel is the one the reference describes: slope and reach of its curves are then gates."""

@@ -1,0 +1,1 @@
+"""What workers run: one function a task, importing what it needs."""

@@ -1,0 +1,91 @@
+"""What the report drives on six ANCF tires: the thesis' scenarios, and the mission's requirements if asked for.
+
+Verified by tests/unit/test_workbench_rover_ancf.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+from ancf_reduced.tire_mesh import build_tire
+from ancf_reduced.tire_preset import TirePreset, thesis_preset
+from contracts.errors import InputError
+from rover_dynamics.multibody.motion_law import Hold
+from rover_dynamics.rover.rover_file import RoverDesign
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
+from rover_dynamics.rover.scenarios.ground import on_terrain, rocks_on_the_way
+from rover_dynamics.rover.scenarios.level_ground import all_drives, sweep_of_gravity
+from rover_dynamics.rover.scenarios.scenario import Scenario
+from workbench.tasks.rover_tires import LAW, STEPS, on_ancf_tires
+
+__all__ = ["ancf_run"]
+
+LOADS = (160.0, 190.0, 220.0, 250.0)
+"""Of the sweep [N]."""
+FINE_GRID = (14, 14)
+"""Contact points of a plate, about twice as many as the thesis' 100; stiffness and damping of each are less by as
+much."""
+ROCK_SEED = 1
+
+
+def _sweep(turned: float) -> Callable[[RoverDesign], Scenario]:
+    """Drives held, so that no wheel rolls off the orientation it starts with."""
+
+    def scenario(_: RoverDesign) -> Scenario:
+        held = replace(
+            SCENARIOS["load_sweep"],
+            title=f"mean wheel load by scaled gravity, drives held, tires turned by {math.degrees(turned):g} degrees",
+            actuators=lambda design: all_drives(design, Hold()),
+            composed=partial(sweep_of_gravity, loads=LOADS),
+        )
+        return on_ancf_tires(held, turned=turned)
+
+    return scenario
+
+
+def _drop(_: RoverDesign) -> Scenario:
+    return on_ancf_tires(replace(SCENARIOS["drop"], lasts=1.0, every=5e-3, closer=None))
+
+
+def _traction(*, half_step: bool = False, fine_grid: bool = False, lasts: float = 2.0) -> Scenario:
+    title = f"3.5 N m on each drive for {lasts:g} s after 5 s of settling, friction 0.6"
+    short = replace(SCENARIOS["traction"], title=title, lasts=lasts, every=5e-3)
+    steps = replace(STEPS, tolerance=STEPS.tolerance / 8.0) if half_step else STEPS  # of third order
+    if not fine_grid:
+        return on_ancf_tires(short, steps=steps)
+    preset = thesis_preset()
+    share = math.prod(preset.contact_points) / math.prod(FINE_GRID)
+    finer: TirePreset = replace(preset, contact_points=FINE_GRID)
+    law = replace(LAW, stiffness=share * LAW.stiffness, damping=share * LAW.damping)
+    return on_ancf_tires(short, build_tire(finer), steps=steps, law=law)
+
+
+def _rocks(design: RoverDesign) -> Scenario:
+    straight = SCENARIOS["straight"]
+    rocks = rocks_on_the_way(straight, design, ROCK_SEED)
+    return on_ancf_tires(on_terrain(straight, design, rocks, f"random rocks, seed {ROCK_SEED}"))
+
+
+_VARIANTS: dict[str, Callable[[RoverDesign], Scenario]] = {
+    "drop": _drop,
+    "load_sweep": _sweep(0.0),
+    "load_sweep_between": _sweep(0.25 * math.pi),
+    "traction": lambda _: _traction(),
+    "traction_half_step": lambda _: _traction(half_step=True),
+    "traction_fine_grid": lambda _: _traction(fine_grid=True),
+    "traction_whole": lambda _: _traction(lasts=10.0),
+    "rocks": _rocks,
+}
+
+
+def ancf_run(name: str, design: RoverDesign) -> Scenario:
+    """The scenario of a run, which carries the run's name."""
+    if name not in _VARIANTS and name not in SCENARIOS:
+        raise InputError(
+            "run on ANCF tires", repr(name), "is not known", f"give a scenario or one of {', '.join(_VARIANTS)}"
+        )
+    scenario = _VARIANTS[name](design) if name in _VARIANTS else on_ancf_tires(SCENARIOS[name])
+    return replace(scenario, name=name, study=None)

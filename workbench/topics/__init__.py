@@ -1,0 +1,1 @@
+"""Questions of the report, each with its tasks, checks, figures and section."""

@@ -1,0 +1,116 @@
+"""Topic: how far the mesh decides the load. Three meshes, grid convergence index, uncertainty of every FE curve.
+
+Verified by tests/unit/test_workbench_mesh_study.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from contracts.curves import read_curve
+from contracts.records import Check
+from workbench.checks.rules import Claim, at_most
+from workbench.comparison.mesh_study import MeshRun, MeshStudy, sorted_runs
+from workbench.comparison.results import CURVE
+from workbench.execution.result_files import read_result
+from workbench.execution.task import Task
+from workbench.graph.fe import degrees, fe_inputs, fe_task, mesh_task, orientation_name
+from workbench.study.model import Study
+from workbench.topics.topic import Topic
+
+if TYPE_CHECKING:
+    from workbench.comparison.comparison import Comparison
+
+__all__ = ["MESH_STUDY", "mesh_study_inputs", "mesh_study_runs", "read_mesh_study"]
+
+_NO_LIMIT = 1e6
+"""Load [N] that ends no run: every mesh is solved at every deflection."""
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    """A mesh and a run for each factor but that of the curves, whose run is the curve itself."""
+    tasks = []
+    section = study.mesh_study
+    for factor in section.factors:
+        if factor != study.mesh.factor:
+            mesh = mesh_task(study, f"mesh_x{factor:g}", cost=1000.0, factor=factor)
+            inputs = fe_inputs(study, degrees(section.orientation), section.deflections)
+            inputs |= {"snapshot_loads": [], "max_load": _NO_LIMIT}
+            tasks += [mesh, fe_task(f"fe_x{factor:g}", inputs, mesh.name, cost=100.0 * factor**3)]
+    return tasks
+
+
+def mesh_study_inputs(study: Study) -> dict[str, Any]:
+    """What `read_mesh_study` needs to know of a study, as JSON values."""
+    section = study.mesh_study
+    return {
+        "orientation_deg": degrees(section.orientation),
+        "deflections": list(section.deflections),
+        "factors": list(section.factors),
+        "curves_factor": study.mesh.factor,
+    }
+
+
+def mesh_study_runs(study: Study) -> tuple[str, ...]:
+    """Names of the tasks whose results `read_mesh_study` reads."""
+    inputs = mesh_study_inputs(study)
+    return tuple(_run_name(factor, inputs["curves_factor"], inputs["orientation_deg"]) for factor in inputs["factors"])
+
+
+def read_mesh_study(
+    *,
+    orientation_deg: float,
+    deflections: Sequence[float],
+    factors: Sequence[float],
+    curves_factor: float,
+    folders: Mapping[str, Path],
+) -> MeshStudy:
+    """The mesh study from the result folders of its runs."""
+    runs = []
+    for factor in factors:
+        folder = folders[_run_name(factor, curves_factor, orientation_deg)]
+        curve = read_curve(folder / CURVE, model="fe", orientation_deg=orientation_deg)
+        runs.append(MeshRun(factor=factor, curve=curve, numbers=read_result(folder)))
+    return MeshStudy(
+        orientation_deg=orientation_deg,
+        deflections=tuple(deflections),
+        runs=sorted_runs(runs),
+        curves_factor=curves_factor,
+    )
+
+
+def _run_name(factor: float, curves_factor: float, orientation_deg: float) -> str:
+    return orientation_name("fe", orientation_deg) if factor == curves_factor else f"fe_x{factor:g}"
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> MeshStudy:
+    return read_mesh_study(**mesh_study_inputs(study), folders=folders)
+
+
+def _checks(study: Study, found: Comparison, results: MeshStudy) -> Sequence[Check]:
+    places = ", ".join(f"{d * 1e3:g}" for d in results.deflections)
+    where = f"at {places} mm, {results.orientation_deg:g} deg"
+    claim = Claim(
+        id="fe.mesh_uncertainty",
+        title=f"FE: largest grid convergence index of the load on the mesh of the curves, {where}",
+        quantity="grid convergence index",
+        unit="-",
+        role="gate",
+        source="Celik et al. 2008, J. Fluids Eng. 130, 078001 (ASME V&V 20); the limit is the project's own",
+    )
+    return [
+        at_most(claim, lambda: max(results.index(d) for d in results.deflections), study.tolerances.mesh_uncertainty)
+    ]
+
+
+def _figures(study: Study, results: MeshStudy) -> Mapping[str, str]:
+    from workbench.figures.interactive import mesh_study_figure
+
+    return {"mesh_study": mesh_study_figure(results)}
+
+
+MESH_STUDY = Topic(
+    name="mesh_study", title="Mesh uncertainty", tasks=_tasks, read=_read, checks=_checks, figures=_figures
+)

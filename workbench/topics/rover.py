@@ -1,0 +1,202 @@
+"""Topic: the rover on brush tires. The thesis' scenarios and the mission's requirements, with their figures.
+
+Verified by tests/unit/test_workbench_rover.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contracts.errors import InputError
+from contracts.records import Check, Role
+from contracts.series import TimeSeries, read_series
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from workbench.checks.rules import Claim, at_least, at_most, near
+from workbench.execution.result_files import FAILURE, read_result
+from workbench.execution.task import Task
+from workbench.graph.fe import FILES
+from workbench.study.model import Study
+from workbench.topics.topic import Topic
+
+if TYPE_CHECKING:
+    from workbench.comparison.comparison import Comparison
+
+__all__ = ["ROVER", "RoverResult", "RoverResults"]
+
+THESIS = {
+    "static": ("static equilibrium", "Fig. 15"),
+    "drop": ("drop of 10 mm", "Figs 18, 19"),
+    "drop_printed": ("drop of 10 mm, damper as printed", "Figs 18, 19"),
+    "load_sweep": ("wheel load from 160 to 250 N", "Fig. 20"),
+    "straight": ("straight path at 70 m/h", "Figs 23, 24"),
+    "traction": ("3.5 N m on each drive", "Fig. 25"),
+}
+MISSION = {
+    "slope_up": "slope of 25 degrees, upwards",
+    "slope_down": "slope of 25 degrees, downwards",
+    "slope_across": "slope of 25 degrees, across",
+    "step": "step of 0.25 m",
+    "crevasse": "crevasse of 0.15 m",
+    "point_turn": "quarter turn on the spot",
+    "stability": "static stability, 40 degrees",
+}
+"""Scenario -> what it is called; names as in `rover_dynamics.rover.scenarios.catalogue`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoverResult:
+    """One scenario: its outcomes, its series, why it ended early or None."""
+
+    outcomes: tuple[Outcome, ...]
+    series: TimeSeries
+    stopped: str | None
+
+    def value(self, quantity: str) -> float:
+        """Of the first outcome that begins so; raises InputError if there is none, as in a run that stopped."""
+        return self.outcome(quantity).value
+
+    def reference(self, quantity: str) -> float:
+        """Of the first outcome that begins so; 0 if there is none, whose value then raises."""
+        return next((o.reference or 0.0 for o in self.outcomes if o.quantity.startswith(quantity)), 0.0)
+
+    def outcome(self, quantity: str) -> Outcome:
+        """The first outcome that begins so."""
+        for outcome in self.outcomes:
+            if outcome.quantity.startswith(quantity):
+                return outcome
+        raise InputError("outcome", quantity, "was not computed", self.stopped or "look at the scenario")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoverResults:
+    """All scenarios by name."""
+
+    by_name: Mapping[str, RoverResult]
+
+    def __getitem__(self, name: str) -> RoverResult:
+        return self.by_name[name]
+
+    @property
+    def requirements(self) -> list[tuple[str, Outcome]]:
+        """The mission's: title of the scenario, outcome with its limit."""
+        return [(title, o) for name, title in MISSION.items() for o in self[name].outcomes if o.limit is not None]
+
+    @property
+    def stated(self) -> list[tuple[str, Outcome]]:
+        """Torques and slips the mission's scenarios took."""
+        words = ("largest torque", "largest longitudinal slip")
+        return [
+            (title, o) for name, title in MISSION.items() for o in self[name].outcomes if o.quantity.startswith(words)
+        ]
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    return [
+        Task(
+            name=f"rover_{name}",
+            function="workbench.tasks.rover:drive_rover",
+            inputs={"scenario": name},
+            sources=(*FILES, "rover_dynamics"),
+            libraries=("numpy", "numba", "scipy"),
+            cost=2.0,
+        )
+        for name in (*THESIS, *MISSION)
+    ]
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> RoverResults:
+    found = {}
+    for name in (*THESIS, *MISSION):
+        folder = folders[f"rover_{name}"]
+        result = read_result(folder)
+        found[name] = RoverResult(
+            outcomes=tuple(Outcome(**row) for row in result["outcomes"]),
+            series=read_series(folder / "series.csv", name, "brush"),
+            stopped=result[FAILURE],
+        )
+    return RoverResults(by_name=found)
+
+
+def _claim(name: str, title: str, outcome: str, unit: str, source: str, *, gate: bool = False) -> Claim:
+    role: Role = "gate" if gate else "finding"
+    return Claim(id=f"rover.{name}", title=f"Rover, {title}", quantity=outcome, unit=unit, role=role, source=source)
+
+
+CLOSED_FORMS = (
+    ("load", "static", "mean wheel load at the end", "static equilibrium", "320 kg on Mars, six wheels", 1e-3),
+    ("drop", "drop", "largest wheel load", "drop of 10 mm, damper that builds up", "one wheel integrated apart", 1e-3),
+    (
+        "drop_printed",
+        "drop_printed",
+        "largest wheel load",
+        "drop, damper as printed",
+        "one wheel integrated apart",
+        0.01,
+    ),
+    ("traction", "traction", "mean tractive force", "3.5 N m on each drive", "balance of wheels and rover", 5e-4),
+    (
+        "traction_wheel",
+        "traction",
+        "tractive force of",
+        "3.5 N m, front right wheel",
+        "(T - f N r - I alpha) / R",
+        1e-4,
+    ),
+)
+"""Name, scenario, outcome, title, source of the reference beside the outcome, and tolerance. All in N."""
+
+
+def _checks(study: Study, found: Comparison, results: RoverResults) -> Sequence[Check]:
+    checks = []
+    for name, scenario, quantity, title, source, tolerance in CLOSED_FORMS:
+        claim, result = _claim(name, title, quantity, "N", source, gate=True), results[scenario]
+        checks.append(near(claim, partial(result.value, quantity), result.reference(quantity), tolerance))
+    for model, largest, gate in (("rigid", 0.06, True), ("brush", 2.0, False)):
+        title = f"wheel loads against the centre of mass, {model} tires"
+        source = "statics on rigid wheels, printed to 0.1 N"
+        table = _claim(f"table_{model}", title, "largest difference", "N", source, gate=gate)
+        checks.append(at_most(table, partial(_largest_miss, results["static"], model), largest))
+    speed = "mean speed between 15 and 35 s"
+    path = _claim("speed", "straight path: speed between 15 and 35 s", "speed", "m/s", "Samarini 2020, section 3.3")
+    checks.append(near(path, lambda: results["straight"].value(speed), 70.0 / 3600.0, 0.01))
+    return [*checks, *(check for name in MISSION for check in _requirements(name, results[name]))]
+
+
+def _largest_miss(static: RoverResult, model: str) -> float:
+    """Of the loads on one kind of tires from those of statics [N]; raises InputError if there are none."""
+    static.outcome(f"{model} tires")
+    rows = [one for one in static.outcomes if one.quantity.startswith(f"{model} tires")]
+    return max(abs(one.value - one.reference) for one in rows if one.reference is not None)
+
+
+def _requirements(name: str, result: RoverResult) -> list[Check]:
+    """One check for each number the scenario has a limit for; without any, one that could not be evaluated."""
+    source = "mission requirements, Samarini 2020, section 1"
+    limited = [outcome for outcome in result.outcomes if outcome.limit is not None]
+    if not limited:
+        claim = _claim(f"mission_{name}", MISSION[name], "requirement", "-", source)
+        return [at_least(claim, lambda: result.value("requirement"), 0.0)]
+    checks = []
+    for k, one in enumerate(limited):
+        end = f"_{k + 1}" if k else ""
+        claim = _claim(f"mission_{name}{end}", f"{MISSION[name]}: {one.quantity}", one.quantity, one.unit, source)
+        rule = at_least if one.at_least else at_most
+        checks.append(rule(claim, partial(float, one.value), one.limit or 0.0))
+    return checks
+
+
+def _figures(study: Study, results: RoverResults) -> Mapping[str, str]:
+    from workbench.figures.rover import rover_figures
+
+    return rover_figures({name: result.series for name, result in results.by_name.items()})
+
+
+def _series(study: Study, results: RoverResults) -> Sequence[TimeSeries]:
+    return [result.series for result in results.by_name.values()]
+
+
+ROVER = Topic(name="rover", title="Rover", tasks=_tasks, read=_read, checks=_checks, figures=_figures, series=_series)

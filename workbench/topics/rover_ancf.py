@@ -1,0 +1,188 @@
+"""Topic: the rover on six ANCF tires beside the one on brush tires, figure by figure of the thesis.
+
+Verified by tests/unit/test_workbench_rover_ancf.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from contracts.errors import InputError
+from contracts.records import Check, Role
+from contracts.series import TimeSeries
+from workbench.checks.rules import Claim, at_least, at_most, near
+from workbench.comparison.results import model_curves
+from workbench.comparison.rover_ancf_results import OBSERVED, AncfRover, Drive, read_drive
+from workbench.execution.task import Task
+from workbench.graph.fe import FILES
+from workbench.study.model import Study
+from workbench.topics.topic import Topic
+
+if TYPE_CHECKING:
+    from workbench.comparison.comparison import Comparison
+
+__all__ = ["LONG", "ROVER_ANCF", "SHORT", "runs_of"]
+
+SHORT = {
+    "static": 2.0,
+    "drop": 1.0,
+    "load_sweep": 5.0,
+    "load_sweep_between": 5.0,
+    "straight": 9.0,
+    "traction": 10.0,
+    "traction_half_step": 10.0,
+    "traction_fine_grid": 9.0,
+    "slope_up": 4.0,
+    "slope_down": 3.0,
+    "slope_across": 4.0,
+    "step": 5.0,
+}
+LONG = {"traction_whole": 120.0, "crevasse": 40.0, "point_turn": 16.0, "rocks": 11.0}
+"""Run -> processor time it takes about [s]; names as in `workbench.tasks.rover_ancf_runs`."""
+
+
+def runs_of(study: Study) -> Sequence[str]:
+    """Names of the runs a study asks for."""
+    return {"none": (), "short": tuple(SHORT), "all": (*SHORT, *LONG)}[study.rover.on_ancf_tires]
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    return [
+        Task(
+            name=f"rover_ancf_{name}",
+            function="workbench.tasks.rover_ancf:drive_on_ancf_tires",
+            inputs={"run": name},
+            sources=(
+                *FILES,
+                "rover_dynamics",
+                "ancf_reduced",
+                "workbench.tasks.rover_tires",
+                "workbench.tasks.rover_ancf_runs",
+            ),
+            libraries=("numpy", "numba", "scipy"),
+            cost=(SHORT | LONG)[name],
+            resumable=True,
+        )
+        for name in runs_of(study)
+    ]
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> AncfRover:
+    brush = [name for name in (*SHORT, *LONG) if f"rover_{name}" in folders]
+    return AncfRover(
+        runs={name: read_drive(folders[f"rover_ancf_{name}"], name, "ancf") for name in runs_of(study)},
+        brush={name: read_drive(folders[f"rover_{name}"], name, "brush") for name in brush},
+        fe=model_curves("fe", folders).average,
+    )
+
+
+def _claim(name: str, title: str, quantity: str, unit: str, source: str, *, gate: bool = False) -> Claim:
+    role: Role = "gate" if gate else "finding"
+    title = f"Rover on ANCF tires, {title}"
+    return Claim(id=f"rover_ancf.{name}", title=title, quantity=quantity, unit=unit, role=role, source=source)
+
+
+def _checks(study: Study, found: Comparison, results: AncfRover) -> Sequence[Check]:
+    thesis = "Samarini 2020, section 3"
+    load = _claim("load", "static equilibrium", "mean wheel load", "N", "320 kg on Mars, six wheels", gate=True)
+    times = _claim(
+        "period",
+        "straight path: period of the deflection",
+        "period",
+        "s",
+        "a quarter turn at the measured spin",
+        gate=True,
+    )
+    speed = _claim("speed", "straight path: speed between 15 and 35 s", "speed", "m/s", f"{thesis}, Fig. 23")
+    drop = _claim("drop", "drop of 10 mm: the tires carry the rover", "time reached", "s", f"{thesis}, Figs 18 and 19")
+    checks = [
+        near(load, lambda: results["static"].value("mean wheel load at the end"), 197.92, 2e-3),
+        near(times, lambda: results.deflection_period, results.number("quarter_turn") or 0.0, 0.02),
+        near(speed, lambda: results["straight"].value("mean speed between 15 and 35 s"), 70.0 / 3600.0, 0.05),
+        at_least(drop, partial(_reached, results["drop"]), 1.0),
+        *_traction_checks(results, thesis),
+    ]
+    return [*checks, *_sweep_checks(results), *_mission_checks(results)]
+
+
+def _reached(drive: Drive) -> float:
+    """Last time of a motion [s]."""
+    drive.column(f"{OBSERVED}_load_N")
+    assert drive.series is not None
+    return float(drive.series.time[-1])
+
+
+def _traction_checks(results: AncfRover, thesis: str) -> list[Check]:
+    ancf = _claim(
+        "ripple", "3.5 N m: tractive force oscillates", "rms of the force's ripple", "N", f"{thesis}, Fig. 25"
+    )
+    checks = [at_least(ancf, lambda: results.force_ripple("traction"), 1.0)]
+
+    def kept(name: str) -> float:
+        return results.force_ripple(f"traction_{name}") / results.force_ripple("traction")
+
+    for name, what in (("half_step", "half the step"), ("fine_grid", "twice the contact points")):
+        claim = _claim(
+            f"ripple_{name}", f"3.5 N m, {what}: the ripple stays", "rms over that of before", "-", "our own"
+        )
+        checks.append(near(claim, partial(kept, name), 1.0, 0.2))
+    return checks
+
+
+def _sweep_checks(results: AncfRover) -> list[Check]:
+    """How far the deflections lie off the FE average over the sweep."""
+    claim = _claim(
+        "sweep",
+        "load sweep, on and between spokes: largest distance from the FE average",
+        "difference / deflection of the FE average",
+        "-",
+        "Samarini 2020, Fig. 22",
+    )
+
+    def largest() -> float:
+        misses = [abs(d / fe - 1.0) for _, _, d, fe in results.sweep if np.isfinite(fe)]
+        if not misses:
+            raise InputError("load sweep", "no load", "is shared with the FE average", "raise fe.max_load")
+        return max(misses)
+
+    return [at_most(claim, largest, 0.10)]
+
+
+def _mission_checks(results: AncfRover) -> list[Check]:
+    source, checks = "mission requirements, Samarini 2020, section 1", []
+    for k, (title, quantity, ours, _, _) in enumerate(results.requirements):
+        if ours is None:
+            claim = _claim(f"mission_{k + 1}", f"{title}: the run reaches its end", "run", "-", source)
+            checks.append(at_least(claim, lambda: 0.0, 1.0))
+            continue
+        claim = _claim(f"mission_{k + 1}", f"{title}: {quantity}", quantity, ours.unit, source)
+        rule = at_least if ours.at_least else at_most
+        checks.append(rule(claim, partial(float, ours.value), ours.limit or 0.0))
+    return checks
+
+
+def _figures(study: Study, results: AncfRover) -> Mapping[str, str]:
+    from workbench.figures.rover_ancf import rover_ancf_figures
+
+    return rover_ancf_figures(results)
+
+
+def _series(study: Study, results: AncfRover) -> Sequence[TimeSeries]:
+    return [drive.series for drive in results.runs.values() if drive.series is not None]
+
+
+ROVER_ANCF = Topic(
+    name="rover_ancf",
+    title="Rover on ANCF tires",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    figures=_figures,
+    series=_series,
+    applies=lambda study: study.rover.on_ancf_tires != "none",
+)

@@ -1,0 +1,91 @@
+"""Topic of the report: largest stress against yield along every curve, and the load at first yield.
+
+Verified by tests/unit/test_workbench_yielding.py and tests/end_to_end/test_report.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from contracts.records import Check
+from workbench.checks.rules import Claim, at_least
+from workbench.comparison.results import model_curves
+from workbench.comparison.yielding import FirstYield, first_yield, smallest_yield_load, utilisation
+from workbench.execution.task import Task
+from workbench.study.model import Study
+from workbench.study.model_parameters import part_materials
+from workbench.topics.topic import Topic
+
+__all__ = ["STRENGTH", "StrengthResults"]
+
+_LARGEST_WHEEL_LOAD = 250.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StrengthResults:
+    """FE curves by orientation [deg], yield strengths by part [Pa], first yield by orientation and by part.
+
+    Orientations of which no point converged are ``missing`` [deg] and nowhere else.
+    """
+
+    curves: Mapping[float, StiffnessCurve]
+    missing: Sequence[float]
+    yield_strength: Mapping[str, float]
+    by_orientation: Mapping[float, FirstYield]
+    by_part: Mapping[str, tuple[float, FirstYield]]
+
+
+def _no_tasks(study: Study) -> Sequence[Task]:
+    return ()
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
+    fe = model_curves("fe", folders)
+    curves = fe.loaded
+    strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
+    stressed = {part: s for part, s in strength.items() if any(utilisation(c, {part: s}) for c in curves.values())}
+    by_part = {}
+    for part, value in stressed.items():
+        found = {o: first_yield(curve, {part: value}) for o, curve in curves.items()}
+        weakest = min(found, key=lambda o: (found[o].part is None, found[o].load))
+        by_part[part] = (weakest, found[weakest])
+    return StrengthResults(
+        curves=curves,
+        missing=tuple(fe.missing),
+        yield_strength=stressed,
+        by_orientation={o: first_yield(curve, stressed) for o, curve in curves.items()},
+        by_part=by_part,
+    )
+
+
+def _checks(study: Study, found: object, results: StrengthResults) -> list[Check]:
+    claim = Claim(
+        id="fe.first_yield_load",
+        title="FE: smallest load of any orientation at which a part begins to yield (or where the curve ends)",
+        quantity="load",
+        unit="N",
+        role="finding",
+        source="yield strengths of the study's materials; 250 N is the upper wheel load of the thesis' sweep",
+    )
+
+    def smallest() -> float:
+        if results.missing:
+            raise InputError("curve", f"{results.missing[0]:g} deg", "is missing", "see its run's message")
+        return smallest_yield_load(list(results.by_orientation.values()), _LARGEST_WHEEL_LOAD)
+
+    return [at_least(claim, smallest, _LARGEST_WHEEL_LOAD)]
+
+
+def _figures(study: Study, results: StrengthResults) -> dict[str, str]:
+    from workbench.figures.environment import strength_figures
+
+    return strength_figures(results)
+
+
+STRENGTH: Topic = Topic(
+    name="strength", title="Strength", tasks=_no_tasks, read=_read, checks=_checks, figures=_figures
+)

@@ -1,0 +1,112 @@
+"""Topic: finite elements and ANCF plates on benchmarks with known answers, solved by the same calls as the wheel.
+
+Verified by tests/unit/test_workbench_verification.py and tests/end_to_end/test_verification.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from contracts.records import Check
+from workbench.checks.verification import BENCHMARKS
+from workbench.checks.verification_ancf import ANCF_BENCHMARKS
+from workbench.comparison.verification_lines import Benchmark, Reader, benchmark_lines
+from workbench.execution.result_files import read_result
+from workbench.execution.task import Task
+from workbench.graph.fe import FE, FILES, Origin
+from workbench.study.model import Study
+from workbench.topics.topic import Topic
+
+if TYPE_CHECKING:
+    from workbench.comparison.comparison import Comparison
+
+__all__ = ["VERIFICATION", "ModelVerification", "Verification"]
+
+_RUNS = "workbench.tasks.benchmark_runs"
+_FE = Origin(sources=(*FE["sources"], _RUNS), libraries=FE["libraries"])
+_ANCF = Origin(sources=(*FILES, "geometry", "ancf_reduced", _RUNS), libraries=("numpy", "numba", "scipy"))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelVerification:
+    """Benchmarks of one model in the order of the page, and the numbers of each task for the figures."""
+
+    benchmarks: tuple[Benchmark, ...]
+    numbers: Mapping[str, Mapping[str, Any]]
+
+    @property
+    def mesh_studies(self) -> dict[str, Mapping[str, float]]:
+        """Title of each benchmark with several meshes -> mesh -> error [-]."""
+        titles = {b.name: b.title for b in self.benchmarks}
+        return {titles[name]: numbers["meshes"] for name, numbers in self.numbers.items() if "meshes" in numbers}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Verification:
+    """Both models."""
+
+    fe: ModelVerification
+    ancf: ModelVerification
+
+    @property
+    def benchmarks(self) -> tuple[Benchmark, ...]:
+        """All of them, in the order of the page."""
+        return (*self.fe.benchmarks, *self.ancf.benchmarks)
+
+    @property
+    def failed(self) -> list[Check]:
+        """Checks that did not pass, those of the negative controls included."""
+        return [check for b in self.benchmarks for check in b.checks if check.status != "pass"]
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    return [
+        *(_task(name, "workbench.tasks.verification", 5.0, _FE) for name in BENCHMARKS),
+        *(_task(name, "workbench.tasks.verification_ancf", 2.0, _ANCF) for name in ANCF_BENCHMARKS),
+    ]
+
+
+def _task(benchmark: str, module: str, cost: float, origin: Origin) -> Task:
+    inputs = {"benchmark": benchmark}
+    return Task(name=_task_name(benchmark), function=f"{module}:run_benchmark", inputs=inputs, cost=cost, **origin)
+
+
+def _task_name(benchmark: str) -> str:
+    return f"verify_{benchmark}"
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> Verification:
+    def of(readers: Mapping[str, Reader]) -> ModelVerification:
+        numbers = {name: read_result(folders[_task_name(name)]) for name in readers}
+        return ModelVerification(benchmarks=benchmark_lines(readers, numbers), numbers=numbers)
+
+    return Verification(fe=of(BENCHMARKS), ancf=of(ANCF_BENCHMARKS))
+
+
+def _checks(study: Study, found: Comparison, results: Verification) -> Sequence[Check]:
+    return [check for benchmark in results.benchmarks for check in benchmark.checks]
+
+
+def _figures(study: Study, results: Verification) -> Mapping[str, str]:
+    from workbench.figures.verification import verification_figures
+    from workbench.figures.verification_ancf import ancf_verification_figures
+
+    return verification_figures(results.fe.numbers) | ancf_verification_figures(results.ancf.numbers)
+
+
+def _applies(study: Study) -> bool:
+    return study.verification.enabled
+
+
+VERIFICATION = Topic(
+    name="verification",
+    title="Verification",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    figures=_figures,
+    applies=_applies,
+)
