@@ -72,5 +72,5 @@ $(READY): constraints.txt pyproject.toml .python-version
 	if ! $(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 12))' 2>/dev/null; then \
 	  "$$uv" venv --quiet --clear --python "$$(cat .python-version)" $(VENV); \
 	fi; \
-	"$$uv" pip install --quiet --python $(PYTHON) --constraints constraints.txt --build-constraints constraints.txt --group dev --editable . ; \
+	"$$uv" pip install --quiet --python $(PYTHON) --constraints constraints.txt --build-constraints constraints.txt --group dev --group docs --editable . ; \
 	touch $@
