@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from contracts.errors import InputError
+from rover_dynamics.multibody.step_lengths import StepLengths
 
 __all__ = ["EvenSteps"]
 
@@ -17,38 +17,17 @@ _GROW = 0.06
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class EvenSteps:
-    """Lengths are halved and doubled only.
+class EvenSteps(StepLengths):
+    """Lengths are halved and doubled only; fields as in `StepLengths`.
 
-    Attributes
-    ----------
-    tolerance : estimated error of a step in joint coordinates and positions of nodes [m, rad]; what the default leaves
-        in motions of the rover is in benchmarks/README.md
-    first, shortest, longest : steps [s]
-    spectral_radius : at infinity, from 0 to 1; below one the highest frequencies are damped [-]
-
-    Raises
-    ------
-    InputError
-        For a length or tolerance that is not above zero, lengths out of order, or a radius that is none.
+    What the default tolerance leaves in motions of the rover is in benchmarks/README.md. The coordinates of its error
+    are those of the joints and the positions of nodes.
     """
 
     tolerance: float = 1e-5
     first: float = 1e-3
     shortest: float = 1e-7
     longest: float = 0.05
-    spectral_radius: float = 0.6
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.tolerance) and self.tolerance > 0.0):
-            value = f"{self.tolerance:g} m or rad"
-            raise InputError("error allowed in a step", value, "must be finite and > 0", "give e.g. 1e-5")
-        if not (0.0 < self.shortest <= self.first <= self.longest < math.inf):
-            value = f"{self.shortest:g}, {self.first:g}, {self.longest:g} s"
-            rule = "must be above zero, finite and in this order"
-            raise InputError("shortest, first and longest step", value, rule, "give e.g. 1e-7, 1e-3 and 0.05 s")
-        if not 0.0 <= self.spectral_radius <= 1.0:
-            raise InputError("spectral radius", f"{self.spectral_radius:g}", "must lie in 0 ... 1", "give e.g. 0.6")
 
     def towards(self, left: float, length: float) -> float:
         """Length with ``left`` to go to the next output: the wish, or less so that equal steps get there [s]."""

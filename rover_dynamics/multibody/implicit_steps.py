@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 
 from contracts.errors import InputError
+from rover_dynamics.multibody.step_lengths import StepLengths
 
 __all__ = ["ImplicitSteps"]
 
@@ -16,39 +17,25 @@ _SAFETY, _GROWTH, _FAILED = 0.85, 2.0, 0.25
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ImplicitSteps:
+class ImplicitSteps(StepLengths):
     """How steps are chosen: the local error of second-order steps grows with the third power of their length.
 
     Attributes
     ----------
-    tolerance : estimated error of a step in the joint coordinates [m, rad]
-    first, shortest, longest : steps [s]
-    spectral_radius : at infinity, from 0 to 1; below one the highest frequencies are damped [-]
     fixed : length of all steps, but the last ones before an output, without error control [s]; None for error control
+
+    The others are those of `StepLengths`; the coordinates of the error are those of the joints.
 
     Raises
     ------
     InputError
-        For a length or tolerance that is not above zero, lengths out of order, or a radius that is none.
+        As `StepLengths` does, and for a fixed length that is not above zero.
     """
 
-    tolerance: float = 1e-6
-    first: float = 1e-4
-    shortest: float = 1e-9
-    longest: float = 0.02
-    spectral_radius: float = 0.6
     fixed: float | None = None
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.tolerance) and self.tolerance > 0.0):
-            value = f"{self.tolerance:g} m or rad"
-            raise InputError("error allowed in a step", value, "must be finite and > 0", "give e.g. 1e-6")
-        if not (0.0 < self.shortest <= self.first <= self.longest < math.inf):
-            value = f"{self.shortest:g}, {self.first:g}, {self.longest:g} s"
-            rule = "must be above zero, finite and in this order"
-            raise InputError("shortest, first and longest step", value, rule, "give e.g. 1e-9, 1e-4 and 0.02 s")
-        if not 0.0 <= self.spectral_radius <= 1.0:
-            raise InputError("spectral radius", f"{self.spectral_radius:g}", "must lie in 0 ... 1", "give e.g. 0.6")
+        super(ImplicitSteps, self).__post_init__()
         if self.fixed is not None and not 0.0 < self.fixed < math.inf:
             raise InputError("fixed step", f"{self.fixed:g} s", "must be finite and > 0", "leave it out")
 
