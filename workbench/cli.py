@@ -9,16 +9,23 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
-from typer.core import TyperGroup
 from typer.exceptions import TyperException
 
 from contracts.errors import WorkbenchError
-
-if TYPE_CHECKING:
-    from workbench.execution.runner import Computing
+from workbench.commands.options import (
+    DEFAULT_STORE,
+    DefaultCommand,
+    Ranks,
+    Scheduler,
+    StoreOption,
+    StudyArgument,
+    Workers,
+    computing,
+)
+from workbench.commands.results_app import results_app
 
 __all__ = ["app", "main"]
 
@@ -32,37 +39,21 @@ app = typer.Typer(
 )
 
 
-class _ThicknessByDefault(TyperGroup):
+class _ThicknessByDefault(DefaultCommand):
     """``workbench calibrate STUDY`` means ``workbench calibrate thickness STUDY``."""
 
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        if not args or (args[0] not in self.commands and args[0] != "--help"):
-            args = ["thickness", *args]
-        return super().parse_args(ctx, args)
+    default = "thickness"
 
 
 calibrate_app = typer.Typer(
     cls=_ThicknessByDefault, help="Strip thickness for an initial tangent (the default), or the fit of the ANCF tire."
 )
 app.add_typer(calibrate_app, name="calibrate")
+app.add_typer(results_app, name="results")
 
-StudyArgument = Annotated[Path, typer.Argument(help="Study file (TOML).", show_default=False)]
 StudyOrBuiltIn = Annotated[
     Path | None, typer.Argument(help="Study file (TOML); the built-in ExoMars study if left out.", show_default=False)
 ]
-Store = Annotated[Path, typer.Option(envvar="WORKBENCH_STORE", help="Folder where results are kept and found again.")]
-Workers = Annotated[
-    int | None,
-    typer.Option(
-        min=1, max=256, help="Tasks that run at once. Default: 2, or as many as the cores hold.", show_default=False
-    ),
-]
-Ranks = Annotated[int, typer.Option(min=1, max=256, help="MPI processes for each finite element task.")]
-Scheduler = Annotated[
-    str | None,
-    typer.Option(help="Address of a Dask scheduler, tcp://host:port; its workers compute.", show_default=False),
-]
-DEFAULT_STORE = Path("build/store")
 
 
 @app.command()
@@ -71,7 +62,7 @@ def report(
     out: Annotated[Path, typer.Option(help="Folder of report.html, summary.json, junit.xml and curves.")] = Path(
         "build/report"
     ),
-    store: Store = DEFAULT_STORE,
+    store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
     ranks: Ranks = 1,
     scheduler: Scheduler = None,
@@ -82,7 +73,7 @@ def report(
     """Compute everything a study asks for, compare, and write the report."""
     from workbench.commands.report import run_report
 
-    raise typer.Exit(run_report(study, out, store, _computing(workers, ranks, scheduler), full=full))
+    raise typer.Exit(run_report(study, out, store, computing(workers, ranks, scheduler), full=full))
 
 
 @app.command()
@@ -95,7 +86,7 @@ def mesh(
     ] = None,
     orientation: Annotated[float, typer.Option(help="ancf: what faces the ground, in degrees.")] = 0.0,
     out: Annotated[Path, typer.Option(help="Folder of the mesh files.")] = Path("build/mesh"),
-    store: Store = DEFAULT_STORE,
+    store: StoreOption = DEFAULT_STORE,
 ) -> None:
     """Build and check the mesh; write .msh, .vtu, .step, a summary and a picture. Of the ANCF tire: .step."""
     from workbench.commands.mesh import run_mesh_of
@@ -111,7 +102,7 @@ def stiffness(
         list[float] | None, typer.Option(help="Degrees; may be given several times. Default: those of the study.")
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
-    store: Store = DEFAULT_STORE,
+    store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
     ranks: Ranks = 1,
     scheduler: Scheduler = None,
@@ -119,8 +110,8 @@ def stiffness(
     """Stiffness curves of one model."""
     from workbench.commands.stiffness import run_stiffness
 
-    computing = _computing(workers, ranks, scheduler)
-    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, computing))
+    who = computing(workers, ranks, scheduler)
+    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who))
 
 
 @calibrate_app.command("thickness")
@@ -130,7 +121,7 @@ def calibrate_thickness(
         str | None, typer.Option(help="Initial tangent, e.g. '8.25 N/mm'; that of the study's reference if left out.")
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of calibration.json and the study.")] = Path("build/calibration"),
-    store: Store = DEFAULT_STORE,
+    store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
     ranks: Ranks = 1,
     scheduler: Scheduler = None,
@@ -138,7 +129,7 @@ def calibrate_thickness(
     """Find the strip thickness for an initial tangent: section model first, confirmed by the solid one. The default."""
     from workbench.commands.calibrate import run_calibrate
 
-    raise typer.Exit(run_calibrate(study, target, out, store, _computing(workers, ranks, scheduler)))
+    raise typer.Exit(run_calibrate(study, target, out, store, computing(workers, ranks, scheduler)))
 
 
 @calibrate_app.command("ancf")
@@ -150,7 +141,7 @@ def calibrate_ancf(
     out: Annotated[Path, typer.Option(help="Folder of ancf_fit.json, the curves and the study.")] = Path(
         "build/calibration"
     ),
-    store: Store = DEFAULT_STORE,
+    store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
     ranks: Ranks = 1,
     scheduler: Scheduler = None,
@@ -158,7 +149,7 @@ def calibrate_ancf(
     """Fit the ANCF tire to the finite element curves of every orientation."""
     from workbench.commands.calibrate_ancf import run_calibrate_ancf
 
-    raise typer.Exit(run_calibrate_ancf(study, tire, out, store, _computing(workers, ranks, scheduler)))
+    raise typer.Exit(run_calibrate_ancf(study, tire, out, store, computing(workers, ranks, scheduler)))
 
 
 @app.command()
@@ -183,7 +174,7 @@ def rover(
     ] = None,
     rocks: Annotated[int | None, typer.Option(help="Seed of random rocks to drive on.", show_default=False)] = None,
     out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/rover"),
-    store: Store = DEFAULT_STORE,
+    store: StoreOption = DEFAULT_STORE,
     animate: Annotated[bool, typer.Option("--animate", help="Write a page that plays it; about a minute.")] = False,
     names: Annotated[bool, typer.Option("--list", help="Show the scenarios.")] = False,
 ) -> None:
@@ -214,12 +205,6 @@ def doctor() -> None:
     from workbench.commands.doctor import run_doctor
 
     raise typer.Exit(run_doctor())
-
-
-def _computing(workers: int | None, ranks: int, scheduler: str | None) -> Computing:
-    from workbench.execution.runner import Computing
-
-    return Computing(workers=workers or max(1, min(2, os.cpu_count() or 1) // ranks), ranks=ranks, scheduler=scheduler)
 
 
 def main() -> None:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from workbench.execution.errors import RunError
+from workbench.execution.inventory import results
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task, task_keys
@@ -24,6 +27,9 @@ class Recorder:
 
     def __init__(self) -> None:
         self.events: list[tuple[str, str]] = []
+
+    def damaged(self, name: str, fault: str) -> None:
+        self.events.append(("damaged", f"{name}: {fault}"))
 
     def started(self, name: str) -> None:
         self.events.append(("started", name))
@@ -77,6 +83,55 @@ def test_a_changed_input_recomputes_what_depends_on_it_only(tmp_path: Path) -> N
     entries = run_tasks(_graph(tmp_path, a=2.0), store, recorder)
     assert (entries["c"].path / "sum.txt").read_text(encoding="utf-8") == "112.0"
     assert {name for kind, name in recorder.events if kind == "computed"} == {"a", "c"}
+
+
+def test_a_damaged_result_is_told_and_computed_again(tmp_path: Path) -> None:
+    store = Store(tmp_path / "store")
+    entries = run_tasks(_graph(tmp_path), store, Recorder())
+    (entries["b"].path / "sum.txt").write_text("10.1", encoding="utf-8")
+    recorder = Recorder()
+    again = run_tasks(_graph(tmp_path), store, recorder)
+    told = [text for kind, text in recorder.events if kind == "damaged"]
+    assert told == ["b: sum.txt has been changed since it was stored"]
+    assert [name for kind, name in recorder.events if kind == "computed"] == ["b"]
+    assert (again["b"].path / "sum.txt").read_text(encoding="utf-8") == "10.0"
+
+
+def _run_graph(folder: Path, start: float) -> None:
+    while time.time() < start:
+        time.sleep(0.001)
+    entries = run_tasks(_graph(folder), Store(folder / "store"), Recorder())
+    assert (entries["c"].path / "sum.txt").read_text(encoding="utf-8") == "111.0"
+
+
+def test_two_processes_at_once_on_one_store_each_have_every_result_whole(tmp_path: Path) -> None:
+    """Two runs of the same graph with workers of their own, started together: nothing torn, one entry for each key."""
+    context = multiprocessing.get_context("spawn")
+    processes = [context.Process(target=_run_graph, args=(tmp_path, time.time() + 2.0)) for _ in range(2)]
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join()
+    assert [process.exitcode for process in processes] == [0, 0]
+    store, keys = Store(tmp_path / "store"), task_keys(tuple(_graph(tmp_path)))
+    assert {one.name: one.fault for one in results(store, check=True)} == dict.fromkeys(keys.values(), "")
+    assert list((store.root / "tmp").iterdir()) == []
+
+
+def test_what_stands_before_a_slash_is_no_part_of_a_key(tmp_path: Path) -> None:
+    """In a graph of several studies a task keeps the key it has in its own; its function sees the bare names."""
+    plain, scoped = (
+        _graph(tmp_path),
+        [
+            replace(task, name=f"p1/{task.name}", needs=tuple(f"p1/{need}" for need in task.needs))
+            for task in _graph(tmp_path)
+        ],
+    )
+    keys = task_keys(tuple(plain))
+    assert task_keys(tuple(scoped)) == {f"p1/{name}": key for name, key in keys.items()}
+    entries = run_tasks(scoped, Store(tmp_path / "store"), Recorder())
+    assert entries["p1/c"].manifest["task"] == "c"
+    assert entries["p1/c"].manifest["needs"] == {"a": keys["a"], "b": keys["b"]}
 
 
 def test_key_depends_on_inputs_needs_source_and_libraries() -> None:

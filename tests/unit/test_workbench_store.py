@@ -37,9 +37,19 @@ def test_what_is_put_is_found_again(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "damage", ["edit", "truncate", "remove file", "remove manifest", "cut manifest", "odd manifest"]
+    ("damage", "told"),
+    [
+        ("edit", "a.txt has been changed since it was stored"),
+        ("truncate", "a.txt has 0 of 6 bytes"),
+        ("append", "a.txt has grown"),
+        ("remove file", "b.txt is missing"),
+        ("remove manifest", "manifest.json is missing"),
+        ("cut manifest", "manifest.json cannot be read"),
+        ("odd manifest", "manifest.json cannot be read"),
+        ("foreign manifest", "manifest.json belongs to another result"),
+    ],
 )
-def test_a_damaged_entry_is_not_trusted_and_is_replaced(tmp_path: Path, damage: str) -> None:
+def test_a_damaged_entry_is_told_not_trusted_and_replaced(tmp_path: Path, damage: str, told: str) -> None:
     store = Store(tmp_path)
     _put(store)
     folder = store.folder(KEY)
@@ -48,6 +58,10 @@ def test_a_damaged_entry_is_not_trusted_and_is_replaced(tmp_path: Path, damage: 
         (folder / "a.txt").write_text("resulT", encoding="utf-8")
     elif damage == "truncate":
         (folder / "a.txt").write_text("", encoding="utf-8")
+    elif damage == "append":
+        (folder / "a.txt").write_text("results", encoding="utf-8")
+    elif damage == "foreign manifest":
+        manifest.write_text(manifest.read_text(encoding="utf-8").replace(KEY, "0" * 64), encoding="utf-8")
     elif damage == "remove file":
         (folder / "sub" / "b.txt").unlink()
     elif damage == "remove manifest":
@@ -57,8 +71,10 @@ def test_a_damaged_entry_is_not_trusted_and_is_replaced(tmp_path: Path, damage: 
     else:
         manifest.write_text("[1, 2]", encoding="utf-8")
     assert store.get(KEY) is None
+    assert store.fault(KEY) == told
     _put(store)
     assert store.get(KEY) is not None
+    assert store.fault(KEY) == ""
     assert list((tmp_path / "tmp").iterdir()) == []
 
 

@@ -49,7 +49,7 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     check_folder(out)
     name = f"{path.stem}_calibrated.toml"
     check_targets(out, ("calibration.json", name))
-    runs = _Runs(study=study, store=Store(store), computing=computing)
+    runs = _Runs(study=study, store=Store(store, study=path.stem), computing=computing)
     found = calibrate(wanted, runs.tangent("section"), runs.tangent("fe"))
     note = f"strip thickness found by workbench calibrate for an initial tangent of {wanted * 1e-3:g} N/mm"
     thickness = strip_thicknesses(study, found.corrected.factor)

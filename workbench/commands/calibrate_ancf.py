@@ -48,7 +48,7 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     check_targets(out, ("ancf_fit.json", name))
     tasks = _with_needs(fit_tasks(study), report_tasks(study, path.parent))
     with RunDisplay(console, len(tasks)) as display:
-        entries = run_tasks(tasks, Store(store), display, computing)
+        entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
     own = read_fit("own", entries[AS_IT_IS].path)
     tires = [read_fit(t.name, entries[fit_name(t.name)].path) for t in section.tires]
     kept = next(t for t in tires if t.name == section.kept.name)

@@ -40,6 +40,10 @@ class RunDisplay:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         self.progress.stop()
 
+    def damaged(self, name: str, fault: str) -> None:
+        """Say so, in one line."""
+        self._say(f"{name}: its stored result is damaged ({fault}); computed again")
+
     def started(self, name: str) -> None:
         """Add a bar for the task."""
         self.bars[name] = self.progress.add_task(name, total=1.0)

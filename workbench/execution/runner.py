@@ -11,16 +11,17 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
+from workbench.execution.live_runs import announce
 from workbench.execution.local_workers import LocalWorkers
 from workbench.execution.ranks import mpiexec
 from workbench.execution.store import Entry, Store
-from workbench.execution.task import Task, task_keys
+from workbench.execution.task import Task, bare_name, task_keys
 
-__all__ = ["RESTARTS", "Computing", "Listener", "Workers", "run_tasks"]
+__all__ = ["RESTARTS", "Computing", "Ended", "Listener", "Workers", "run_all", "run_tasks"]
 
 RESTARTS = 2
 """How often a task is started again after its worker died under it."""
@@ -42,8 +43,19 @@ class Computing:
     scheduler: str | None = None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ended:
+    """What a run leaves: results by task name, and by task name why there is none."""
+
+    entries: dict[str, Entry]
+    failures: dict[str, str]
+
+
 class Listener(Protocol):
     """Hears what happens to tasks; the command line shows it."""
+
+    def damaged(self, name: str, fault: str) -> None:
+        """The stored result of the task is damaged, in these words; it will be computed again."""
 
     def started(self, name: str) -> None:
         """The task began to run."""
@@ -83,17 +95,7 @@ class Workers(Protocol):
 def run_tasks(
     tasks: Sequence[Task], store: Store, listener: Listener, computing: Computing | None = None
 ) -> dict[str, Entry]:
-    """Run every task that the store does not hold yet.
-
-    A worker that dies costs no more than what its task did since its last checkpoint: the task starts again, twice at
-    most. A task that fails stops those that need it; all others run to their end before the error is raised.
-
-    Parameters
-    ----------
-    tasks : graph in an order where each task follows those it needs
-    store : where results are found and kept
-    listener : told of every start, progress and end
-    computing : who computes; two local processes if left out
+    """Run every task that the store does not hold yet; as `run_all`, but a failure is an error at the end.
 
     Returns
     -------
@@ -104,21 +106,50 @@ def run_tasks(
     RunError
         If a task fails, its workers die again and again, or the user interrupts; what had finished stays in the store.
     """
+    ended = run_all(tasks, store, listener, computing)
+    if ended.failures:
+        raise RunError("; ".join(ended.failures.values()))
+    return ended.entries
+
+
+def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: Computing | None = None) -> Ended:
+    """Run every task that the store does not hold yet, to the end of all that can be computed.
+
+    A worker that dies costs no more than what its task did since its last checkpoint: the task starts again, twice at
+    most. A task that fails stops those that need it, and no other. A stored result that is damaged is told of and
+    computed again.
+
+    Parameters
+    ----------
+    tasks : graph in an order where each task follows those it needs
+    store : where results are found and kept
+    listener : told of every start, progress and end
+    computing : who computes; two local processes if left out
+
+    Raises
+    ------
+    RunError
+        If nobody can compute, or the user interrupts; what had finished stays in the store.
+    """
     store.sweep()
     keys = task_keys(tuple(tasks))
+    announce(store.root, keys.values())
     entries: dict[str, Entry] = {}
     for task in tasks:
         entry = store.get(keys[task.name])
         if entry is not None:
             entries[task.name] = entry
             listener.finished(task.name, entry, reused=True)
+        elif fault := store.fault(keys[task.name]):
+            listener.damaged(task.name, fault)
     waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -t.cost)
-    if waiting:
-        log = store.root / "log" / f"run-{os.getpid()}.log"
-        computing = computing or Computing()
-        workers = _workers(computing, len(waiting), log)
-        _Run(store, keys, listener, workers, computing.ranks).run(waiting, entries)
-    return entries
+    if not waiting:
+        return Ended(entries=entries, failures={})
+    log = store.root / "log" / f"run-{os.getpid()}.log"
+    computing = computing or Computing()
+    run = _Run(store, keys, listener, _workers(computing, len(waiting), log), computing.ranks)
+    run.run(waiting, entries)
+    return Ended(entries=entries, failures=run.failures)
 
 
 def _workers(computing: Computing, tasks: int, log: Path) -> Workers:
@@ -138,7 +169,7 @@ class _Run:
         self.store, self.keys, self.listener, self.workers, self.ranks = store, keys, listener, workers, ranks
         self.running: dict[str, tuple[Task, Path]] = {}
         self.restarts: Counter[str] = Counter()
-        self.failures: list[str] = []
+        self.failures: dict[str, str] = {}
 
     def run(self, waiting: list[Task], entries: dict[str, Entry]) -> None:
         """Dispatch until nothing can start and nothing runs; always ends the workers."""
@@ -152,8 +183,6 @@ class _Run:
             self.workers.stop()
             for _, folder in self.running.values():
                 shutil.rmtree(folder, ignore_errors=True)
-        if self.failures:
-            raise RunError("; ".join(self.failures))
 
     def _dispatch(self, waiting: list[Task], entries: Mapping[str, Entry]) -> bool:
         """Start what can start; whether anything did."""
@@ -162,7 +191,7 @@ class _Run:
             waiting.remove(task)
             folder = self.store.scratch()
             self.running[task.name] = task, folder
-            needs = {name: entries[name].path for name in task.needs}
+            needs = {bare_name(name): entries[name].path for name in task.needs}
             checkpoint = self.store.checkpoint(self.keys[task.name]) if task.resumable else None
             job = Job(
                 name=task.name,
@@ -185,8 +214,9 @@ class _Run:
             return
         task, folder = self.running.pop(name)
         if isinstance(message, Done):
-            record = {"task": name, "inputs": task.inputs, "wall_s": message.wall_s, "dofs": message.dofs}
-            record["needs"] = {needed: self.keys[needed] for needed in task.needs}
+            record: dict[str, Any] = {"task": bare_name(name), "function": task.function, "inputs": task.inputs}
+            record |= {"wall_s": message.wall_s, "dofs": message.dofs, "origin": task.origin()}
+            record["needs"] = {bare_name(needed): self.keys[needed] for needed in task.needs}
             entries[name] = self.store.put(self.keys[name], folder, record)
             self.listener.finished(name, entries[name], reused=False)
             return
@@ -196,8 +226,8 @@ class _Run:
             waiting.insert(0, task)
             self.listener.restarted(name, f"its worker ended with {message.how}")
             return
-        self.failures.append(self._failure(name, message))
-        self.listener.failed(name, self.failures[-1])
+        self.failures[name] = self._failure(name, message)
+        self.listener.failed(name, self.failures[name])
 
     def _failure(self, name: str, message: Failed | Lost) -> str:
         if isinstance(message, Failed):

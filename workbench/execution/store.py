@@ -2,7 +2,7 @@
 
 An entry is the folder ``STORE/ab/abcdef.../`` with result files and ``manifest.json``, which holds the SHA-256 of each
 file. An entry appears by one rename, so that it is whole or absent; one that was damaged later is recognised by its
-checksums and computed again. Verified by tests/unit/test_workbench_store.py.
+checksums, told of and computed again. Verified by tests/unit/test_workbench_store.py.
 """
 
 from __future__ import annotations
@@ -21,11 +21,10 @@ from typing import Any
 
 from contracts.errors import InputError
 from workbench.execution.fingerprint import file_sha256
+from workbench.execution.integrity import MANIFEST, SCHEMA, examined
 
 __all__ = ["MANIFEST", "Entry", "Store"]
 
-MANIFEST = "manifest.json"
-_SCHEMA = 1
 _FORGOTTEN_AFTER = 30 * 86400.0
 """Age at which the checkpoint of a task that nobody started again is dropped [s]."""
 
@@ -57,10 +56,16 @@ class Entry:
 
 
 class Store:
-    """A folder of results, safe against killed runs, damaged files and two runs at once."""
+    """A folder of results, safe against killed runs, damaged files and two runs at once.
 
-    def __init__(self, root: Path) -> None:
-        self.root = root
+    Parameters
+    ----------
+    root : the folder; made if it is not there
+    study : name of the study for which results are computed, recorded with them; says nothing about their keys
+    """
+
+    def __init__(self, root: Path, study: str = "") -> None:
+        self.root, self.study = root, study
         try:
             for name in ("tmp", "log", "checkpoints"):
                 (root / name).mkdir(parents=True, exist_ok=True)
@@ -75,13 +80,12 @@ class Store:
     def get(self, key: str) -> Entry | None:
         """The entry, or None if it is absent, torn or damaged (any file missing or with another checksum)."""
         path = self.folder(key)
-        try:
-            manifest = json.loads((path / MANIFEST).read_text(encoding="utf-8"))
-            whole = manifest["schema"] == _SCHEMA and manifest["key"] == key
-            whole = whole and all(file_sha256(path / name) == digest for name, digest in manifest["files"].items())
-        except (OSError, ValueError, KeyError, TypeError, AttributeError):
-            return None
-        return Entry(key=key, path=path, manifest=manifest) if whole else None
+        manifest, fault = examined(path, key)
+        return None if fault else Entry(key=key, path=path, manifest=manifest)
+
+    def fault(self, key: str) -> str:
+        """What is wrong with the entry, e.g. ``"curve.csv has 100 of 480 bytes"``; ``""`` if it is whole or absent."""
+        return examined(self.folder(key), key)[1] if self.folder(key).exists() else ""
 
     def scratch(self) -> Path:
         """A new empty folder inside the store, to be filled and then handed to ``put``."""
@@ -100,7 +104,9 @@ class Store:
         If another run stored the same key first, its whole entry is kept and ours dropped: both hold the same result.
         """
         files = {p.relative_to(filled).as_posix(): file_sha256(p) for p in sorted(filled.rglob("*")) if p.is_file()}
-        manifest = {**record, "schema": _SCHEMA, "key": key, "files": files, "stored_at": time.time()}
+        sizes = {name: (filled / name).stat().st_size for name in files}
+        about = {"schema": SCHEMA, "key": key, "files": files, "sizes": sizes, "stored_at": time.time()}
+        manifest = {**record, "study": self.study, **about}
         (filled / MANIFEST).write_text(json.dumps(manifest, indent=1, allow_nan=False), encoding="utf-8")
         target = self.folder(key)
         target.parent.mkdir(parents=True, exist_ok=True)

@@ -12,7 +12,7 @@ from typing import Any
 
 from workbench.execution.fingerprint import canonical_json, library_versions, source_hash, text_sha256
 
-__all__ = ["Progress", "Task", "TaskFunction", "task_keys"]
+__all__ = ["Progress", "Task", "TaskFunction", "bare_name", "task_keys"]
 
 type Progress = Callable[[float], None]
 """Called by a task with the fraction done, 0 to 1."""
@@ -30,7 +30,8 @@ class Task:
 
     Attributes
     ----------
-    name : unique in the graph, e.g. ``"fe_phi015"``
+    name : unique in the graph, e.g. ``"fe_phi015"``; in a graph of several studies ``"p3/fe_phi015"``, where what
+        stands before the slash tells them apart and is no part of the key
     function : ``"module:function"``, a TaskFunction, imported in the worker only
     inputs : JSON values only
     needs : names of the tasks whose results it reads
@@ -58,7 +59,7 @@ class Task:
                 {
                     "function": self.function,
                     "inputs": self.inputs,
-                    "needs": {name: needed_keys[name] for name in self.needs},
+                    "needs": {bare_name(name): needed_keys[name] for name in self.needs},
                     **self.origin(),
                 }
             )
@@ -69,6 +70,11 @@ class Task:
         modules = (self.function.partition(":")[0], *self.sources)
         sources = {name: source_hash(name) for name in modules}
         return {"sources": sources, "libraries": library_versions(self.libraries)}
+
+
+def bare_name(name: str) -> str:
+    """Name of a task in a graph of its own: ``"fe_phi015"`` for ``"p3/fe_phi015"``."""
+    return name.rpartition("/")[2]
 
 
 def task_keys(tasks: tuple[Task, ...]) -> dict[str, str]:

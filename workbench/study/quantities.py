@@ -49,6 +49,8 @@ _KINDS = {
     "N/m": ("a stiffness", "8.25 N/mm"),
     "N*s/m": ("a viscous coefficient", "100 N*s/m"),
     "K": ("a temperature", "-40 degC"),
+    "s": ("a duration", "30 d"),
+    "byte": ("a size", "2 GB"),
     "": ("a plain number", "0.3"),
 }
 

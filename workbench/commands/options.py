@@ -1,0 +1,60 @@
+"""Options that several commands have, and who computes by them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+if TYPE_CHECKING:
+    from workbench.execution.runner import Computing
+
+__all__ = [
+    "DEFAULT_STORE",
+    "DefaultCommand",
+    "Ranks",
+    "Scheduler",
+    "StoreOption",
+    "StudyArgument",
+    "Workers",
+    "computing",
+]
+
+StudyArgument = Annotated[Path, typer.Argument(help="Study file (TOML).", show_default=False)]
+StoreOption = Annotated[
+    Path, typer.Option(envvar="WORKBENCH_STORE", help="Folder where results are kept and found again.")
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        min=1, max=256, help="Tasks that run at once. Default: 2, or as many as the cores hold.", show_default=False
+    ),
+]
+Ranks = Annotated[int, typer.Option(min=1, max=256, help="MPI processes for each finite element task.")]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(help="Address of a Dask scheduler, tcp://host:port; its workers compute.", show_default=False),
+]
+DEFAULT_STORE = Path("build/store")
+
+
+class DefaultCommand(TyperGroup):
+    """A group whose first word may be left out: the command named ``default`` is meant then."""
+
+    default = ""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Put the default command in front where no command of the group is named."""
+        if not args or (args[0] not in self.commands and args[0] != "--help"):
+            args = [self.default, *args]
+        return super().parse_args(ctx, args)
+
+
+def computing(workers: int | None, ranks: int, scheduler: str | None) -> Computing:
+    """Who computes, by the options of a command."""
+    from workbench.execution.runner import Computing
+
+    return Computing(workers=workers or max(1, min(2, os.cpu_count() or 1) // ranks), ranks=ranks, scheduler=scheduler)

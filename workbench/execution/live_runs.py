@@ -1,0 +1,84 @@
+"""Which results the runs that live now use: pruning leaves them alone.
+
+Each process that runs tasks keeps one file in ``STORE/runs`` with the keys of its graphs, locked (flock) until the
+process ends, however it ends; a file nobody holds locked is a leftover. Whoever reads or writes these files holds the
+store's own lock, so that a run cannot begin to use a result while it is being removed.
+
+Verified by tests/unit/test_workbench_pruning.py.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import json
+import os
+import socket
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO
+
+__all__ = ["announce", "exclusive", "keys_in_use"]
+
+_FOLDER = "runs"
+_LOCK = "lock"
+
+
+@dataclass(slots=True, kw_only=True)
+class _Announcement:
+    """This process' file and what it says."""
+
+    stream: IO[str]
+    keys: set[str] = field(default_factory=set)
+
+
+_OURS: dict[Path, _Announcement] = {}
+"""By store; open, and so locked, until the process ends."""
+
+
+@contextmanager
+def exclusive(root: Path) -> Iterator[None]:
+    """Hold the store's lock. Where a file system has no locks, nothing is held."""
+    with (root / _LOCK).open("a", encoding="utf-8") as stream:
+        _lock(stream, fcntl.LOCK_EX)
+        yield
+
+
+def announce(root: Path, keys: Iterable[str]) -> None:
+    """Say that this process uses these results until it ends."""
+    with exclusive(root):
+        ours = _OURS.get(root.absolute())
+        if ours is None or not Path(ours.stream.name).exists():
+            (root / _FOLDER).mkdir(exist_ok=True)
+            path = root.absolute() / _FOLDER / f"{socket.gethostname()}-{os.getpid()}.json"
+            ours = _OURS[root.absolute()] = _Announcement(stream=path.open("w", encoding="utf-8"))
+            _lock(ours.stream, fcntl.LOCK_EX)
+        ours.keys.update(keys)
+        ours.stream.seek(0)
+        ours.stream.truncate()
+        json.dump(sorted(ours.keys), ours.stream)
+        ours.stream.flush()
+
+
+def keys_in_use(root: Path) -> frozenset[str]:
+    """Keys of all runs that live, this process' among them; leftovers are removed. Call it in ``exclusive``."""
+    found: set[str] = set()
+    for path in (root / _FOLDER).glob("*.json"):
+        with path.open("r", encoding="utf-8") as stream:
+            if _lock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB):
+                path.unlink(missing_ok=True)
+            else:
+                with contextlib.suppress(ValueError):  # not yet written, where a file system has no locks
+                    found.update(json.load(stream))
+    return frozenset(found)
+
+
+def _lock(stream: IO[str], how: int) -> bool:
+    """Whether the lock was given."""
+    try:
+        fcntl.flock(stream, how)
+    except OSError:
+        return False
+    return True
