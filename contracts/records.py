@@ -1,14 +1,17 @@
-"""Records of the report: one check, one timing."""
+"""Records of the report: one check, one timing. Verified by tests/unit/test_workbench_statements.py."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Literal
 
+from contracts.errors import InputError
+
 __all__ = ["Check", "Role", "Status", "Timing"]
 
 Status = Literal["pass", "fail", "error"]
 Role = Literal["gate", "finding"]
+_HINT = "words of checks stand in workbench/data/statements"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,7 +28,16 @@ class Check:
     tolerance : how far it may lie off, in words with its number, e.g. ``"3 %"``
     status : ``"pass"``, ``"fail"`` or ``"error"`` (could not be evaluated)
     role : ``"gate"`` (must hold) or ``"finding"`` (what the comparison found)
-    source : where the reference comes from
+    source : where the reference comes from: thesis or paper, with its figure, equation or section where there is one
+    claim : what holds if the check passes, one sentence
+    why : why the tolerance is what it is
+    theory : section of docs/theory.md that derives it, e.g. ``"2.7"``; empty where there is none
+    tests : test files that verify the rule or the model behind it, relative to the repository
+
+    Raises
+    ------
+    InputError
+        If one of the words a reader needs is missing, or the claim is no sentence.
     """
 
     id: str
@@ -38,6 +50,17 @@ class Check:
     status: Status
     role: Role
     source: str
+    claim: str
+    why: str
+    theory: str = ""
+    tests: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("id", "title", "tolerance", "source", "claim", "why"):
+            if not getattr(self, name).strip():
+                raise InputError(f"check {self.id}", f"no {name}", "must have one", _HINT)
+        if not (self.claim[0].isupper() or self.claim[0].isdigit()) or not self.claim.endswith("."):
+            raise InputError(f"claim of check {self.id}", self.claim, "must be a sentence", _HINT)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

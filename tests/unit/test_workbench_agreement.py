@@ -38,6 +38,8 @@ def _check(name: str) -> Check:
         status="fail",
         role="finding",
         source="s",
+        claim="It holds.",
+        why="ours",
     )
 
 

@@ -195,7 +195,7 @@ def test_agreement_and_user_checks_are_findings() -> None:
     assert all("0.0 to 30.0 mm" in c.title and "up to 231 N" in c.source for c in checks.values())
     metrics["ancf_average"]["iso_rating"] = None
     assert _by_id(agreement_checks(metrics, TOLERANCES))["ancf_vs_fe.iso_18571"].status == "error"
-    user = UserCurve(label="paper", curve=_fe_curve(0.0, 8000.0), orientation_deg=None)
+    user = UserCurve(label="paper", curve=replace(_fe_curve(0.0, 8000.0), source="a paper"), orientation_deg=None)
     (check,) = user_checks([user], metrics, TOLERANCES)
     assert (check.status, check.role) == ("pass", "finding")
 
@@ -212,6 +212,8 @@ def _check(role: str, status: str) -> Check:
         status=status,  # type: ignore[arg-type]
         role=role,  # type: ignore[arg-type]
         source="s",
+        claim="It holds.",
+        why="ours",
     )
 
 

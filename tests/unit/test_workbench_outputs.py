@@ -13,6 +13,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check, Timing
 from contracts.series import TimeSeries
+from workbench.report.evidence import Evidence
 from workbench.report.number_format import displayed, displayed_reference
 from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
 from workbench.report.page import verdict
@@ -30,6 +31,8 @@ def _check(name: str, role: str = "gate", status: str = "pass", value: float | N
         status=status,  # type: ignore[arg-type]
         role=role,  # type: ignore[arg-type]
         source="a source",
+        claim="It holds.",
+        why="ours",
     )
 
 
@@ -47,11 +50,14 @@ def _curve(model: str, orientation: float | None) -> StiffnessCurve:
 
 
 def test_summary_has_exactly_the_agreed_fields() -> None:
-    made = json.loads(to_json(summary("s", CHECKS, [Timing(task="t", wall_s=1.0, dofs=3)], {"commit": None})))
+    evidence = [Evidence(check=c, section="fe", tasks={"t": "0f"}, files=("curves/fe_average.csv",)) for c in CHECKS]
+    made = json.loads(to_json(summary("s", evidence, [Timing(task="t", wall_s=1.0, dofs=3)], {"commit": None})))
     assert list(made) == ["schema", "study", "status", "checks", "timings", "provenance"]
     assert (made["schema"], made["study"], made["status"]) == (1, "s", "fail")
     fields = ["id", "title", "quantity", "unit", "value", "reference", "tolerance", "status", "role", "source"]
+    fields += ["claim", "why", "theory", "tests", "section", "tasks", "files"]
     assert all(list(c) == fields for c in made["checks"])
+    assert made["checks"][0]["tasks"] == {"t": "0f"}
     assert made["checks"][0]["reference"] == [1.0, 2.0]
     assert made["checks"][2]["value"] is None
     assert made["timings"] == [{"task": "t", "wall_s": 1.0, "dofs": 3}]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from contracts.records import Check
+from workbench.checks.rules import Claim, stated
 
 __all__ = ["COMPLETE", "completeness_check"]
 
@@ -15,15 +16,12 @@ COMPLETE = "fe.complete"
 def completeness_check(early_ends: Mapping[str, str]) -> Check:
     """A gate: no finite element run ended before its target. ``early_ends``: task name -> reason."""
     named = f": {', '.join(early_ends)}; what rests on them is partial" if early_ends else ""
-    return Check(
+    claim = Claim(
         id=COMPLETE,
         title=f"FE: runs that did not converge to their end{named}",
         quantity="runs",
         unit="-",
-        value=float(len(early_ends)),
-        reference=0.0,
-        tolerance="none",
-        status="error" if early_ends else "pass",
         role="gate",
         source="project's own requirement",
     )
+    return stated(claim, float(len(early_ends)), 0.0, "none", "error" if early_ends else "pass")

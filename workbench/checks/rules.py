@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 from contracts.errors import InputError
 from contracts.records import Check, Role, Status
+from workbench.checks.statements import statement_of
 from workbench.report.number_format import PERCENT_QUANTITIES, displayed
 
-__all__ = ["Claim", "at_least", "at_most", "near", "within"]
+__all__ = ["Claim", "at_least", "at_most", "near", "stated", "within"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,6 +67,18 @@ def _check(
     claim: Claim, value: float | None, reference: float | tuple[float, float], tolerance: str, good: bool
 ) -> Check:
     status: Status = "error" if value is None else "pass" if good else "fail"
+    return stated(claim, value, reference, tolerance, status)
+
+
+def stated(
+    claim: Claim,
+    value: float | None,
+    reference: float | tuple[float, float] | None,
+    tolerance: str,
+    status: Status,
+) -> Check:
+    """The check with the words of its family; InputError if it has none."""
+    words = statement_of(claim.id, claim.quantity, claim.title)
     return Check(
         id=claim.id,
         title=claim.title,
@@ -76,7 +89,11 @@ def _check(
         tolerance=tolerance,
         status=status,
         role=claim.role,
-        source=claim.source,
+        source=f"{claim.source}; {words.paper}" if words.paper else claim.source,
+        claim=words.claim,
+        why=words.why,
+        theory=words.theory,
+        tests=words.tests,
     )
 
 

@@ -15,7 +15,7 @@ from workbench.commands.computing import complain_of_early_ends, computed, conso
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.graph.study_graph import report_tasks
-from workbench.report.outputs import check_folder, junit, publish, summary, to_json
+from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
 from workbench.study.full import full_study
 from workbench.study.reading import built_in_study, read_study
 
@@ -34,25 +34,34 @@ def run_report(study_path: Path | None, out: Path, store: Path, computing: Compu
 
     from workbench.comparison.comparison import compare, exit_status
     from workbench.comparison.results import task_timings
+    from workbench.report.evidence import evidence_of
     from workbench.report.page import PageContent, render
     from workbench.report.provenance import provenance
+    from workbench.report.series import series_files
     from workbench.topics.registry import topics_of
 
     with naming(path):
         found = compare(study, {name: entry.path for name, entry in entries.items()})
     timings, origin = task_timings(entries), provenance(path, entries)
-    content = PageContent(
-        study=study, found=found, pictures=entries["pictures"].path, timings=timings, provenance=origin
-    )
-    texts = {
-        "report.html": render(content),
-        "junit.xml": junit(study.name, found.checks),
-        "summary.json": to_json(summary(study.name, found.checks, timings, origin)),
-    }
     curves = [*found.fe.by_orientation.values(), found.fe.average]
     curves += [*found.ancf.by_orientation.values(), found.ancf.average, found.brush]
     curves += [curve for topic in topics_of(study) for curve in topic.curves(study, found.topics[topic.name])]
     series = [one for topic in topics_of(study) for one in topic.series(study, found.topics[topic.name])]
+    named = [f"curves/{curve_file(curve)}" for curve in curves] + [f"series/{name}" for name in series_files(series)]
+    evidence = evidence_of(study, found, origin["tasks"], named)
+    content = PageContent(
+        study=study,
+        found=found,
+        pictures=entries["pictures"].path,
+        timings=timings,
+        provenance=origin,
+        evidence=evidence,
+    )
+    texts = {
+        "report.html": render(content),
+        "junit.xml": junit(study.name, found.checks),
+        "summary.json": to_json(summary(study.name, evidence, timings, origin)),
+    }
     publish(out, texts, curves, _field_files(entries), series)
     _print_checks(found.checks)
     console.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)

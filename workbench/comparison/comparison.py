@@ -21,6 +21,7 @@ from workbench.checks.fe import (
 )
 from workbench.checks.limits import circumferential_tangent_check, overlap_checks
 from workbench.checks.models import agreement_checks, ancf_checks, surfaces_check, user_checks
+from workbench.checks.statements import statement_of
 from workbench.comparison.agreement import Agreement, agreements, noted
 from workbench.comparison.mesh_study import MeshStudy
 from workbench.comparison.results import CURVE, ModelCurves, UserCurve, model_curves
@@ -30,6 +31,7 @@ from workbench.graph.surfaces import SURFACES
 from workbench.study.full import rotational_period
 from workbench.study.model import Study
 from workbench.study.model_parameters import part_materials
+from workbench.study.sections import ToleranceSection
 from workbench.topics.mesh_study import MESH_STUDY
 from workbench.topics.registry import topics_of
 
@@ -50,6 +52,7 @@ class Comparison:
     topics : results of each topic by its name
     agreement_limit : relative L2 difference up to which two models agree [-]
     checks : the verdict, line by line
+    topic_of : identifier of a check -> topic that made it; those of the models themselves are not among them
     """
 
     fe: ModelCurves
@@ -62,6 +65,7 @@ class Comparison:
     topics: Mapping[str, Any]
     agreement_limit: float
     checks: tuple[Check, ...]
+    topic_of: Mapping[str, str]
 
     @property
     def mesh_study(self) -> MeshStudy:
@@ -97,9 +101,26 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
         topics={topic.name: topic.read(study, folders) for topic in topics_of(study)},
         agreement_limit=study.tolerances.model_agreement,
         checks=(),
+        topic_of={},
     )
-    complete = completeness_check(early_ends(folders))
-    return replace(comparison, checks=(complete, *_checks(study, comparison, folders)))
+    by_topic = {
+        topic.name: topic.checks(study, comparison, comparison.topics[topic.name]) for topic in topics_of(study)
+    }
+    checks = [completeness_check(early_ends(folders)), *_checks(study, comparison, folders)]
+    checks += [check for made in by_topic.values() for check in made]
+    return replace(
+        comparison,
+        checks=tuple(_with_own_limit(check, study.tolerances) for check in checks),
+        topic_of={check.id: name for name, made in by_topic.items() for check in made},
+    )
+
+
+def _with_own_limit(check: Check, tolerances: ToleranceSection) -> Check:
+    """Says so where the study sets the limit itself: the reason given is that of the limit by default."""
+    setting = statement_of(check.id, check.quantity, check.title).setting
+    if not setting or getattr(tolerances, setting) == getattr(ToleranceSection(), setting):
+        return check
+    return replace(check, why=f"The study sets this limit itself ([tolerances] {setting}). By default: {check.why}")
 
 
 def _checks(study: Study, found: Comparison, folders: Mapping[str, Path]) -> list[Check]:
@@ -118,8 +139,7 @@ def _checks(study: Study, found: Comparison, folders: Mapping[str, Path]) -> lis
         *overlap_checks(fe, inner_contact=study.fe.inner_contact),
     ]
     checks.append(circumferential_tangent_check(fe, study.reference, tol, rotational_period(study)))
-    checks += noted(user_checks(found.users, found.metrics, tol), found.agreements)
-    return checks + [c for topic in topics_of(study) for c in topic.checks(study, found, found.topics[topic.name])]
+    return checks + noted(user_checks(found.users, found.metrics, tol), found.agreements)
 
 
 def _users(study: Study, folder: Path) -> tuple[UserCurve, ...]:

@@ -18,6 +18,7 @@ from contracts.errors import InputError
 from contracts.records import Check, Timing
 from contracts.series import TimeSeries, write_series
 from workbench.comparison.comparison import overall_status
+from workbench.report.evidence import Evidence
 from workbench.report.series import SERIES_FOLDER, is_ours, series_files
 
 __all__ = ["check_folder", "check_targets", "copy_files", "curve_file", "junit", "publish", "summary", "to_json"]
@@ -143,17 +144,22 @@ def _replace_files(fresh: Path, target: Path, is_ours: Callable[[str], bool]) ->
 
 
 def summary(
-    study: str, checks: Sequence[Check], timings: Sequence[Timing], provenance: Mapping[str, Any]
+    study: str, evidence: Sequence[Evidence], timings: Sequence[Timing], provenance: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """``summary.json``, schema 1."""
+    """``summary.json``, schema 1: each check with the section, tasks and files behind it."""
     return {
         "schema": 1,
         "study": study,
-        "status": overall_status(checks),
-        "checks": [{name: getattr(c, name) for name in Check.__slots__} for c in checks],
+        "status": overall_status([one.check for one in evidence]),
+        "checks": [_row(one) for one in evidence],
         "timings": [{name: getattr(t, name) for name in Timing.__slots__} for t in timings],
         "provenance": dict(provenance),
     }
+
+
+def _row(evidence: Evidence) -> dict[str, Any]:
+    row: dict[str, Any] = {name: getattr(evidence.check, name) for name in Check.__slots__}
+    return row | {"section": evidence.section, "tasks": dict(evidence.tasks), "files": list(evidence.files)}
 
 
 def junit(study: str, checks: Sequence[Check]) -> str:
@@ -172,7 +178,7 @@ def junit(study: str, checks: Sequence[Check]) -> str:
         text = f"{check.title}: {check.quantity} {check.value} {check.unit}, {check.tolerance} of {check.reference}"
         if check.role == "gate" and check.status != "pass":
             kind = "failure" if check.status == "fail" else "error"
-            ElementTree.SubElement(case, kind, {"message": text}).text = f"source: {check.source}"
+            ElementTree.SubElement(case, kind, {"message": text}).text = f"claim: {check.claim}\nsource: {check.source}"
         else:
             ElementTree.SubElement(case, "system-out").text = f"{check.status}: {text}; source: {check.source}"
     ElementTree.indent(root)

@@ -19,6 +19,7 @@ from contracts.records import Check, Timing
 from workbench.comparison.comparison import Comparison, overall_status
 from workbench.figures.interactive import ancf_figure, fe_figure, models_figure, plotly_script, stress_figure
 from workbench.figures.palette import PART_COLOURS
+from workbench.report.evidence import Evidence
 from workbench.report.number_format import displayed, displayed_reference
 from workbench.report.series import series_links
 from workbench.study.model import Study
@@ -38,6 +39,7 @@ class PageContent:
     pictures : folder with ``wheel.png`` and ``deformed_*N.png``
     timings : wall time of each task
     provenance : as in ``summary.json``
+    evidence : every check with its links
     """
 
     study: Study
@@ -45,6 +47,7 @@ class PageContent:
     pictures: Path
     timings: Sequence[Timing]
     provenance: Mapping[str, Any]
+    evidence: Sequence[Evidence]
 
 
 def render(content: PageContent) -> str:
@@ -74,6 +77,7 @@ def render(content: PageContent) -> str:
         "solver": [_solver_row(found, o) for o in found.fe.by_orientation],
         "timings": content.timings,
         "provenance": content.provenance,
+        "evidence": content.evidence,
         "metrics": _metric_rows(found),
         "agreements": found.agreements,
         "series": series_links([s for t in topics_of(study) for s in t.series(study, found.topics[t.name])]),

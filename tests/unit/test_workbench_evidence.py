@@ -1,0 +1,66 @@
+"""Links of a check follow from the task graph: its topic's tasks with their keys, fewer where its words name them."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+from workbench.checks.rules import Claim, at_most
+from workbench.comparison.comparison import Comparison
+from workbench.execution.task import task_keys
+from workbench.graph.study_graph import report_tasks
+from workbench.report.evidence import Evidence, evidence_of
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+
+STUDY = read_study(built_in_study())
+KEYS = task_keys(report_tasks(STUDY, built_in_study().parent))
+FILES = ["curves/fe_phi000.csv", "curves/fe_average.csv", "curves/section_phi015.csv", "series/drop_brush.csv"]
+MADE_BY = {
+    "fe.balance": "",
+    "mesh.mass": "",
+    "fe.mesh_uncertainty": "mesh_study",
+    "section.vs_solid_phi015": "section",
+    "verify.ancf_end_shear_order": "verification",
+    "verify.end_shear_path": "verification",
+    "fe.hub_compliance": "hub",
+    "rover.drop": "rover",
+    "fe.first_yield_load": "strength",
+}
+
+
+def _evidence(study: Study, made_by: dict[str, str]) -> dict[str, Evidence]:
+    def check(id: str) -> Any:
+        claim = Claim(id=id, title="Mesh: mass", quantity="q", unit="-", role="gate", source="s")
+        return at_most(claim, lambda: 1.0, 2.0)
+
+    found = SimpleNamespace(checks=[check(id) for id in made_by], topic_of={k: v for k, v in made_by.items() if v})
+    return {one.check.id: one for one in evidence_of(study, cast(Comparison, found), KEYS, FILES)}
+
+
+def test_tasks_come_with_the_keys_of_their_results() -> None:
+    found = _evidence(STUDY, MADE_BY)
+    assert found["rover.drop"].tasks == {"rover_drop": KEYS["rover_drop"]}
+    assert list(found["mesh.mass"].tasks) == ["mesh_whole"]
+    assert {"fe_phi000", "fe_phi015", "fe_x2"} <= set(found["fe.balance"].tasks)
+    assert list(found["section.vs_solid_phi015"].tasks) == ["fe_phi015", "section_phi015"]
+
+
+def test_without_words_the_identifier_or_the_topic_decides() -> None:
+    found = _evidence(STUDY, MADE_BY)
+    assert list(found["verify.ancf_end_shear_order"].tasks) == ["verify_ancf_end_shear"]
+    assert list(found["verify.end_shear_path"].tasks) == ["verify_end_shear"]
+    assert {"mesh_hub", "fe_hub_0_rigid"} <= set(found["fe.hub_compliance"].tasks)
+    assert {"fe_x1.5", "fe_x2"} <= set(found["fe.mesh_uncertainty"].tasks)
+
+
+def test_every_check_leads_to_a_task_a_section_and_its_files() -> None:
+    found = _evidence(STUDY, MADE_BY)
+    assert all(one.tasks for one in found.values())
+    assert found["rover.drop"].files == ("series/drop_brush.csv",)
+    assert found["fe.balance"].files == ("curves/fe_phi000.csv",)
+    assert (found["fe.balance"].section, found["mesh.mass"].section, found["rover.drop"].section) == (
+        "fe",
+        "numerics",
+        "rover",
+    )

@@ -1,0 +1,81 @@
+"""No check without its words: what it claims, why its tolerance is that, and tests and theory that exist.
+
+Source: the words of workbench/data/statements. The shipped report's checks stand in tests/data/shipped_checks.csv
+(identifier, quantity, title), written from its summary.json by `make evidence`.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from contracts.errors import InputError
+from workbench.checks.rules import Claim, at_most
+from workbench.checks.statements import Family, Statement, families, statement_of
+from workbench.study.sections import ToleranceSection
+
+ROOT = Path(__file__).parents[2]
+with (ROOT / "tests" / "data" / "shipped_checks.csv").open(encoding="utf-8", newline="") as stream:
+    SHIPPED = [(row["id"], row["quantity"], row["title"]) for row in csv.DictReader(stream)]
+FAMILY = Family(
+    ids=("a.b_*",), quantities=(), words={"x": "the x"}, statement=Statement(claim="It is {0}: {what}.", why="ours")
+)
+
+
+def _claim(id: str) -> Claim:
+    return Claim(id=id, title="t", quantity="q", unit="-", role="gate", source="s")
+
+
+def test_every_shipped_check_has_words_of_its_own() -> None:
+    assert len(SHIPPED) > 150
+    said = {id: statement_of(id, quantity, title) for id, quantity, title in SHIPPED}
+    assert [id for id, words in said.items() if not words.claim.endswith(".") or len(words.why) < 30] == []
+    assert [id for id, words in said.items() if re.search(r"[{}]", f"{words.claim}{words.why}{words.tasks}")] == []
+
+
+def test_tests_theory_and_settings_named_exist() -> None:
+    headings = re.findall(r"^#+ ([\d.]+)", (ROOT / "docs" / "theory.md").read_text(encoding="utf-8"), re.MULTILINE)
+    numbers = {heading.rstrip(".") for heading in headings}
+    for words in (family.statement for family in families()):
+        assert words.theory in {*numbers, ""}, words.claim
+        assert words.setting in {*ToleranceSection.model_fields, ""}, words.claim
+        assert all(any(ROOT.glob(path)) for path in words.tests), words.tests
+        assert words.tests, words.claim
+
+
+def test_every_family_is_of_a_check_that_the_report_makes() -> None:
+    """But for those that other studies make: mirrored orientations, a user's curves, runs that do not end so."""
+    elsewhere = {"fe.mirror_symmetry", "user_*.relative_l2", "rover.mission_*", "rover_ancf.mission_*"}
+    unused = [f.ids[0] for f in families() if not any(f.match(id, q) is not None for id, q, _ in SHIPPED)]
+    assert set(unused) <= elsewhere
+
+
+def test_a_check_without_words_cannot_be_made() -> None:
+    with pytest.raises(InputError, match="workbench/data/statements, is to 0"):
+        at_most(_claim("fe.unheard_of"), lambda: 1.0, 2.0)
+    with pytest.raises(InputError, match="is to 2"):
+        statement_of("a.b_x", "q", "t", [FAMILY, FAMILY])
+    made = at_most(_claim("fe.balance"), lambda: 1.0, 2.0)
+    for name in ("claim", "why", "source", "id"):
+        with pytest.raises(InputError, match=f"no {name}"):
+            replace(made, **{name: " "})
+    with pytest.raises(InputError, match="must be a sentence"):
+        replace(made, claim="balance of forces")
+
+
+@pytest.mark.parametrize(
+    ("id", "title", "claim"),
+    [
+        ("a.b_x", "Here, there: what", "It is the x: what."),
+        ("a.b_x_2", "what", "It is the x: what."),
+        ("a.b_xy", "what", "It is xy: what."),
+        ("a.b_-40C", "what", "It is -40 °C: what."),
+        ("a.b_015", "what", "It is 15: what."),
+    ],
+)
+def test_words_of_what_varies(id: str, title: str, claim: str) -> None:
+    assert statement_of(id, "q", title, [FAMILY]).claim == claim
