@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -85,9 +85,20 @@ class Family:
         def filled(text: str) -> str:
             return re.sub(r"\{(0|id|key|said|what|where)\}", lambda found: names[found[1]], text)
 
+        def each(texts: tuple[str, ...]) -> tuple[str, ...]:
+            return tuple(filled(text) for text in texts)
+
         own = self.statement
-        places = {name: tuple(filled(text) for text in getattr(own, name)) for name in ("tasks", "files", "tests")}
-        return replace(own, claim=filled(own.claim), why=filled(own.why), paper=filled(own.paper), **places)
+        return Statement(
+            claim=filled(own.claim),
+            why=filled(own.why),
+            paper=filled(own.paper),
+            theory=own.theory,
+            tests=each(own.tests),
+            setting=own.setting,
+            tasks=each(own.tasks),
+            files=each(own.files),
+        )
 
     def _key(self, matched: str) -> str:
         """The key of the words of what was matched: itself, or the longest that it begins with."""
@@ -126,8 +137,14 @@ def _family(row: Mapping[str, object]) -> Family:
     words = row.get("words", {})
     assert isinstance(words, dict)
     statement = Statement(
-        **{name: text(name) for name in ("claim", "why", "paper", "theory", "setting")},
-        **{name: texts(name) for name in ("tests", "tasks", "files")},  # type: ignore[arg-type]
+        claim=text("claim"),
+        why=text("why"),
+        paper=text("paper"),
+        theory=text("theory"),
+        tests=texts("tests"),
+        setting=text("setting"),
+        tasks=texts("tasks"),
+        files=texts("files"),
     )
     return Family(ids=texts("id"), quantities=texts("quantity"), words=words, statement=statement)
 
