@@ -189,14 +189,30 @@ def rover(
 
 @app.command()
 def compare(
-    curve: Annotated[Path, typer.Argument(help="CSV with deflection_m,load_N.", show_default=False)],
+    curve: Annotated[
+        Path, typer.Argument(help="CSV such as deflection_m,load_N or deflection_mm,load_kN.", show_default=False)
+    ],
     reference: Annotated[Path, typer.Argument(help="CSV it is held against.", show_default=False)],
     max_load: Annotated[float | None, typer.Option(help="End where the reference reaches this load [N].")] = None,
+    uncertainty: Annotated[
+        str | None,
+        typer.Option(
+            help="Of the reference's load, '3 %' or '5 N'; what its file states if left out.", show_default=False
+        ),
+    ] = None,
+    tolerance: Annotated[
+        str | None,
+        typer.Option(help="Largest relative L2 difference, '5 %': passed, failed or undecided.", show_default=False),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder of an interactive page, a PNG, JSON and CSV.", show_default=False)
+    ] = None,
 ) -> None:
-    """Compare two curves, from anywhere, with metrics."""
-    from workbench.commands.compare import run_compare
+    """Compare two curves from anywhere: metrics, tangents, energy, a verdict. Exit status 1: failed or undecided."""
+    from workbench.commands.compare import CompareChoices, run_compare
 
-    raise typer.Exit(run_compare(curve, reference, max_load))
+    choices = CompareChoices(max_load=max_load, uncertainty=uncertainty, tolerance=tolerance, out=out)
+    raise typer.Exit(run_compare(curve, reference, choices))
 
 
 @app.command()

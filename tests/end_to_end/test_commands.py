@@ -90,15 +90,3 @@ def test_stiffness_refuses_bad_options(workspace: Path, tmp_path: Path, argument
     assert text in ended.stderr
     assert "Traceback" not in ended.stderr
     assert not (tmp_path / "o").exists()
-
-
-def test_compare_two_curves_from_anywhere(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text("deflection_m,load_N\n0,0\n0.03,275\n", encoding="utf-8")
-    (tmp_path / "b.csv").write_text("deflection_m,load_N,note\n0,0,1\n0.03,250,2\n", encoding="utf-8")
-    ended = run("compare", tmp_path / "a.csv", tmp_path / "b.csv")
-    assert ended.returncode == 0, ended.stderr
-    for text in ("10.000 %", "25.000 N", "ISO/TS 18571"):
-        assert text in ended.stdout
-    missing = run("compare", tmp_path / "a.csv", tmp_path / "none.csv")
-    assert (missing.returncode, missing.stderr.count("\n")) == (2, 1)
-    assert "none.csv" in missing.stderr

@@ -1,40 +1,111 @@
-"""``workbench compare``: two curves from anywhere.
+"""``workbench compare``: two curves from anywhere, with uncertainty and tolerance; a table, and files if wanted.
 
-Verified by tests/end_to_end/test_commands.py.
+Verified by tests/end_to_end/test_compare.py.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.table import Table
 
-from contracts.curves import read_curve
 from contracts.errors import InputError
 from workbench.commands.computing import console
+from workbench.report.folders import check_folder, check_targets, put_files
+from workbench.study.curve_file import load_uncertainty, read_measured_curve
 
-__all__ = ["run_compare"]
+if TYPE_CHECKING:
+    from workbench.comparison.curve_pair import CurvePair
+
+__all__ = ["CompareChoices", "run_compare"]
+
+_FILES = ("compare.html", "compare.png", "compare.csv", "compare.json")
 
 
-def run_compare(curve_path: Path, reference_path: Path, max_load: float | None) -> int:
-    """Print how far one curve lies from another."""
-    from workbench.comparison.metrics import compare_curves
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CompareChoices:
+    """What a user may say beside the two files.
 
+    Attributes
+    ----------
+    max_load : the range ends where the reference reaches this load [N]; None for all they share
+    uncertainty : of the reference's load, ``"3 %"`` or ``"5 N"``, instead of what its file states
+    tolerance : largest relative L2 difference allowed, ``"5 %"``
+    out : folder of the page, the picture and the numbers, or None for none
+    """
+
+    max_load: float | None = None
+    uncertainty: str | None = None
+    tolerance: str | None = None
+    out: Path | None = None
+
+
+def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices) -> int:
+    """Print how far one curve lies from another; 1 if a tolerance was given and is not shown to be met.
+
+    Raises
+    ------
+    InputError
+        For an option or a file that cannot be used.
+    """
+    from workbench.comparison.curve_pair import compared
+
+    max_load = choices.max_load
     if max_load is not None and not (math.isfinite(max_load) and max_load > 0.0):
         raise InputError("max load", f"{max_load} N", "must be finite and > 0", "give newtons such as 250")
-    metrics = compare_curves(read_curve(curve_path), read_curve(reference_path), max_load)
-    table = Table(title=f"{curve_path.name} against {reference_path.name}", title_justify="left")
-    table.add_column("quantity")
-    table.add_column("value", justify="right")
-    for name, text in (
-        ("range of deflection", f"{metrics.start * 1e3:.3f} .. {metrics.end * 1e3:.3f} mm"),
-        ("relative L2 difference", f"{100.0 * metrics.relative_l2:.3f} %"),
-        ("largest difference", f"{metrics.max_error:.3f} N at {metrics.max_error_at * 1e3:.2f} mm"),
-        ("mean slope", f"{metrics.tangent * 1e-3:.4f} N/mm"),
-        ("mean slope of the reference", f"{metrics.tangent_reference * 1e-3:.4f} N/mm"),
-        ("ISO/TS 18571 rating", "not defined" if metrics.iso_rating is None else f"{metrics.iso_rating:.4f}"),
-    ):
-        table.add_row(name, text)
-    console.print(table)
-    return 0
+    tolerance = None if choices.tolerance is None else _tolerance(choices.tolerance)
+    if choices.out is not None:
+        check_folder(choices.out)
+        check_targets(choices.out, _FILES)
+    curve, reference = read_measured_curve(curve_path), read_measured_curve(reference_path)
+    if choices.uncertainty is not None:
+        stated = load_uncertainty(choices.uncertainty, reference.curve.load)
+        reference = replace(reference, uncertainty=stated)
+    pair = compared(curve, reference, max_load, tolerance)
+    _print(pair, f"{curve_path.name} against {reference_path.name}")
+    if choices.out is not None:
+        _write(pair, choices.out)
+    return 0 if pair.judgement.outcome in ("passed", "not judged") else 1
+
+
+def _tolerance(text: str) -> float:
+    """Largest relative difference [-] from ``"5 %"``."""
+    import numpy as np
+
+    found = float(load_uncertainty(text, np.ones(1), "tolerance")[0])
+    if "N" in text or not found > 0.0:
+        raise InputError("tolerance", text, "must be a share above zero", "write it like '5 %'")
+    return found
+
+
+def _print(pair: CurvePair, title: str) -> None:
+    from workbench.report.compared_page import compared_rows, sentence
+
+    table = Table(title=title, title_justify="left")
+    table.add_column("quantity", overflow="fold")
+    for column in ("curve", "reference", "difference"):
+        table.add_column(column, justify="right", overflow="fold")
+    for row in compared_rows(pair):
+        table.add_row(row.quantity, row.curve, row.reference, row.difference)
+    console.print(table, markup=False)
+    if pair.judgement.tolerance is not None:
+        text = f"{pair.judgement.outcome}: {sentence(pair)}"
+        console.print(text, highlight=False, markup=False, soft_wrap=True)
+
+
+def _write(pair: CurvePair, out: Path) -> None:
+    from workbench.figures.compared import compared_still
+    from workbench.report.compared_page import compared_html, compared_table, compared_values
+    from workbench.report.outputs import to_json
+
+    contents = {
+        "compare.html": compared_html(pair).encode(),
+        "compare.png": compared_still(pair),
+        "compare.csv": compared_table(pair).encode(),
+        "compare.json": to_json(compared_values(pair)).encode(),
+    }
+    put_files(out, contents)
+    console.print(f"picture: {out / 'compare.html'}", highlight=False, markup=False, soft_wrap=True)

@@ -43,7 +43,7 @@ def run_report(study_path: Path | None, out: Path, store: Path, computing: Compu
     with naming(path):
         found = compare(study, {name: entry.path for name, entry in entries.items()})
     timings, origin = task_timings(entries), provenance(path, entries)
-    curves = [*found.fe.by_orientation.values(), found.fe.average]
+    curves = [found.mesh_study.stated(curve) for curve in (*found.fe.by_orientation.values(), found.fe.average)]
     curves += [*found.ancf.by_orientation.values(), found.ancf.average, found.brush]
     curves += [curve for topic in topics_of(study) for curve in topic.curves(study, found.topics[topic.name])]
     series = [one for topic in topics_of(study) for one in topic.series(study, found.topics[topic.name])]

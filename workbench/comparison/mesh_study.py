@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -112,6 +112,14 @@ class MeshStudy:
         """Lower and upper load [N] of a curve at its own points."""
         width = self.relative_uncertainty(curve.deflection) * curve.load
         return curve.load - width, curve.load + width
+
+    def stated(self, curve: StiffnessCurve) -> StiffnessCurve:
+        """The curve with the column ``load_uncertainty_N``, which `workbench compare` reads; as it is if not known."""
+        try:
+            low, high = self.band(curve)
+        except InputError:
+            return curve
+        return replace(curve, columns={**curve.columns, "load_uncertainty_N": 0.5 * np.abs(high - low)})
 
     def l2_uncertainty(self, reference: StiffnessCurve, start: float, end: float) -> float:
         """Uncertainty [-] of a relative L2 difference from ``reference`` over start..end [m].

@@ -23,6 +23,7 @@ from workbench.graph.fe import (
 )
 from workbench.graph.section import section_tasks
 from workbench.graph.surfaces import report_surfaces_task
+from workbench.study.curve_file import in_si
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_tire, brush_parameters, wheel_design
 from workbench.topics.registry import topics_of
@@ -130,7 +131,7 @@ def _metrics_task(study: Study, curves: Sequence[str], curve_folder: Path) -> Ta
         {
             **section.model_dump(mode="json"),
             "orientation": None if section.orientation is None else degrees(section.orientation),
-            "text": (curve_folder / section.file).read_text(encoding="utf-8"),
+            "text": in_si(curve_folder / section.file),
         }
         for section in study.compare.curves
     ]

@@ -13,8 +13,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from contracts.curves import read_curve
 from contracts.errors import InputError, StudyError
+from workbench.study.curve_file import in_si
 from workbench.study.model import Study
 from workbench.study.model_parameters import SectionInputError, ancf_mesh, ancf_preset, brush_parameters, wheel_design
 from workbench.study.rules import broken_rules
@@ -180,6 +180,6 @@ def _check_curves(path: Path, study: Study) -> None:
     """Read the user's own curves once, so that a bad one is found before anything runs."""
     for i, section in enumerate(study.compare.curves):
         try:
-            read_curve(path.parent / section.file)
+            in_si(path.parent / section.file)
         except InputError as error:
             raise StudyError(path, f"compare.curves[{i}].file", section.file, error.rule, error.hint) from error
