@@ -114,6 +114,21 @@ def stiffness(
     raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who))
 
 
+@app.command()
+def sweep(
+    study: StudyArgument,
+    out: Annotated[Path, typer.Option(help="Folder of sweep.csv, sweep.parquet and sweep.html.")] = Path("build/sweep"),
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
+) -> None:
+    """Parameter study: every point of the study's section [sweep], as one table and one page."""
+    from workbench.commands.sweep import run_sweep
+
+    raise typer.Exit(run_sweep(study, out, store, computing(workers, ranks, scheduler)))
+
+
 @calibrate_app.command("thickness")
 def calibrate_thickness(
     study: StudyOrBuiltIn = None,

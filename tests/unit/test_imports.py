@@ -36,11 +36,22 @@ CONFINED: dict[str, set[str]] = {
     "rasterio": {"workbench"},
 }
 """Library -> the packages that may import it."""
-ONE_MODULE = ("gmsh", "meshio", "plotly", "matplotlib", "pyvista", "pint", "jinja2", "distributed", "rasterio")
+ONE_MODULE = (
+    "gmsh",
+    "meshio",
+    "plotly",
+    "matplotlib",
+    "pyvista",
+    "pint",
+    "jinja2",
+    "distributed",
+    "rasterio",
+    "pyarrow",
+)
 """Libraries imported by at most one module of a package."""
 NEVER_ON_HELP = {
     *("gmsh", "petsc4py", "dolfinx", "mpi4py", "vtk", "vtkmodules"),
-    *("pyvista", "matplotlib", "numba", "distributed", "rasterio"),
+    *("pyvista", "matplotlib", "numba", "distributed", "rasterio", "pyarrow"),
 }
 
 

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from workbench.commands.results import age_text
 from workbench.execution.fingerprint import text_sha256
 from workbench.execution.inventory import Kept, leftovers, results
 from workbench.execution.live_runs import announce, exclusive, keys_in_use
+from workbench.execution.progress import duration_text
 from workbench.execution.pruning import Rule, chosen, prune
 from workbench.execution.store import Store
 
@@ -133,4 +133,4 @@ def test_scratch_and_logs_of_this_process_stay(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("seconds", "text"), [(0.2, "0 s"), (59.0, "59 s"), (7200.0, "2 h"), (3 * DAY, "3 d")])
 def test_ages_have_units(seconds: float, text: str) -> None:
-    assert age_text(seconds) == text
+    assert duration_text(seconds) == text

@@ -102,7 +102,7 @@ class _Runs:
         return replace(task, inputs={**task.inputs, "deflections": points[: last + 1], "snapshot_loads": []})
 
     def _solve(self, model: str, tasks: Sequence[Task]) -> float:
-        with RunDisplay(console, len(tasks)) as display:
+        with RunDisplay(console, tasks) as display:
             entries = run_tasks(tasks, self.store, display, self.computing)
         folders = [entry.path for name, entry in entries.items() if name.startswith(f"{model}_phi")]
         curves = [read_curve(folder / CURVE, model=model) for folder in folders]

@@ -47,7 +47,7 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     name = f"{path.stem}_fitted.toml"
     check_targets(out, ("ancf_fit.json", name))
     tasks = _with_needs(fit_tasks(study), report_tasks(study, path.parent))
-    with RunDisplay(console, len(tasks)) as display:
+    with RunDisplay(console, tasks) as display:
         entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
     own = read_fit("own", entries[AS_IT_IS].path)
     tires = [read_fit(t.name, entries[fit_name(t.name)].path) for t in section.tires]

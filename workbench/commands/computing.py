@@ -26,7 +26,7 @@ console = Console()
 def computed(study_path: Path, tasks: Sequence[Task], store: Path, computing: Computing) -> dict[str, Entry]:
     """Run a study's graph with a display; entries in the order of the graph."""
     results = Store(store, study=study_path.stem)
-    with naming(study_path), RunDisplay(console, len(tasks)) as display:
+    with naming(study_path), RunDisplay(console, tasks) as display:
         entries = run_tasks(tasks, results, display, computing)
     console.print(
         f"{len(tasks) - display.reused} tasks computed, {display.reused} reused", highlight=False, markup=False

@@ -56,7 +56,7 @@ def _run_surfaces(study_path: Path, orientation_deg: float, deflections: Sequenc
     study = read_study(study_path)
     task = surfaces_task(study, orientation_deg, deflections_si(deflections))
     check_folder(out)
-    with naming(study_path), RunDisplay(console, 1) as display:
+    with naming(study_path), RunDisplay(console, [task]) as display:
         entry = run_tasks([task], Store(store, study=study_path.stem), display, Computing(workers=1))[task.name]
     for name, deviation in read_result(entry.path)["read_back_m"].items():
         (path,) = copy_files(entry.path, [f"{name}.step"], out)

@@ -18,15 +18,15 @@ from contracts.errors import InputError
 from workbench.commands.computing import console
 from workbench.execution.integrity import examined
 from workbench.execution.inventory import Kept, leftovers, results
+from workbench.execution.progress import duration_text
 from workbench.execution.pruning import Rule, prune
 from workbench.execution.store import Store
 from workbench.study.quantities import to_si
 
-__all__ = ["age_text", "run_list", "run_prune", "run_show"]
+__all__ = ["run_list", "run_prune", "run_show"]
 
 _PREFIX = 12
 """Digits of a key that are shown."""
-_UNITS = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 
 
 def run_list(store: Path, *, check: bool) -> int:
@@ -46,7 +46,13 @@ def run_list(store: Path, *, check: bool) -> int:
 
 
 def _row(one: Kept, now: float, *, check: bool) -> tuple[str, ...]:
-    cells = (one.task or "?", one.study or "-", age_text(now - one.stored_at), decimal(one.size), f"{one.wall_s:.1f} s")
+    cells = (
+        one.task or "?",
+        one.study or "-",
+        duration_text(now - one.stored_at),
+        decimal(one.size),
+        f"{one.wall_s:.1f} s",
+    )
     state = f"damaged: {one.fault}" if one.fault else "whole" if check else ""
     return (*cells, one.name[:_PREFIX], state)
 
@@ -73,9 +79,8 @@ def run_prune(store: Path, older_than: str | None, larger_than: str | None, task
     now = time.time()
     for one in found.removed:
         what = f"{one.task or '?'} {one.name[:_PREFIX]}" if one.kind == "result" else f"{one.kind} {one.name[:40]}"
-        text = (
-            f"{'would remove' if dry_run else 'removed'} {what}, {age_text(now - one.stored_at)}, {decimal(one.size)}"
-        )
+        did = "would remove" if dry_run else "removed"
+        text = f"{did} {what}, {duration_text(now - one.stored_at)}, {decimal(one.size)}"
         console.print(text, highlight=False, markup=False, soft_wrap=True)
     freed = sum(one.size for one in found.removed)
     verb = "would be removed" if dry_run else "removed"
@@ -107,12 +112,6 @@ def _told(manifest: Mapping[str, Any]) -> dict[str, Any]:
     sizes = manifest.get("sizes", {})
     files = manifest.get("files", {})
     return told | {"files": {name: {"bytes": sizes.get(name), "sha256": digest} for name, digest in files.items()}}
-
-
-def age_text(seconds: float) -> str:
-    """An age or a duration in its largest unit: ``"3 d"``, ``"5 h"``, ``"12 min"``, ``"40 s"``."""
-    size, unit = next(((size, unit) for size, unit in _UNITS if seconds >= size), _UNITS[-1])
-    return f"{max(seconds, 0.0) / size:.0f} {unit}"
 
 
 def _existing(root: Path) -> Store:

@@ -5,22 +5,35 @@ Verified by tests/end_to_end/test_report.py.
 
 from __future__ import annotations
 
+import time
+from collections.abc import Sequence
 from types import TracebackType
 from typing import Self
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
+from workbench.execution.remaining import RemainingTime
 from workbench.execution.store import Entry
+from workbench.execution.task import Task
 
-__all__ = ["RunDisplay"]
+__all__ = ["RunDisplay", "duration_text"]
+
+_UNITS = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
+
+
+def duration_text(seconds: float) -> str:
+    """An age or a duration in its largest unit: ``"3 d"``, ``"5 h"``, ``"12 min"``, ``"40 s"``."""
+    size, unit = next(((size, unit) for size, unit in _UNITS if seconds >= size), _UNITS[-1])
+    return f"{max(seconds, 0.0) / size:.0f} {unit}"
 
 
 class RunDisplay:
     """A ``Listener`` that draws Rich progress bars, or prints plain lines when standard output is no terminal."""
 
-    def __init__(self, console: Console, total: int) -> None:
-        self.console, self.total = console, total
+    def __init__(self, console: Console, tasks: Sequence[Task]) -> None:
+        self.console, self.total = console, len(tasks)
+        self.remaining = RemainingTime(tasks)
         self.count = self.reused = 0
         self.bars: dict[str, TaskID] = {}
         self.progress = Progress(
@@ -28,10 +41,11 @@ class RunDisplay:
             BarColumn(),
             TextColumn("{task.percentage:>3.0f} %"),
             TimeElapsedColumn(),
+            TextColumn("{task.fields[left]}"),
             console=console,
             disable=not console.is_terminal,
         )
-        self.whole = self.progress.add_task("all tasks", total=float(total))
+        self.whole = self.progress.add_task("all tasks", total=float(self.total), left="")
 
     def __enter__(self) -> Self:
         self.progress.start()
@@ -46,11 +60,14 @@ class RunDisplay:
 
     def started(self, name: str) -> None:
         """Add a bar for the task."""
-        self.bars[name] = self.progress.add_task(name, total=1.0)
+        self.remaining.started(name, time.monotonic())
+        self.bars[name] = self.progress.add_task(name, total=1.0, left="")
 
     def progressed(self, name: str, fraction: float) -> None:
         """Move the task's bar."""
+        self.remaining.progressed(name, fraction)
         self.progress.update(self.bars[name], completed=min(max(fraction, 0.0), 1.0))
+        self.progress.update(self.whole, left=self._left())
 
     def finished(self, name: str, entry: Entry, reused: bool) -> None:
         """Fill the task's bar and count it."""
@@ -58,9 +75,11 @@ class RunDisplay:
         self.reused += reused
         if name in self.bars:
             self.progress.update(self.bars[name], completed=1.0)
-        self.progress.update(self.whole, completed=float(self.count))
+        self.remaining.finished(name, entry.wall_s, reused=reused)
+        left = self._left()
+        self.progress.update(self.whole, completed=float(self.count), left=left)
         if not self.console.is_terminal:
-            how = "reused" if reused else f"computed in {entry.wall_s:.1f} s"
+            how = "reused" if reused else f"computed in {entry.wall_s:.1f} s{left and f', {left}'}"
             self.console.print(f"[{self.count}/{self.total}] {name}: {how}", markup=False, highlight=False)
 
     def restarted(self, name: str, reason: str) -> None:
@@ -71,7 +90,13 @@ class RunDisplay:
     def failed(self, name: str, message: str) -> None:
         """Say so; the whole message comes at the end."""
         self._drop(name)
+        self.remaining.dropped(name)
         self._say(f"{name}: failed; what does not need it goes on")
+
+    def _left(self) -> str:
+        """``"about 3 min left"``; nothing before the first task is computed or once all are."""
+        seconds = self.remaining.seconds(time.monotonic())
+        return f"about {duration_text(seconds)} left" if seconds and seconds >= 1.0 else ""
 
     def _drop(self, name: str) -> None:
         if name in self.bars:

@@ -32,6 +32,7 @@ from workbench.study.sections import (
     ToleranceSection,
     VerificationSection,
 )
+from workbench.study.sweep import SweepSection
 from workbench.study.wheel import WheelSection
 
 __all__ = ["Band", "BandPoint", "CompareSection", "Study", "WheelStudy", "thesis_band"]
@@ -90,6 +91,7 @@ class Study(WheelStudy):
     hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
     penalty_study : where the load is held against other contact penalties; None to leave it out
     verification : whether the benchmarks of finite elements and plates are part of the report
+    sweep : what `workbench sweep` varies; None to have no sweep
     ancf_fit : ANCF tires fitted to the FE curves; None to leave it out
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
@@ -107,6 +109,7 @@ class Study(WheelStudy):
     ancf: AncfSection
     ancf_fit: AncfFitSection | None = None
     brush: BrushSection
+    sweep: SweepSection | None = None
     compare: CompareSection = CompareSection()
     environment: EnvironmentSection | None = None
     reference: Band = Field(default_factory=thesis_band)

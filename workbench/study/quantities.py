@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -23,12 +23,14 @@ __all__ = [
     "Bedding",
     "Density",
     "Force",
+    "InUnit",
     "Length",
     "Number",
     "Pressure",
     "Stiffness",
     "Temperature",
     "Viscosity",
+    "number_and_unit",
     "to_si",
 ]
 
@@ -131,23 +133,35 @@ def _split(text: str, unit: str) -> tuple[float, str]:
     return float(found[1]), given
 
 
-def _validator(unit: str) -> Callable[[Any, ValidationInfo], float]:
+@dataclass(frozen=True, slots=True)
+class InUnit:
     """Validator of one unit; with the context ``{"si": True}`` the values are SI already, angles included."""
 
-    def validate(value: Any, info: ValidationInfo) -> float:
+    unit: str
+
+    def __call__(self, value: Any, info: ValidationInfo) -> float:
+        """The value in SI."""
         already_si = bool(info.context) and isinstance(value, float)
-        return to_si(value, "" if already_si else unit)
-
-    return validate
+        return to_si(value, "" if already_si else self.unit)
 
 
-Length = Annotated[float, BeforeValidator(_validator("m"))]
-Angle = Annotated[float, BeforeValidator(_validator("rad"))]
-Pressure = Annotated[float, BeforeValidator(_validator("Pa"))]
-Bedding = Annotated[float, BeforeValidator(_validator("N/m**3"))]
-Force = Annotated[float, BeforeValidator(_validator("N"))]
-Density = Annotated[float, BeforeValidator(_validator("kg/m**3"))]
-Stiffness = Annotated[float, BeforeValidator(_validator("N/m"))]
-Viscosity = Annotated[float, BeforeValidator(_validator("N*s/m"))]
-Temperature = Annotated[float, BeforeValidator(_validator("K"))]
-Number = Annotated[float, BeforeValidator(_validator(""))]
+def number_and_unit(value: object) -> tuple[float, str] | None:
+    """A plain number, or a string of one number and its unit as written: ``(0.6, "mm")``; None for anything else."""
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return None
+    if not isinstance(value, str):
+        return float(value), ""
+    found = _TEXT.fullmatch(value.strip())
+    return (float(found[1]), found[2].strip()) if found and math.isfinite(float(found[1])) else None
+
+
+Length = Annotated[float, BeforeValidator(InUnit("m"))]
+Angle = Annotated[float, BeforeValidator(InUnit("rad"))]
+Pressure = Annotated[float, BeforeValidator(InUnit("Pa"))]
+Bedding = Annotated[float, BeforeValidator(InUnit("N/m**3"))]
+Force = Annotated[float, BeforeValidator(InUnit("N"))]
+Density = Annotated[float, BeforeValidator(InUnit("kg/m**3"))]
+Stiffness = Annotated[float, BeforeValidator(InUnit("N/m"))]
+Viscosity = Annotated[float, BeforeValidator(InUnit("N*s/m"))]
+Temperature = Annotated[float, BeforeValidator(InUnit("K"))]
+Number = Annotated[float, BeforeValidator(InUnit(""))]

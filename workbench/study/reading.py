@@ -19,7 +19,7 @@ from workbench.study.model import Study
 from workbench.study.model_parameters import SectionInputError, ancf_mesh, ancf_preset, brush_parameters, wheel_design
 from workbench.study.rules import broken_rules
 
-__all__ = ["built_in_study", "read_study"]
+__all__ = ["built_in_study", "read_study", "read_study_table", "study_of"]
 
 _HINTS = {
     "extra_forbidden": ("is not a known key", "remove it or correct its spelling"),
@@ -45,7 +45,11 @@ def read_study(path: Path) -> Study:
         For the first defect found: unreadable file, TOML syntax, unknown or missing key, wrong type, unit or range,
         parts that do not fit together, a user curve or an ANCF tire's surfaces that cannot be used.
     """
-    table = _read_table(path)
+    return study_of(path, read_study_table(path))
+
+
+def study_of(path: Path, table: Mapping[str, Any]) -> Study:
+    """Check and freeze the content of a study file, which may have been changed since it was read; as `read_study`."""
     try:
         study = Study.model_validate(table)
     except ValidationError as error:
@@ -65,7 +69,8 @@ def read_study(path: Path) -> Study:
     return study
 
 
-def _read_table(path: Path) -> dict[str, Any]:
+def read_study_table(path: Path) -> dict[str, Any]:
+    """The content of a study file as TOML has it; raises StudyError for a file that is no readable TOML."""
     example = "copy studies/exomars.toml and change it"
     if path.is_dir():
         raise StudyError(path, "", "", "is a folder, not a study file", "give the path of a .toml file")

@@ -1,0 +1,155 @@
+"""Points of a parameter study: the design, units, and each point a whole valid study or one message that names it."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from contracts.errors import StudyError
+from workbench.study.key_units import is_whole_number, unit_of
+from workbench.study.reading import built_in_study, read_study_table
+from workbench.study.sweep import SweepSection
+from workbench.study.sweep_points import Point, design_points, sweep_points
+
+PATH = built_in_study()
+TABLE = read_study_table(PATH)
+
+
+def _points(**sweep: Any) -> list[Point]:
+    return sweep_points(PATH, TABLE | {"sweep": sweep})
+
+
+def _design(**sweep: Any) -> list[dict[str, Any]]:
+    return design_points(SweepSection.model_validate(sweep))
+
+
+def test_a_grid_has_every_combination_once() -> None:
+    found = _design(strip_thickness=["0.5 mm", "0.6 mm"], orientation=["0 deg", "15 deg", "30 deg"])
+    assert len(found) == 6
+    assert {tuple(values.values()) for values in found} == {
+        (t, o) for t in ("0.5 mm", "0.6 mm") for o in ("0 deg", "15 deg", "30 deg")
+    }
+    assert found[0] == {"strip_thickness": "0.5 mm", "orientation": "0 deg"}
+
+
+def test_a_latin_hypercube_has_one_point_in_each_piece_of_each_range() -> None:
+    """Claim: projected on any parameter, n points lie one in each of n equal pieces (McKay et al. 1979)."""
+    ranges = {"strip_thickness": {"low": "0.5 mm", "high": "0.8 mm"}, "fe.friction": {"low": 0, "high": 1}}
+    found = _design(**ranges, design="latin-hypercube", samples=40, seed=3)
+    thickness = np.array([float(values["strip_thickness"].removesuffix(" mm")) for values in found])
+    friction = np.array([values["fe.friction"] for values in found])
+    assert sorted(np.floor((thickness - 0.5) / 0.3 * 40).astype(int)) == list(range(40))
+    assert sorted(np.floor(friction * 40).astype(int)) == list(range(40))
+    assert abs(np.corrcoef(thickness, friction)[0, 1]) < 0.5
+    assert found == _design(**ranges, design="latin-hypercube", samples=40, seed=3)
+    assert found != _design(**ranges, design="latin-hypercube", samples=40, seed=4)
+
+
+def test_negative_control_a_grid_of_equal_values_is_no_latin_hypercube() -> None:
+    assert sorted(np.floor(np.full(40, 0.3) * 40).astype(int)) != list(range(40))
+
+
+def test_whole_numbers_stay_whole_and_lists_are_drawn_equally_often() -> None:
+    found = _design(
+        **{"wheel.grousers.count": {"low": 4, "high": 8}, "fe.hub": ["rigid", "elastic"]},
+        design="latin-hypercube",
+        samples=10,
+    )
+    assert sorted(values["wheel.grousers.count"] for values in found) == [4, 4, 5, 5, 6, 6, 7, 7, 8, 8]
+    assert all(isinstance(values["wheel.grousers.count"], int) for values in found)
+    assert sorted(values["fe.hub"] for values in found) == ["elastic"] * 5 + ["rigid"] * 5
+
+
+@pytest.mark.parametrize(
+    ("key", "unit", "whole"),
+    [
+        ("fe.friction", "", False),
+        ("fe.max_deflection", "m", False),
+        ("wheel.springs[0].thickness", "m", False),
+        ("wheel.springs[0].count", None, True),
+        ("materials.Ti-6Al-4V.young_modulus", "Pa", False),
+        ("fe.contact_stiffness", "N/m**3", False),
+        ("fe.camber", "rad", False),
+        ("fe.contact_method", None, False),
+        ("fe.nothing", None, False),
+    ],
+)
+def test_the_study_knows_the_unit_of_each_key(key: str, unit: str | None, whole: bool) -> None:
+    assert (unit_of(key), is_whole_number(key)) == (unit, whole)
+
+
+def test_each_point_is_a_whole_study_with_its_values_and_the_first_is_the_study_as_it_is() -> None:
+    base, first, last = _points(strip_thickness=["0.5 mm", "0.7 mm"], **{"fe.friction": [0.2]})
+    assert (base.number, base.values, base.study.wheel.tire.thickness) == (0, {}, 0.609e-3)
+    assert first.study.wheel.tire.thickness == 0.5e-3
+    assert {springs.thickness for springs in last.study.wheel.springs} == {0.7e-3}
+    assert last.study.fe.friction == 0.2
+    assert last.study.sweep is None
+    assert TABLE["wheel"]["tire"]["thickness"] == "0.609 mm"
+
+
+def test_orientation_is_set_wherever_the_study_names_one() -> None:
+    (point,) = _points(orientation=["22.5 deg"], base=False)
+    wanted = (math.radians(22.5),)
+    assert point.study.fe.orientations == point.study.ancf.orientations == wanted
+    assert (point.study.mesh_study.orientation,) == wanted
+
+
+def test_plates_keep_the_contact_stiffness_of_the_whole_rim() -> None:
+    (point,) = _points(plates=[8], base=False, models=["ancf"])
+    assert point.study.ancf.circumferential_plates == 8
+    assert point.study.ancf.contact_stiffness == 500.0
+
+
+def test_temperature_is_one_of_the_whole_wheel() -> None:
+    cold, warm = _points(temperature=["-40 degC", "30 degC"], models=["fe"], base=False)
+    assert (cold.temperature, warm.temperature) == (pytest.approx(233.15), pytest.approx(303.15))
+
+
+def test_keys_may_be_written_without_quotes() -> None:
+    assert _design(fe={"friction": [0.0, 0.3]}) == _design(**{"fe.friction": [0.0, 0.3]})
+
+
+@pytest.mark.parametrize(
+    ("sweep", "message"),
+    [
+        (
+            {"strip_thickness": ["0.5 mm", "-1 mm"]},
+            r"\[sweep\] point 2 \(strip_thickness = '-1 mm'\): wheel.tire.thick",
+        ),
+        ({"fe.frictoin": [0.1]}, r"point 1 \(fe.frictoin = 0.1\): fe.frictoin = 0.1: is not a known key"),
+        ({"fe.orientations": ["0 deg"]}, r"fe.orientations = 0 deg: is a table or a list, not one value"),
+        ({"wheel.springs[7].count": [1]}, r"names no key of the study"),
+        ({"orientation": [15]}, r"point 1 \(orientation = 15\): .*an angle needs its unit"),
+        ({"plates": [4, 6]}, r"point 2 \(plates = 6\): ancf.circumferential_plates = .*multiple of the spokes"),
+        ({"temperature": ["-40 degC", "900 degC"], "models": ["fe"]}, r"point 2 .*temperature = 900 degC: .* data"),
+        ({"temperature": ["-40 degC"]}, r"sweep.temperature = given: acts on the solid model only"),
+        ({"fe.hub": ["rigid", "soft"]}, r"point 2 \(fe.hub = 'soft'\): fe.hub = 'soft': must be 'rigid' or"),
+        ({}, r"sweep.strip_thickness = nothing: must be given, or another key to vary"),
+        ({"strip_thickness": []}, r"sweep.strip_thickness = \[\]: must be a list of values or a range"),
+        ({"strip_thickness": "0.5 mm"}, r"must be a list of values or a range"),
+        ({"strip_thickness": [["0.5 mm"]]}, r"sweep.strip_thickness = a list: must hold plain values"),
+        ({"strip_thickness": ["1 mm", "0.1 cm"]}, r"mixes units; write all values in one unit"),
+        ({"strip_thickness": ["1 mm", "1 mm"]}, r"holds a value twice"),
+        ({"strip_thickness": {"low": "0.5 mm", "high": "0.6 mm"}}, r"a range: has no grid"),
+        ({"strip_thickness": {"low": "0.5 mm", "high": "1 cm"}}, r"has two units"),
+        ({"strip_thickness": {"low": "0.5 mm"}}, r"must have low and high"),
+        ({"strip_thickness": {"low": "2 mm", "high": "1 mm"}}, r"low less than high"),
+        ({"strip_thickness": ["1 mm"], "samples": 3}, r'sweep.samples = 3: belongs to design = "latin-hypercube"'),
+        ({"strip_thickness": ["1 mm"], "design": "latin-hypercube"}, r"sweep.samples = nothing: must say how many"),
+        ({"strip_thickness": ["1 mm"], "models": ["fem"]}, r"sweep.models\[0\] = 'fem': must be 'fe'"),
+        ({"fe.friction": [i / 1000 for i in range(999)], "fe.points": [*range(2, 99)]}, r"makes 96903 combinations"),
+    ],
+)
+def test_a_bad_sweep_is_one_message_that_names_point_and_key(sweep: dict[str, Any], message: str) -> None:
+    with pytest.raises(StudyError, match=message):
+        _points(**sweep)
+
+
+def test_a_study_without_a_sweep_says_what_to_add() -> None:
+    with pytest.raises(StudyError, match=r"sweep = nothing: is missing"):
+        sweep_points(Path("study.toml"), TABLE)

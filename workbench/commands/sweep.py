@@ -1,0 +1,84 @@
+"""``workbench sweep``: every point of a study's [sweep], one table, one page.
+
+Verified by tests/end_to_end/test_sweep.py.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+from workbench.commands.computing import console, naming
+from workbench.comparison.sweep import Outcome, outcomes, references
+from workbench.comparison.sweep_table import SweepTable, sweep_table
+from workbench.execution.errors import RunError
+from workbench.execution.progress import RunDisplay
+from workbench.execution.runner import Computing, run_all
+from workbench.execution.store import Store
+from workbench.graph.sweep import sweep_graph
+from workbench.report.outputs import check_folder, check_targets
+from workbench.report.parquet import write_parquet
+from workbench.report.sweep_page import sweep_page
+from workbench.study.reading import read_study_table, study_of
+from workbench.study.sweep_points import sweep_points
+
+__all__ = ["run_sweep"]
+
+_FILES = ("sweep.csv", "sweep.parquet", "sweep.html")
+
+
+def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) -> int:
+    """Every point of the study's [sweep]; 0 if all have a curve, else everything is written and RunError raised."""
+    content = read_study_table(study_path)
+    points = sweep_points(study_path, content)
+    study = study_of(study_path, content)
+    assert study.sweep is not None
+    check_folder(out)
+    check_targets(out, _FILES)
+    with naming(study_path):
+        graph = sweep_graph(points, study.sweep.models)
+    models = ", ".join(study.sweep.models)
+    console.print(f"{len(points)} points, {models}: {len(graph.tasks)} tasks", highlight=False, markup=False)
+    with naming(study_path), RunDisplay(console, graph.tasks) as display:
+        ended = run_all(graph.tasks, Store(store, study=study_path.stem), display, computing)
+    found = outcomes(graph, ended.entries, ended.failures)
+    table = sweep_table(study, graph, found, references(study, study_path.parent, found))
+    _publish(out, table, sweep_page(study.title, table, found))
+    _print(table, found)
+    console.print(f"sweep: {out / 'sweep.html'}", highlight=False, markup=False, soft_wrap=True)
+    _complain(study_path, out, found)
+    return 0
+
+
+def _publish(out: Path, table: SweepTable, page: str) -> None:
+    """Put each file in place whole, the page last."""
+    fresh = out / f".new-{os.getpid()}"
+    try:
+        fresh.mkdir(parents=True)
+        (fresh / "sweep.csv").write_text(table.csv(), encoding="utf-8", newline="")
+        write_parquet(table, fresh / "sweep.parquet")
+        (fresh / "sweep.html").write_text(page, encoding="utf-8")
+        for name in _FILES:
+            (fresh / name).replace(out / name)
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
+
+
+def _print(table: SweepTable, found: list[Outcome]) -> None:
+    """One line for each point and model: its values and its initial tangent."""
+    for outcome, tangent in zip(found, table.column("initial_tangent_N_per_m"), strict=True):
+        number = f"{1e-3 * tangent:.4f} N/mm" if isinstance(tangent, float) else "no initial tangent"
+        state = "" if outcome.state == "whole" else f" ({outcome.state})"
+        line = f"{outcome.run.point.number}: {outcome.run.point.label}: {outcome.run.model}: {number}{state}"
+        console.print(line, highlight=False, markup=False, soft_wrap=True)
+
+
+def _complain(path: Path, out: Path, found: list[Outcome]) -> None:
+    """Everything is written; now say, as the run's one error, which points are not whole, and why of the first."""
+    bad = [outcome for outcome in found if outcome.state != "whole"]
+    if bad:
+        which = ", ".join(f"{o.run.point.number} ({o.run.model}, {o.state})" for o in bad[:10])
+        more = f" and {len(bad) - 10} more" if len(bad) > 10 else ""
+        what = f"{len(bad)} of {len(found)} curves are not whole: point {which}{more}; the first: {bad[0].note}"
+        raise RunError(f"{path}: {what}; the others are in {out / 'sweep.csv'}")

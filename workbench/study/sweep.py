@@ -1,0 +1,130 @@
+"""The section [sweep] of a study file: which keys of the study are varied, over which values, and by which models.
+
+Verified by tests/unit/test_workbench_sweep_points.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, StrictBool, StrictInt, model_validator
+
+from workbench.study.quantities import Force, number_and_unit
+from workbench.study.sections import Drop, Positive, Section, in_key
+
+__all__ = ["MOST_POINTS", "SweepRange", "SweepSection", "SweptModel", "Value"]
+
+type Value = str | int | float | bool
+"""A value as the study file has it, with its unit."""
+SweptModel = Literal["fe", "section", "ancf", "brush"]
+MOST_POINTS = 10_000
+
+
+class SweepRange(Section):
+    """Everything from ``low`` to ``high``, both in the same unit: plain numbers, or strings such as ``"0.5 mm"``."""
+
+    low: str | StrictInt | float
+    high: str | StrictInt | float
+
+
+class SweepSection(Section):
+    """A parameter study: every other key of the section is a key of the study, or one of four names, and its values.
+
+    Attributes
+    ----------
+    parameters : dotted key of the study (``"fe.friction"``), or ``strip_thickness``, ``orientation``, ``temperature``
+        or ``plates`` -> its values, or the range they are drawn from
+    models : which of the models each point runs
+    design : every combination of the values, or a Latin hypercube of ``samples`` points drawn with ``seed``
+    base : whether the study as it is runs too, as point 0
+    deflections : where the load is read [m]
+    loads : where deflection and stress are read [N]
+    """
+
+    parameters: dict[str, Annotated[tuple[Value, ...], Field(min_length=1)] | SweepRange]
+    models: Annotated[tuple[SweptModel, ...], Field(min_length=1)] = ("section",)
+    design: Literal["grid", "latin-hypercube"] = "grid"
+    samples: Annotated[StrictInt, Field(ge=2, le=MOST_POINTS)] | None = None
+    seed: Annotated[StrictInt, Field(ge=0)] = 0
+    base: StrictBool = True
+    deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
+    loads: Annotated[tuple[Annotated[Force, Positive], ...], Field(min_length=1)] = (160.0, 250.0)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _keys_of_the_study(cls, section: object) -> object:
+        """Put every key that is not one of the section's own among the parameters."""
+        if not isinstance(section, Mapping):
+            return section
+        own = cls.model_fields.keys() - {"parameters"}
+        others = {key: value for key, value in section.items() if key not in own}
+        found = dict(_flattened("", others))
+        if not found:
+            raise in_key(
+                "strip_thickness", "nothing", "must be given, or another key to vary", 'e.g. ["0.5 mm", "0.6 mm"]'
+            )
+        checked = {key: _checked_values(key, values) for key, values in found.items()}
+        return {key: value for key, value in section.items() if key in own} | {"parameters": checked}
+
+    @model_validator(mode="after")
+    def _fits_the_design(self) -> SweepSection:
+        ranges = [key for key, values in self.parameters.items() if isinstance(values, SweepRange)]
+        if self.design == "grid":
+            if ranges:
+                raise in_key(ranges[0], "a range", "has no grid", 'list its values, or set design = "latin-hypercube"')
+            if self.samples is not None:
+                raise in_key("samples", self.samples, 'belongs to design = "latin-hypercube"', "remove it")
+            count = math.prod(len(v) for v in self.parameters.values() if not isinstance(v, SweepRange))
+            if count > MOST_POINTS:
+                rule = f"makes {count} combinations, more than {MOST_POINTS}"
+                raise in_key("design", "grid", rule, 'list fewer values, or use "latin-hypercube"')
+        elif self.samples is None:
+            raise in_key("samples", "nothing", "must say how many points are drawn", "e.g. samples = 30")
+        if "temperature" in self.parameters and self.models != ("fe",):
+            raise in_key("temperature", "given", "acts on the solid model only", 'set models = ["fe"]')
+        if len(set(self.models)) < len(self.models):
+            raise in_key("models", ", ".join(self.models), "names a model twice", "give each once")
+        return self
+
+
+def _flattened(prefix: str, table: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    """Keys written without quotes make tables: ``fe.friction = [...]`` is ``{"fe": {"friction": [...]}}``."""
+    found = []
+    for key, value in table.items():
+        if isinstance(value, Mapping) and not value.keys() & {"low", "high"}:
+            found += _flattened(f"{prefix}{key}.", value)
+        else:
+            found.append((f"{prefix}{key}", value))
+    return found
+
+
+def _checked_values(key: str, values: object) -> object:
+    """A range, or a list of plain values without repeats, all with one unit."""
+    if isinstance(values, Mapping):
+        return _checked_range(key, values)
+    if not isinstance(values, list | tuple) or not values:
+        raise in_key(key, values, "must be a list of values or a range", "e.g. [1, 2] or { low = 1, high = 2 }")
+    if any(not isinstance(value, str | int | float | bool) for value in values):
+        raise in_key(key, "a list", "must hold plain values", "numbers, strings or true and false")
+    shown = ", ".join(map(str, values))
+    if len({(type(value), value) for value in values}) < len(values):
+        raise in_key(key, shown, "holds a value twice", "give each value once")
+    numbers = [number_and_unit(value) for value in values]
+    if len({number[1] for number in numbers if number is not None}) > 1:
+        raise in_key(key, shown, "mixes units", "write all values in one unit")
+    return values
+
+
+def _checked_range(key: str, values: Mapping[str, object]) -> SweepRange:
+    example = 'e.g. { low = "0.5 mm", high = "0.8 mm" }'
+    low, high = values.get("low"), values.get("high")
+    ends = number_and_unit(low), number_and_unit(high)
+    if values.keys() != {"low", "high"} or ends[0] is None or ends[1] is None:
+        raise in_key(key, dict(values), "must have low and high, two numbers and nothing else", example)
+    if ends[0][1] != ends[1][1]:
+        raise in_key(key, f"{low} to {high}", "has two units", "write low and high in one unit")
+    if not ends[0][0] < ends[1][0] < math.inf:
+        raise in_key(key, f"{low} to {high}", "must have finite ends, low less than high", example)
+    return SweepRange.model_validate({"low": low, "high": high})

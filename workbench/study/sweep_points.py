@@ -1,0 +1,190 @@
+"""The points of a parameter study: which values each one takes, and the whole study it then is.
+
+Verified by tests/unit/test_workbench_sweep_points.py.
+"""
+
+from __future__ import annotations
+
+import copy
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic_core import PydanticCustomError
+from scipy.stats import qmc
+
+from contracts.errors import InputError, StudyError
+from workbench.study.key_units import is_whole_number, parts_of
+from workbench.study.model import Study
+from workbench.study.model_parameters import wheel_design
+from workbench.study.quantities import number_and_unit, to_si
+from workbench.study.reading import study_of
+from workbench.study.sweep import SweepRange, SweepSection, Value
+
+__all__ = ["Point", "design_points", "sweep_points"]
+
+NAMED = {"strip_thickness": "wheel.tire.thickness", "plates": "ancf.circumferential_plates"}
+"""Names of parameters that are more than one key -> the key that says what kind of value they take."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Point:
+    """One point of a sweep.
+
+    Attributes
+    ----------
+    number : from 1; 0 is the study as it is
+    values : parameter -> value as a study file would have it
+    study : the whole study with these values
+    temperature : of the whole wheel [K]; None for 20 C
+    """
+
+    number: int
+    values: Mapping[str, Value]
+    study: Study
+    temperature: float | None = None
+
+    @property
+    def label(self) -> str:
+        """Its values in one line."""
+        return ", ".join(f"{key} = {value}" for key, value in self.values.items()) or "the study as it is"
+
+
+def design_points(section: SweepSection) -> list[dict[str, Value]]:
+    """Values of every point: all combinations, the last parameter fastest, or a Latin hypercube.
+
+    Of a hypercube every parameter's range is cut into as many equal pieces as there are points, and each piece holds
+    one of them (scipy.stats.qmc.LatinHypercube); values of a list are drawn equally often, as far as that goes.
+    """
+    parameters = section.parameters
+    if section.design == "grid":
+        lists = [values for values in parameters.values() if not isinstance(values, SweepRange)]
+        return [dict(zip(parameters, chosen, strict=True)) for chosen in itertools.product(*lists)]
+    assert section.samples is not None
+    drawn = qmc.LatinHypercube(d=len(parameters), rng=np.random.default_rng(section.seed)).random(section.samples)
+    columns = [_drawn(key, values, drawn[:, i]) for i, (key, values) in enumerate(parameters.items())]
+    return [dict(zip(parameters, row, strict=True)) for row in zip(*columns, strict=True)]
+
+
+def _drawn(key: str, values: Sequence[Value] | SweepRange, u: NDArray[np.float64]) -> list[Value]:
+    """Values at ``u`` in [0, 1), with six digits and the unit of the range."""
+    if not isinstance(values, SweepRange):
+        return [values[int(len(values) * x)] for x in u]
+    (low, unit), (high, _) = (number_and_unit(end) or (math.nan, "") for end in (values.low, values.high))
+    if is_whole_number(NAMED.get(key, key)):
+        return [int(low + math.floor((high - low + 1.0) * x)) for x in u]
+    numbers = [float(f"{low + (high - low) * x:.6g}") for x in u]
+    return [f"{number:.6g} {unit}" if unit else number for number in numbers]
+
+
+def sweep_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
+    """Every point of a study file's [sweep] as a whole study, checked as the file itself is; first the study as it is.
+
+    Parameters
+    ----------
+    path : of the study file, for messages and for the files it names
+    table : its content
+
+    Raises
+    ------
+    StudyError
+        If there is no [sweep], or a value makes a study that cannot be used: names point, parameter and key.
+    """
+    study = study_of(path, table)
+    if study.sweep is None:
+        rule = "is missing: it says what to vary"
+        raise StudyError(path, "sweep", "nothing", rule, 'add e.g. [sweep] with strip_thickness = ["0.5 mm", "0.6 mm"]')
+    base = {key: value for key, value in table.items() if key != "sweep"}
+    points = [Point(number=0, values={}, study=study_of(path, base))] if study.sweep.base else []
+    for number, values in enumerate(design_points(study.sweep), start=1):
+        points.append(_point(path, base, number, values))
+    return points
+
+
+def _point(path: Path, base: Mapping[str, Any], number: int, values: Mapping[str, Value]) -> Point:
+    shown = ", ".join(f"{key} = {value!r}" for key, value in values.items())
+    table = copy.deepcopy(dict(base))
+    try:
+        for key, value in values.items():
+            _set_parameter(path, table, key, value)
+        study = study_of(path, table)
+        temperature = _temperature(path, study, values.get("temperature"))
+    except StudyError as error:
+        key = f"[sweep] point {number} ({shown}): {error.key}"
+        raise StudyError(path, key, error.value, error.rule, error.hint) from error
+    return Point(number=number, values=values, study=study, temperature=temperature)
+
+
+def _temperature(path: Path, study: Study, value: Value | None) -> float | None:
+    """Temperature of a point [K], one at which every material of the wheel is known."""
+    if value is None:
+        return None
+    try:
+        temperature = to_si(value, "K")
+        for material in wheel_design(study).materials.values():
+            material.at(temperature)
+    except PydanticCustomError as error:
+        context = error.context or {}
+        raise StudyError(path, "temperature", value, str(context["rule"]), str(context["hint"])) from error
+    except InputError as error:
+        raise StudyError(path, "temperature", value, f"{error.what} {error.rule}", error.hint) from error
+    return temperature
+
+
+def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value) -> None:
+    """Change a study's content as one parameter asks for it."""
+    if key == "temperature":
+        return
+    if key == "strip_thickness":
+        wheel = table.get("wheel", {})
+        for part in (wheel.get("tire"), *wheel.get("springs", ()), wheel.get("sidewall_springs")):
+            if part is not None:
+                part["thickness"] = value
+    elif key == "orientation":
+        _turn(table, value)
+    elif key == "plates":
+        _replate(table["ancf"], value)
+    else:
+        _set_key(path, table, key, value)
+
+
+def _turn(table: dict[str, Any], value: Value) -> None:
+    """Only this orientation, wherever the study names one of those it computes."""
+    table["fe"]["orientations"] = table["ancf"]["orientations"] = [value]
+    table["mesh_study"]["orientation"] = value
+    if "environment" in table:
+        table["environment"]["orientation"] = value
+    table.get("tolerances", {}).pop("initial_tangent_orientations", None)
+
+
+def _replate(ancf: dict[str, Any], value: Value) -> None:
+    """Other plates around the rim, with the same contact stiffness of the whole rim: each plate has as many points."""
+    old = ancf["circumferential_plates"]
+    if isinstance(value, int) and value > 0:
+        ancf["contact_stiffness"] = to_si(ancf["contact_stiffness"], "N/m") * old / value
+    ancf["circumferential_plates"] = value
+
+
+def _set_key(path: Path, table: dict[str, Any], key: str, value: Value) -> None:
+    """Put a value at a dotted key; tables that are not written in the file are made, lists are not made longer."""
+    *parents, last = parts_of(key)
+    at: Any = table
+    for place, part in enumerate(parents):
+        missing = isinstance(at, dict) and isinstance(part, str) and part not in at
+        if missing and not isinstance([*parents, last][place + 1], int):
+            at[part] = {}
+        try:
+            at = at[part]
+        except (KeyError, IndexError, TypeError):
+            raise StudyError(path, key, value, "names no key of the study", "correct its spelling") from None
+    if not isinstance(at, dict) or not isinstance(last, str):
+        raise StudyError(path, key, value, "names no key of the study", "give a dotted key such as fe.friction")
+    if isinstance(at.get(last), dict | list):
+        hint = 'name one of its keys, e.g. "wheel.springs[0].count"; orientations are varied by orientation'
+        raise StudyError(path, key, value, "is a table or a list, not one value", hint)
+    at[last] = value
