@@ -19,7 +19,7 @@ export OMP_NUM_THREADS := 1
 # Certificates of the machine, not uv's own list: works behind a company's proxy too.
 export UV_SYSTEM_CERTS ?= true
 
-.PHONY: help setup report test lint unit bench test-debian clean distclean
+.PHONY: help setup report test lint unit evidence bench test-debian clean distclean
 
 help: ## show this list
 	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 18
@@ -39,6 +39,9 @@ lint: $(READY) ## ruff (rules and format) and mypy --strict
 
 unit: $(READY) ## the fast tests
 	$(PYTHON) -m pytest -q tests/unit
+
+evidence: $(READY) ## docs/evidence.md from the last report (OUT=build/report): claim, test, last value
+	$(PYTHON) -m workbench.report.evidence_document "$(OUT)/summary.json" docs/evidence.md tests/data/shipped_checks.csv
 
 bench: $(READY) ## run one benchmark: make bench NAME=fe_wheel [ARGS="--only wheel-60k"]
 	@test -n "$(NAME)" || { echo "make bench: NAME is not given; one of:" $(basename $(notdir $(wildcard benchmarks/*.py))) >&2; exit 2; }

@@ -69,11 +69,29 @@ def report(
     full: Annotated[
         bool, typer.Option("--full", help="Every orientation until the wheel repeats itself, on a finer mesh: hours.")
     ] = False,
+    ci: Annotated[bool, typer.Option("--ci", help="Plain lines for a log; summary to GITHUB_STEP_SUMMARY.")] = False,
+    baseline: Annotated[
+        Path | None,
+        typer.Option(help="Folder of the report accepted last: what changed since may fail, too.", show_default=False),
+    ] = None,
 ) -> None:
     """Compute everything a study asks for, compare, and write the report."""
-    from workbench.commands.report import run_report
+    from workbench.commands.gate import GateChoices
+    from workbench.commands.report import ReportChoices, run_report
 
-    raise typer.Exit(run_report(study, out, store, computing(workers, ranks, scheduler), full=full))
+    choices = ReportChoices(full=full, gate=GateChoices(ci=ci, baseline=baseline))
+    raise typer.Exit(run_report(study, out, store, computing(workers, ranks, scheduler), choices))
+
+
+@app.command()
+def accept(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that workbench report wrote.")],
+    baseline: Annotated[Path, typer.Option(help="Folder that keeps what was accepted.")] = Path("baseline"),
+) -> None:
+    """Accept a report: later ones are held against it by `workbench report --baseline`."""
+    from workbench.commands.accept import run_accept
+
+    raise typer.Exit(run_accept(folder, baseline))
 
 
 @app.command()

@@ -23,12 +23,14 @@ __all__ = ["complain_of_early_ends", "computed", "console", "naming"]
 console = Console()
 
 
-def computed(study_path: Path, tasks: Sequence[Task], store: Path, computing: Computing) -> dict[str, Entry]:
+def computed(
+    study_path: Path, tasks: Sequence[Task], store: Path, computing: Computing, shown_on: Console = console
+) -> dict[str, Entry]:
     """Run a study's graph with a display; entries in the order of the graph."""
     results = Store(store, study=study_path.stem)
-    with naming(study_path), RunDisplay(console, tasks) as display:
+    with naming(study_path), RunDisplay(shown_on, tasks) as display:
         entries = run_tasks(tasks, results, display, computing)
-    console.print(
+    shown_on.print(
         f"{len(tasks) - display.reused} tasks computed, {display.reused} reused", highlight=False, markup=False
     )
     return {task.name: entries[task.name] for task in tasks}

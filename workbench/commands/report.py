@@ -6,36 +6,52 @@ Verified by tests/end_to_end/test_report.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rich.table import Table
 
 from contracts.records import Check
 from workbench.commands.computing import complain_of_early_ends, computed, console, naming
+from workbench.commands.gate import GateChoices, gate_of, plain_console, tell
+from workbench.comparison.baseline import read_baseline
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.graph.study_graph import report_tasks
+from workbench.report.gate_summary import gate_markdown, gate_rows
 from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
 from workbench.study.full import full_study
 from workbench.study.reading import built_in_study, read_study
 
-__all__ = ["run_report"]
+__all__ = ["ReportChoices", "run_report"]
 
 
-def run_report(study_path: Path | None, out: Path, store: Path, computing: Computing, *, full: bool = False) -> int:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReportChoices:
+    """What the command line asks for: the full study, the report as a gate."""
+
+    full: bool = False
+    gate: GateChoices = field(default_factory=GateChoices)
+
+
+def run_report(
+    study_path: Path | None, out: Path, store: Path, computing: Computing, choices: ReportChoices | None = None
+) -> int:
     """Everything a study asks for, or its full study, then the report."""
-    path = study_path or built_in_study()
+    path, choices = study_path or built_in_study(), choices or ReportChoices()
     study = read_study(path)
-    if full:
+    if choices.full:
         with naming(path):
             study = full_study(study)
     check_folder(out)
-    entries = computed(path, report_tasks(study, path.parent), store, computing)
+    accepted = None if choices.gate.baseline is None else read_baseline(choices.gate.baseline, study.name)
+    shown_on = plain_console() if choices.gate.ci else console
+    entries = computed(path, report_tasks(study, path.parent), store, computing, shown_on)
 
     from workbench.comparison.comparison import compare, exit_status
     from workbench.comparison.results import task_timings
     from workbench.report.evidence import evidence_of
-    from workbench.report.page import PageContent, render
+    from workbench.report.page import PageContent, render, verdict
     from workbench.report.provenance import provenance
     from workbench.report.series import series_files
     from workbench.topics.registry import topics_of
@@ -57,16 +73,21 @@ def run_report(study_path: Path | None, out: Path, store: Path, computing: Compu
         provenance=origin,
         evidence=evidence,
     )
+    gate = gate_of(study.name, verdict(found.checks), found.checks, accepted)
     texts = {
         "report.html": render(content),
-        "junit.xml": junit(study.name, found.checks),
-        "summary.json": to_json(summary(study.name, evidence, timings, origin)),
+        "junit.xml": junit(study.name, found.checks, gate.given_up),
+        "summary.md": gate_markdown(gate),
+        "summary.json": to_json(summary(study.name, evidence, timings, origin) | gate_rows(gate)),
     }
     publish(out, texts, curves, _field_files(entries), series)
-    _print_checks(found.checks)
-    console.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)
+    if choices.gate.ci:
+        tell(gate, shown_on)
+    else:
+        _print_checks(found.checks)
+    shown_on.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)
     complain_of_early_ends(path, origin["partial"])
-    return exit_status(found.checks)
+    return exit_status(found.checks) or int(not gate.holds)
 
 
 def _field_files(entries: dict[str, Entry]) -> dict[str, Path]:

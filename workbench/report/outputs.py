@@ -16,6 +16,7 @@ from xml.etree import ElementTree
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.records import Check, Timing
 from contracts.series import TimeSeries, write_series
+from workbench.comparison.baseline import Change
 from workbench.comparison.comparison import overall_status
 from workbench.report.evidence import Evidence
 from workbench.report.folders import check_folder, check_targets, copy_files, put_files
@@ -137,12 +138,15 @@ def _row(evidence: Evidence) -> dict[str, Any]:
     return row | {"section": evidence.section, "tasks": dict(evidence.tasks), "files": list(evidence.files)}
 
 
-def junit(study: str, checks: Sequence[Check]) -> str:
-    """The checks as JUnit XML: a failed gate is a failure, a failed finding is noted in the case's output."""
+def junit(study: str, checks: Sequence[Check], given_up: Sequence[Change] = ()) -> str:
+    """The checks as JUnit XML: a failed gate is a failure, a failed finding is noted in the case's output.
+
+    What was accepted and given up since is a failure, too.
+    """
     gates = [c for c in checks if c.role == "gate"]
     counts = {
-        "tests": str(len(checks)),
-        "failures": str(sum(c.status == "fail" for c in gates)),
+        "tests": str(len(checks) + len(given_up)),
+        "failures": str(sum(c.status == "fail" for c in gates) + len(given_up)),
         "errors": str(sum(c.status == "error" for c in gates)),
         "skipped": "0",
     }
@@ -156,6 +160,10 @@ def junit(study: str, checks: Sequence[Check]) -> str:
             ElementTree.SubElement(case, kind, {"message": text}).text = f"claim: {check.claim}\nsource: {check.source}"
         else:
             ElementTree.SubElement(case, "system-out").text = f"{check.status}: {text}; source: {check.source}"
+    for change in given_up:
+        attributes = {"classname": f"{study}.accepted", "name": change.check.id}
+        case = ElementTree.SubElement(suite, "testcase", attributes)
+        ElementTree.SubElement(case, "failure", {"message": change.kind}).text = f"claim: {change.check.claim}"
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 

@@ -19,6 +19,7 @@ from contracts.records import Check, Timing
 from workbench.comparison.comparison import Comparison, overall_status
 from workbench.figures.interactive import ancf_figure, fe_figure, models_figure, plotly_script, stress_figure
 from workbench.figures.palette import PART_COLOURS
+from workbench.report.chosen import chosen_groups
 from workbench.report.evidence import Evidence
 from workbench.report.number_format import displayed, displayed_reference
 from workbench.report.series import series_links
@@ -78,6 +79,7 @@ def render(content: PageContent) -> str:
         "timings": content.timings,
         "provenance": content.provenance,
         "evidence": content.evidence,
+        "chosen": chosen_groups(study),
         "metrics": _metric_rows(found),
         "agreements": found.agreements,
         "series": series_links([s for t in topics_of(study) for s in t.series(study, found.topics[t.name])]),
@@ -125,7 +127,13 @@ class _Section:
 
 
 _FIRST = {"checks": "Checks", "wheel": "Wheel", "models": "Models compared", "fe": "Finite elements", "ancf": "ANCF"}
-_LAST = {"numerics": "Mesh and solver", "origin": "Timings, provenance", "reading": "How to read this"}
+_LAST = {
+    "numerics": "Mesh and solver",
+    "evidence": "Evidence",
+    "chosen": "Chosen and inferred",
+    "origin": "Timings, provenance",
+    "reading": "How to read this",
+}
 
 
 def _sections(study: Study) -> list[_Section]:
