@@ -139,6 +139,24 @@ def test_page_is_self_contained_and_shows_everything(first_report: Finished, wor
     assert set(named) == {"not Sivo's data"}
 
 
+def test_every_check_shows_its_evidence_and_every_link_leads_somewhere(first_report: Finished, workspace: Path) -> None:
+    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    checks = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))["checks"]
+    section = page[page.index('<section id="evidence">') : page.index('<section id="chosen">')]
+    places = set(re.findall(r'\bid="([^"]+)"', page))
+    assert [link for link in re.findall(r'href="#([^"]+)"', section) if html.unescape(link) not in places] == []
+    for check in checks:
+        assert html.escape(check["claim"], quote=False).replace("'", "&#39;") in section, check["id"]
+        assert check["tasks"], check["id"]
+        assert all((workspace / "report" / name).is_file() for name in check["files"]), check["id"]
+        assert all(f"{key[:12]}" in section for key in check["tasks"].values()), check["id"]
+    assert any(check["files"] for check in checks)
+    curve = workspace / "report" / "curves" / "fe_average.csv"
+    link = re.search(r'id="curves/fe_average.csv" href="data:text/csv;base64,([^"]+)"', section)
+    assert link
+    assert base64.b64decode(link[1]) == curve.read_bytes()
+
+
 def test_a_second_run_reuses_everything_and_a_strict_study_exits_1(first_report: Finished, workspace: Path) -> None:
     """Only the comparison changes: tolerances and a user's curve; a failed gate gives exit status 1."""
     (workspace / "mine.csv").write_text("# source: file\ndeflection_m,load_N\n0,0\n0.006,40\n", encoding="utf-8")

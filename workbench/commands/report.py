@@ -50,6 +50,7 @@ def run_report(
 
     from workbench.comparison.comparison import compare, exit_status
     from workbench.comparison.results import task_timings
+    from workbench.report.curve_links import curve_links
     from workbench.report.evidence import evidence_of
     from workbench.report.page import PageContent, render, verdict
     from workbench.report.provenance import provenance
@@ -72,6 +73,7 @@ def run_report(
         timings=timings,
         provenance=origin,
         evidence=evidence,
+        curves=curve_links(curves),
     )
     gate = gate_of(study.name, verdict(found.checks), found.checks, accepted)
     texts = {

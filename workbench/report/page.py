@@ -41,6 +41,7 @@ class PageContent:
     timings : wall time of each task
     provenance : as in ``summary.json``
     evidence : every check with its links
+    curves : link of each published curve by the name of its file
     """
 
     study: Study
@@ -49,6 +50,7 @@ class PageContent:
     timings: Sequence[Timing]
     provenance: Mapping[str, Any]
     evidence: Sequence[Evidence]
+    curves: Mapping[str, str]
 
 
 def render(content: PageContent) -> str:
@@ -79,6 +81,7 @@ def render(content: PageContent) -> str:
         "timings": content.timings,
         "provenance": content.provenance,
         "evidence": content.evidence,
+        "curves": content.curves,
         "chosen": chosen_groups(study),
         "metrics": _metric_rows(found),
         "agreements": found.agreements,
