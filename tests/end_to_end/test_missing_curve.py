@@ -48,7 +48,8 @@ def _fail(entry: Path) -> None:
     mesh = next(p for p in entry.parents[1].glob(f"??/{record['needs']['mesh']}"))
     inputs = record["inputs"] | {"relative_tolerance": BELOW_ROUND_OFF}
     solve_orientation(inputs, {"mesh": mesh}, entry, lambda fraction: None)
-    record["files"] = {p.name: file_sha256(p) for p in entry.iterdir() if p.name != "manifest.json"}
+    kept = [p for p in entry.iterdir() if p.name != "manifest.json"]
+    record |= {"files": {p.name: file_sha256(p) for p in kept}, "sizes": {p.name: p.stat().st_size for p in kept}}
     (entry / "manifest.json").write_text(json.dumps(record), encoding="utf-8")
 
 

@@ -123,6 +123,7 @@ def _cut(entry: Path, record: dict[str, object]) -> None:
     names = record["files"]
     assert isinstance(names, dict)
     record["files"] = {name: file_sha256(entry / name) for name in names}
+    record["sizes"] = {name: (entry / name).stat().st_size for name in names}
     (entry / "manifest.json").write_text(json.dumps(record), encoding="utf-8")
 
 
