@@ -21,7 +21,7 @@ from workbench.execution.task import Task
 @pytest.fixture(scope="module")
 def scheduler() -> Iterator[str]:
     """Address of a scheduler with two worker processes."""
-    options: dict[str, Any] = {"dashboard_address": None, "silence_logs": False}
+    options: dict[str, Any] = {"dashboard_address": "127.0.0.1:0", "silence_logs": False}
     with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, **options) as cluster:
         yield str(cluster.scheduler_address)
 
@@ -79,5 +79,7 @@ def test_a_stiffness_curve_over_the_cluster_has_the_same_bytes(
 ) -> None:
     arguments = ("stiffness", workspace / "study.toml", "--out", "out", "--store", "store", "--scheduler", scheduler)
     assert run(*arguments, folder=tmp_path).returncode == 0
+    at_home = ("stiffness", workspace / "study.toml", "--out", "home", "--store", workspace / "store")
+    assert "computed in" not in run(*at_home, folder=tmp_path).stdout
     name = "curves/fe_phi000.csv"
-    assert (tmp_path / "out" / name).read_bytes() == (workspace / "report" / name).read_bytes()
+    assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "home" / name).read_bytes()

@@ -24,8 +24,27 @@ TASKS = 9
 def cluster(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
     """Address of a scheduler and its two worker processes, started from the command line as a user would."""
     here = tmp_path / "scheduler.json"
-    scheduler = ("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", here)
-    worker = ("dask_worker", "--scheduler-file", here, "--nthreads", "1", "--no-nanny", "--no-dashboard")
+    scheduler = (
+        "dask_scheduler",
+        "--host",
+        "127.0.0.1",
+        "--port",
+        "0",
+        "--dashboard-address",
+        "127.0.0.1:0",
+        "--scheduler-file",
+        here,
+    )
+    worker = (
+        "dask_worker",
+        "--scheduler-file",
+        here,
+        "--nthreads",
+        "1",
+        "--no-nanny",
+        "--dashboard-address",
+        "127.0.0.1:0",
+    )
     processes = [_distributed(tmp_path, *scheduler)]
     try:
         _wait_for(lambda: here.is_file() and here.stat().st_size > 0)

@@ -94,7 +94,7 @@ def test_pruning_leaves_what_a_living_run_uses_and_takes_it_when_the_run_ended(t
         store.checkpoint(key).write_bytes(b"half")
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
-    process = context.Process(target=_use, args=(tmp_path, keys[:2], theirs))
+    process = context.Process(target=_use, args=(tmp_path, keys[:2], theirs), daemon=True)
     process.start()
     assert ours.recv() == "announced"
     everything = Rule(larger_than=0.0)

@@ -9,10 +9,12 @@ import threading
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 import pytest
 
+from workbench.execution.claims import Claims
 from workbench.execution.errors import RunError
 from workbench.execution.inventory import results
 from workbench.execution.runner import Computing, run_tasks
@@ -40,6 +42,9 @@ class Recorder:
 
     def finished(self, name: str, entry: Entry, reused: bool) -> None:
         self.events.append(("reused" if reused else "computed", name))
+
+    def elsewhere(self, name: str) -> None:
+        self.events.append(("elsewhere", name))
 
     def restarted(self, name: str, reason: str) -> None:
         self.events.append(("restarted", f"{name}: {reason}"))
@@ -105,7 +110,7 @@ def _run_graph(folder: Path, start: float) -> None:
 
 
 def test_two_processes_at_once_on_one_store_each_have_every_result_whole(tmp_path: Path) -> None:
-    """Two runs of the same graph with workers of their own, started together: nothing torn, one entry for each key."""
+    """Two runs of the same graph with workers of their own, started together: nothing torn, nothing done twice."""
     context = multiprocessing.get_context("spawn")
     processes = [context.Process(target=_run_graph, args=(tmp_path, time.time() + 2.0)) for _ in range(2)]
     for process in processes:
@@ -115,7 +120,62 @@ def test_two_processes_at_once_on_one_store_each_have_every_result_whole(tmp_pat
     assert [process.exitcode for process in processes] == [0, 0]
     store, keys = Store(tmp_path / "store"), task_keys(tuple(_graph(tmp_path)))
     assert {one.name: one.fault for one in results(store, check=True)} == dict.fromkeys(keys.values(), "")
+    assert _runs(tmp_path) == ["a", "b", "c", "d"]
     assert list((store.root / "tmp").iterdir()) == []
+
+
+def _claim(folder: Path, pipe: Connection) -> None:
+    claims = Claims(folder)
+    pipe.send(claims.take("key"))
+    pipe.recv()
+
+
+def test_a_claim_ends_with_the_process_that_holds_it(tmp_path: Path) -> None:
+    ours, theirs = multiprocessing.get_context("spawn").Pipe()
+    process = multiprocessing.get_context("spawn").Process(target=_claim, args=(tmp_path, theirs), daemon=True)
+    process.start()
+    assert ours.recv() is True
+    claims = Claims(tmp_path)
+    assert claims.take("key") is False
+    assert claims.take("another") is True
+    process.kill()
+    process.join()
+    assert claims.take("key") is True
+    claims.give_back_all()
+    assert list((tmp_path / "claims").iterdir()) == []
+
+
+def test_what_another_run_computes_is_told_waited_for_and_taken_over_if_it_fails(tmp_path: Path) -> None:
+    """Another run holds the claims of two tasks; it brings the result of one and gives the other back unfinished."""
+    store, recorder = Store(tmp_path / "store"), Recorder()
+    tasks = [_sum(tmp_path, "a", 1.0), _sum(tmp_path, "b", 10.0)]
+    keys = task_keys(tuple(tasks))
+    other = Claims(store.root)
+    assert other.take(keys["a"])
+    assert other.take(keys["b"])
+
+    def end() -> None:
+        while ("elsewhere", "b") not in recorder.events:
+            time.sleep(0.02)
+        folder = store.scratch()
+        (folder / "sum.txt").write_text("1.0", encoding="utf-8")
+        store.put(keys["a"], folder, {"wall_s": 1.0})
+        other.give_back_all()
+
+    thread = threading.Thread(target=end)
+    thread.start()
+    run_tasks(tasks, store, recorder)
+    thread.join()
+    assert _runs(tmp_path) == ["b"]
+    assert {("elsewhere", "a"), ("elsewhere", "b"), ("reused", "a"), ("computed", "b")} <= set(recorder.events)
+
+
+def test_two_tasks_with_one_key_are_computed_once(tmp_path: Path) -> None:
+    task = _sum(tmp_path, "a", 1.0)
+    recorder = Recorder()
+    run_tasks([task, replace(task, name="same")], Store(tmp_path / "store"), recorder)
+    assert _runs(tmp_path) == ["a"]
+    assert not [event for event in recorder.events if event[0] == "elsewhere"]
 
 
 def test_what_stands_before_a_slash_is_no_part_of_a_key(tmp_path: Path) -> None:

@@ -123,6 +123,8 @@ def test_keys_may_be_written_without_quotes() -> None:
         ),
         ({"fe.frictoin": [0.1]}, r"point 1 \(fe.frictoin = 0.1\): fe.frictoin = 0.1: is not a known key"),
         ({"fe.orientations": ["0 deg"]}, r"fe.orientations = 0 deg: is a table or a list, not one value"),
+        ({"": [1]}, r"point 1 \( = 1\): .*names no key of the study"),
+        ({"name.deeper": [1]}, r"names no key of the study"),
         ({"wheel.springs[7].count": [1]}, r"names no key of the study"),
         ({"orientation": [15]}, r"point 1 \(orientation = 15\): .*an angle needs its unit"),
         ({"plates": [4, 6]}, r"point 2 \(plates = 6\): ancf.circumferential_plates = .*multiple of the spokes"),

@@ -82,6 +82,10 @@ class RunDisplay:
             how = "reused" if reused else f"computed in {entry.wall_s:.1f} s{left and f', {left}'}"
             self.console.print(f"[{self.count}/{self.total}] {name}: {how}", markup=False, highlight=False)
 
+    def elsewhere(self, name: str) -> None:
+        """Say so."""
+        self._say(f"{name}: another run computes it now; waiting for its result")
+
     def restarted(self, name: str, reason: str) -> None:
         """Say so; the task's bar starts anew."""
         self._drop(name)

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import os
 import shutil
+import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
+from workbench.execution.claims import Claims
 from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
 from workbench.execution.live_runs import announce
@@ -23,6 +25,8 @@ from workbench.execution.task import Task, bare_name, task_keys
 
 __all__ = ["RESTARTS", "Computing", "Ended", "Listener", "Workers", "run_all", "run_tasks"]
 
+_LOOK_EVERY = 0.2
+"""Time between looks at what another run computes [s]."""
 RESTARTS = 2
 """How often a task is started again after its worker died under it."""
 
@@ -65,6 +69,9 @@ class Listener(Protocol):
 
     def finished(self, name: str, entry: Entry, reused: bool) -> None:
         """The result is in the store, computed now or found there."""
+
+    def elsewhere(self, name: str) -> None:
+        """Nothing is left to do but to wait for this task, which another run on the same store computes now."""
 
     def restarted(self, name: str, reason: str) -> None:
         """The task's worker died; the task will run again, from its last checkpoint if it keeps one."""
@@ -117,7 +124,7 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
 
     A worker that dies costs no more than what its task did since its last checkpoint: the task starts again, twice at
     most. A task that fails stops those that need it, and no other. A stored result that is damaged is told of and
-    computed again.
+    computed again. What another run on the same store computes at this moment is waited for.
 
     Parameters
     ----------
@@ -168,44 +175,64 @@ class _Run:
     def __init__(self, store: Store, keys: Mapping[str, str], listener: Listener, workers: Workers, ranks: int) -> None:
         self.store, self.keys, self.listener, self.workers, self.ranks = store, keys, listener, workers, ranks
         self.running: dict[str, tuple[Task, Path]] = {}
+        self.claims, self.told = Claims(store.root), set[str]()
         self.restarts: Counter[str] = Counter()
         self.failures: dict[str, str] = {}
 
     def run(self, waiting: list[Task], entries: dict[str, Entry]) -> None:
         """Dispatch until nothing can start and nothing runs; always ends the workers."""
         try:
-            while self._dispatch(waiting, entries) or self.running:
-                for name, message in self.workers.wait():
+            while self._dispatch(waiting, entries):
+                for name, message in self.workers.wait() if self.running else ():
                     self._hear(name, message, waiting, entries)
         except KeyboardInterrupt:
             raise InterruptedRunError("interrupted; finished results are kept, start again to go on") from None
         finally:
             self.workers.stop()
+            self.claims.give_back_all()
             for _, folder in self.running.values():
                 shutil.rmtree(folder, ignore_errors=True)
 
-    def _dispatch(self, waiting: list[Task], entries: Mapping[str, Entry]) -> bool:
-        """Start what can start; whether anything did."""
-        ready = [t for t in waiting if all(n in entries for n in t.needs)][: self.workers.free]
-        for task in ready:
+    def _dispatch(self, waiting: list[Task], entries: dict[str, Entry]) -> bool:
+        """Start what can start; whether there is anything to wait for, here or in another run."""
+        elsewhere, found = list[str](), False
+        for task in [t for t in waiting if all(n in entries for n in t.needs)]:
+            if not self.workers.free:
+                break
+            key = self.keys[task.name]
+            if not self.claims.take(key):
+                elsewhere.append(task.name)
+                continue
             waiting.remove(task)
-            folder = self.store.scratch()
-            self.running[task.name] = task, folder
-            needs = {bare_name(name): entries[name].path for name in task.needs}
-            checkpoint = self.store.checkpoint(self.keys[task.name]) if task.resumable else None
-            job = Job(
-                name=task.name,
-                function=task.function,
-                inputs=task.inputs,
-                needs=needs,
-                folder=folder,
-                origin=task.origin(),
-                checkpoint=checkpoint,
-                ranks=self.ranks if task.shared else 1,
-            )
-            self.workers.start(job)
-            self.listener.started(task.name)
-        return bool(ready)
+            entry = self.store.get(key)
+            if entry is None:
+                self._start(task, entries)
+                continue
+            self.claims.give_back(key)
+            entries[task.name], found = entry, True
+            self.listener.finished(task.name, entry, reused=True)
+        if elsewhere and not (found or self.running):
+            for name in set(elsewhere) - self.told:
+                self.told.add(name)
+                self.listener.elsewhere(name)
+            time.sleep(_LOOK_EVERY)
+        return bool(elsewhere or found or self.running)
+
+    def _start(self, task: Task, entries: Mapping[str, Entry]) -> None:
+        folder = self.store.scratch()
+        self.running[task.name] = task, folder
+        job = Job(
+            name=task.name,
+            function=task.function,
+            inputs=task.inputs,
+            needs={bare_name(name): entries[name].path for name in task.needs},
+            folder=folder,
+            origin=task.origin(),
+            checkpoint=self.store.checkpoint(self.keys[task.name]) if task.resumable else None,
+            ranks=self.ranks if task.shared else 1,
+        )
+        self.workers.start(job)
+        self.listener.started(task.name)
 
     def _hear(self, name: str, message: Message, waiting: list[Task], entries: dict[str, Entry]) -> None:
         """Take one message about a running task."""
@@ -218,9 +245,11 @@ class _Run:
             record |= {"wall_s": message.wall_s, "dofs": message.dofs, "origin": task.origin()}
             record["needs"] = {bare_name(needed): self.keys[needed] for needed in task.needs}
             entries[name] = self.store.put(self.keys[name], folder, record)
+            self.claims.give_back(self.keys[name])
             self.listener.finished(name, entries[name], reused=False)
             return
         shutil.rmtree(folder, ignore_errors=True)
+        self.claims.give_back(self.keys[name])
         if isinstance(message, Lost) and self.restarts[name] < RESTARTS:
             self.restarts[name] += 1
             waiting.insert(0, task)

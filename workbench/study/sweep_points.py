@@ -111,7 +111,7 @@ def _point(path: Path, base: Mapping[str, Any], number: int, values: Mapping[str
     table = copy.deepcopy(dict(base))
     try:
         for key, value in values.items():
-            _set_parameter(path, table, key, value)
+            _set_parameter(path, table, key, value, base)
         study = study_of(path, table)
         temperature = _temperature(path, study, values.get("temperature"))
     except StudyError as error:
@@ -136,8 +136,8 @@ def _temperature(path: Path, study: Study, value: Value | None) -> float | None:
     return temperature
 
 
-def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value) -> None:
-    """Change a study's content as one parameter asks for it."""
+def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value, base: Mapping[str, Any]) -> None:
+    """Change a point's content, which was the ``base``'s, as one parameter asks for it."""
     if key == "temperature":
         return
     if key == "strip_thickness":
@@ -148,7 +148,7 @@ def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value) ->
     elif key == "orientation":
         _turn(table, value)
     elif key == "plates":
-        _replate(table["ancf"], value)
+        table["ancf"] |= _replated(base["ancf"], value)
     else:
         _set_key(path, table, key, value)
 
@@ -162,17 +162,17 @@ def _turn(table: dict[str, Any], value: Value) -> None:
     table.get("tolerances", {}).pop("initial_tangent_orientations", None)
 
 
-def _replate(ancf: dict[str, Any], value: Value) -> None:
+def _replated(ancf: Mapping[str, Any], value: Value) -> dict[str, Any]:
     """Other plates around the rim, with the same contact stiffness of the whole rim: each plate has as many points."""
-    old = ancf["circumferential_plates"]
-    if isinstance(value, int) and value > 0:
-        ancf["contact_stiffness"] = to_si(ancf["contact_stiffness"], "N/m") * old / value
-    ancf["circumferential_plates"] = value
+    if isinstance(value, bool) or not isinstance(value, int) or value <= 0:
+        return {"circumferential_plates": value}  # refused where the point is checked
+    stiffness = to_si(ancf["contact_stiffness"], "N/m") * ancf["circumferential_plates"] / value
+    return {"circumferential_plates": value, "contact_stiffness": stiffness}
 
 
 def _set_key(path: Path, table: dict[str, Any], key: str, value: Value) -> None:
     """Put a value at a dotted key; tables that are not written in the file are made, lists are not made longer."""
-    *parents, last = parts_of(key)
+    *parents, last = parts_of(key) or [0]
     at: Any = table
     for place, part in enumerate(parents):
         missing = isinstance(at, dict) and isinstance(part, str) and part not in at
