@@ -1,0 +1,103 @@
+"""The manual's promises about itself: sections, thesis equations, modules and pages that are named exist.
+
+Negative controls: a section, an equation and a module that are nowhere are missed.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
+SOURCES = (*PACKAGES, "studies", "benchmarks", "tests")
+NUMBERED = re.compile(r"\b(\d{1,2}(?:\.\d)?)\b")
+
+
+def sections() -> dict[str, Path]:
+    """Section of the manual -> its chapter, from the list in docs/theory.md."""
+    rows = re.findall(
+        r"^\| ([\d., ]+) \| \[[^\]]+\]\(([^)]+)\)", (DOCS / "theory.md").read_text(encoding="utf-8"), re.M
+    )
+    return {number: DOCS / page for numbers, page in rows for number in numbers.split(", ")}
+
+
+def cited_sections() -> Iterator[tuple[str, str]]:
+    """Each section that sources, studies and tests name after ``docs/theory.md``, with the file."""
+    for folder in SOURCES:
+        for path in (ROOT / folder).rglob("*.*"):
+            if path.suffix in (".py", ".toml", ".j2", ".md"):
+                text = re.sub(r"\s+#? ?", " ", path.read_text(encoding="utf-8"))
+                for found in re.findall(r"docs/theory\.md`?,?(?: sections?)? ([\d.]+\d|\d)", text):
+                    yield found, str(path.relative_to(ROOT))
+
+
+def test_every_section_named_in_the_sources_has_its_chapter() -> None:
+    known = sections()
+    cited = list(cited_sections())
+    assert len(cited) > 10
+    assert [(number, path) for number, path in cited if number not in known] == []
+    assert "2.9" not in known
+
+
+def test_every_chapter_is_listed_and_holds_its_sections() -> None:
+    known = sections()
+    assert set(known.values()) == set((DOCS / "theory").glob("*.md")) - {DOCS / "theory" / "equations.md"} | {
+        known["7"]
+    }
+    for number, page in known.items():
+        headings = re.findall(r"^##? (\d[\d.]*?)\.? ", page.read_text(encoding="utf-8"), re.M)
+        assert number in headings or number.split(".")[0] in headings, f"{page.name} has no section {number}"
+
+
+def test_every_thesis_equation_is_found_with_its_module() -> None:
+    text = (DOCS / "theory" / "equations.md").read_text(encoding="utf-8")
+    rows = [row.split(" | ") for row in re.findall(r"^\| (.+) \|$", text, re.M)]
+    equations = {number for row in rows for number in re.findall(r"\b2\.\d+\b(?!\.)", row[0])}
+    assert equations >= {f"2.{i}" for i in range(1, 27)}
+    for row in rows[2:]:
+        folder = ""
+        for module in re.findall(r"`([^`]+)`", row[-1]):
+            folder = str(Path(module).parent) if "/" in module else folder
+            assert (ROOT / folder / Path(module).name).exists(), f"{module} is nowhere"
+
+
+def test_modules_and_tests_named_in_the_manual_exist() -> None:
+    missing = []
+    for page in sorted(DOCS.rglob("*.md")):
+        for name in re.findall(rf"`((?:{'|'.join(SOURCES)})/[\w/*.]+)`", page.read_text(encoding="utf-8")):
+            if not any(ROOT.glob(name)):
+                missing.append((page.name, name))
+    assert missing == []
+
+
+def test_every_command_of_the_command_line_has_its_row() -> None:
+    import workbench.cli
+
+    listed = "".join(
+        path.read_text(encoding="utf-8") for path in (ROOT / "README.md", DOCS / "reference" / "commands.md")
+    )
+    names = {command.name or command.callback.__name__ for command in workbench.cli.app.registered_commands}
+    names |= {group.name for group in workbench.cli.app.registered_groups}
+    assert len(names) > 5
+    assert [name for name in sorted(names) if f"`workbench {name}" not in listed] == []
+    make = set(re.findall(r"^([a-z]+):.*## ", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M))
+    assert {"report", "test", "docs", "bench"} <= make
+    assert set(re.findall(r"`make (\w+)", listed)) <= make
+
+
+def test_help_answers_in_a_moment() -> None:
+    """Not timed, which another process could spoil: ``--help`` loads one library besides the standard one, typer's."""
+    code = "import sys; from workbench.cli import _run; s = _run(['--help']); print(s, *sys.modules, file=sys.stderr)"
+    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True, timeout=60)
+    status, *modules = run.stderr.split()
+    assert status == "0"
+    assert "report" in run.stdout
+    heavy = {*("numpy", "scipy", "pydantic", "pint", "jinja2", "plotly", "numba"), *("gmsh", "pyvista", "pyarrow")}
+    assert heavy & {name.split(".")[0] for name in modules} == set()
+    own = {name for name in modules if name.startswith("workbench.")}
+    assert {name for name in own if not name.startswith("workbench.commands")} == {"workbench.cli"}
