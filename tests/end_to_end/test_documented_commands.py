@@ -27,7 +27,7 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     folder = tmp_path_factory.mktemp("reader")
     command = folder / "bin" / "workbench"
     command.parent.mkdir()
-    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m workbench "$@"\n', encoding="utf-8")
+    command.write_text(f"#!{sys.executable}\nfrom workbench.cli import main\n\nmain()\n", encoding="utf-8")
     command.chmod(0o755)
     kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WORKBENCH_TRACEBACK")}
     return kept | {
