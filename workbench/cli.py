@@ -141,7 +141,7 @@ def sweep(
     ranks: Ranks = 1,
     scheduler: Scheduler = None,
 ) -> None:
-    """Parameter study: every point of the study's section [sweep], as one table and one page."""
+    """Parameter study: every point of the study's section `sweep`, as one table and one page."""
     from workbench.commands.sweep import run_sweep
 
     raise typer.Exit(run_sweep(study, out, store, computing(workers, ranks, scheduler)))

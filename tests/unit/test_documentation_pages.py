@@ -90,6 +90,16 @@ def test_every_command_of_the_command_line_has_its_row() -> None:
     assert set(re.findall(r"`make (\w+)", listed)) <= make
 
 
+def test_no_words_of_the_help_are_taken_for_markup() -> None:
+    """Rich would swallow ``[sweep]`` in a help text: brackets in docstrings of commands are written otherwise."""
+    import workbench.cli
+
+    callbacks = [command.callback for command in workbench.cli.app.registered_commands]
+    texts = [callback.__doc__ or "" for callback in callbacks if callback is not None]
+    assert len(texts) > 5
+    assert [text for text in texts if re.search(r"\[[a-z]+\]", text)] == []
+
+
 def test_help_answers_in_a_moment() -> None:
     """Not timed, which another process could spoil: ``--help`` loads one library besides the standard one, typer's."""
     code = "import sys; from workbench.cli import _run; s = _run(['--help']); print(s, *sys.modules, file=sys.stderr)"
