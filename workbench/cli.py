@@ -249,6 +249,18 @@ def compare(
 
 
 @app.command()
+def view(
+    folder: Annotated[Path, typer.Argument(help="Folder of a report, or of `workbench rover`.", show_default=False)],
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes one that is free.")] = 0,
+    open_browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
+) -> None:
+    """Look at results in the browser: turn the wheel, probe its stress, play the rover, overlay curves."""
+    from workbench.commands.view import run_view
+
+    raise typer.Exit(run_view(folder, port, open_browser=open_browser))
+
+
+@app.command()
 def doctor() -> None:
     """Show the versions found, what is missing and how to install it."""
     from workbench.commands.doctor import run_doctor

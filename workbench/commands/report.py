@@ -82,7 +82,7 @@ def run_report(
         "summary.md": gate_markdown(gate),
         "summary.json": to_json(summary(study.name, evidence, timings, origin) | gate_rows(gate)),
     }
-    publish(out, texts, curves, _field_files(entries), series)
+    publish(out, texts, curves, _field_files(entries), series, _motion_files(entries))
     if choices.gate.ci:
         tell(gate, shown_on)
     else:
@@ -96,6 +96,17 @@ def _field_files(entries: dict[str, Entry]) -> dict[str, Path]:
     """``fe_phi000_200N.vtu`` -> the file in the store."""
     found = [(name, path) for name, entry in entries.items() for path in sorted(entry.path.glob("fields_*N.vtu"))]
     return {f"{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
+
+
+def _motion_files(entries: dict[str, Entry]) -> dict[str, Path]:
+    """``straight_brush.npz`` -> the file in the store of the task ``rover_straight``."""
+    found = {}
+    for name, entry in entries.items():
+        scenario, path = name.removeprefix("rover_"), entry.path / "motion.npz"
+        if path.exists():
+            ancf = scenario.startswith("ancf_")
+            found[f"{scenario.removeprefix('ancf_')}_{'ancf' if ancf else 'brush'}.npz"] = path
+    return found
 
 
 def _print_checks(checks: Sequence[Check]) -> None:

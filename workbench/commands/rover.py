@@ -23,7 +23,7 @@ from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_s
 from workbench.execution.errors import RunError
 from workbench.report.number_format import displayed
 from workbench.report.outputs import check_folder, check_targets
-from workbench.report.series import SERIES_FOLDER, series_file
+from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, series_file
 
 __all__ = ["RoverChoices", "list_scenarios", "run_rover"]
 
@@ -85,8 +85,10 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
         series = scenario_series(run)
         file = f"{SERIES_FOLDER}/{series_file(series)}"
         page = out / f"{scenario.name}.html"
-        check_targets(out, [file, page.name] if choices.animate else [file])
+        motion = f"{MOTIONS_FOLDER}/{Path(series_file(series)).stem}.npz"
+        check_targets(out, [file, motion, page.name] if choices.animate else [file, motion])
         write_series(series, out / file)
+        _record(run, out / motion)
         if choices.animate:
             _animate(scenario, design, run, page)
         if run.stopped is None:
@@ -124,6 +126,18 @@ def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:
         except ConvergenceError as error:
             console.print(f"study of {scenario.name} left out: {error}", highlight=False, markup=False, soft_wrap=True)
     return found
+
+
+def _record(run: ScenarioRun, path: Path) -> None:
+    """The motion as a file for the viewer."""
+    from workbench.tasks.motion_file import write_motion
+
+    hub_radius = None
+    if isinstance(run.motion, FlexibleMotion):
+        from ancf_reduced.tire_preset import thesis_preset
+
+        hub_radius = thesis_preset().hub_radius
+    write_motion(run, path, hub_radius)
 
 
 def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Path) -> None:

@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-__all__ = ["ABOVE_YIELD", "BAND", "INK", "MODEL_COLOURS", "ORIENTATION_COLOURS", "PART_COLOURS", "STRAIN_COLOURS"]
+__all__ = [
+    "ABOVE_YIELD",
+    "BAND",
+    "INK",
+    "MODEL_COLOURS",
+    "ORIENTATION_COLOURS",
+    "PART_COLOURS",
+    "STRAIN_COLOURS",
+    "STRESS_COLOURS",
+]
 
 PART_COLOURS = ("#8f8f8f", "#3b3b3b", "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#f0e442")
 ORIENTATION_COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9")
@@ -12,3 +21,5 @@ INK = "#1a1a1a"
 ABOVE_YIELD = "#d55e00"
 STRAIN_COLOURS = ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")
 """Ends and equal steps of viridis, from unstrained to most strained."""
+STRESS_COLOURS = ("#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58")
+"""YlGnBu (Brewer, 2003), from unstressed to most stressed; light where little is to be seen."""

@@ -19,7 +19,7 @@ from geometry.hexahedra import face_nodes
 from workbench.figures.palette import ABOVE_YIELD, PART_COLOURS
 from workbench.figures.solids import WORLD, Deforming, Solid
 
-__all__ = ["Scene", "View", "draw_deformed", "draw_motion", "draw_parts", "facet_parts", "surface"]
+__all__ = ["QUARTERS", "Scene", "View", "draw_deformed", "draw_motion", "draw_parts", "facet_parts", "surface"]
 
 Array = NDArray[np.float64]
 _SIZE = (1600, 1200)
@@ -37,7 +37,7 @@ _SCALAR_BAR: dict[str, Any] = {
     "label_font_size": 30,
     "color": "black",
 }
-_QUARTERS = np.array([(0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3)])
+QUARTERS = np.array([(0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3)])
 """A 9-node facet as four flat quadrangles."""
 
 
@@ -92,7 +92,7 @@ def surface(mesh: TaggedMesh, points: Array | None = None, skip: str = "symmetry
     kept = mesh.facet_tags != mesh.faces.get(skip, -1)
     facets, parts = mesh.facets[kept], facet_parts(mesh)[kept]
     if mesh.order == 2:
-        facets, parts = facets[:, _QUARTERS].reshape(-1, 4), np.repeat(parts, 4)
+        facets, parts = facets[:, QUARTERS].reshape(-1, 4), np.repeat(parts, 4)
     faces = np.column_stack([np.full(len(facets), 4), facets]).ravel()
     drawn = pv.PolyData(mesh.points if points is None else points, faces=faces)
     drawn.cell_data["part"] = parts

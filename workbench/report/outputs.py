@@ -20,7 +20,7 @@ from workbench.comparison.baseline import Change
 from workbench.comparison.comparison import overall_status
 from workbench.report.evidence import Evidence
 from workbench.report.folders import check_folder, check_targets, copy_files, put_files
-from workbench.report.series import SERIES_FOLDER, is_ours, series_files
+from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours, series_files
 
 __all__ = [
     "check_folder",
@@ -50,6 +50,7 @@ def publish(
     curves: Sequence[StiffnessCurve] = (),
     fields: Mapping[str, Path] | None = None,
     series: Sequence[TimeSeries] = (),
+    motions: Mapping[str, Path] | None = None,
 ) -> None:
     """Write everything beside ``out`` first, then move it in; our files of an earlier run that are gone are removed.
 
@@ -60,6 +61,7 @@ def publish(
     curves : written to ``out/curves``
     fields : file name -> file to copy to ``out/fields``
     series : written to ``out/series``
+    motions : file name -> file to copy to ``out/motions``
 
     Raises
     ------
@@ -70,19 +72,20 @@ def publish(
     named = series_files(series)
     out.mkdir(parents=True, exist_ok=True)
     names = [*texts, *(f"curves/{curve_file(curve)}" for curve in curves), *(f"fields/{name}" for name in fields or {})]
-    names += [f"{SERIES_FOLDER}/{name}" for name in named]
+    names += [*(f"{SERIES_FOLDER}/{name}" for name in named), *(f"{MOTIONS_FOLDER}/{name}" for name in motions or {})]
     check_targets(out, names if fields is None else [*names, "fields/.vtu"])
     _sweep(out)
     fresh = out / f".new-{os.getpid()}"
     try:
         (fresh / "curves").mkdir(parents=True)
-        (fresh / "fields").mkdir()
         for curve in curves:
             write_curve(curve, fresh / "curves" / curve_file(curve))
         for name, one in named.items():
             write_series(one, fresh / SERIES_FOLDER / name)
-        for name, path in (fields or {}).items():
-            shutil.copyfile(path, fresh / "fields" / name)
+        for folder, files in (("fields", fields), (MOTIONS_FOLDER, motions)):
+            (fresh / folder).mkdir()
+            for name, path in (files or {}).items():
+                shutil.copyfile(path, fresh / folder / name)
         for name, text in texts.items():
             (fresh / name).write_text(text, encoding="utf-8")
         if curves:
@@ -91,6 +94,8 @@ def publish(
             _replace_files(fresh / SERIES_FOLDER, out / SERIES_FOLDER, is_ours)
         if fields is not None:
             _replace_files(fresh / "fields", out / "fields", _is_curve_or_field)
+        if motions:
+            _replace_files(fresh / MOTIONS_FOLDER, out / MOTIONS_FOLDER, _is_motion)
         for name in texts:
             (fresh / name).replace(out / name)
     finally:
@@ -106,6 +111,10 @@ def _sweep(out: Path) -> None:
 
 def _is_curve_or_field(name: str) -> bool:
     return name.startswith(("fe_", "section_", "ancf_", "brush_")) and name.endswith((".csv", ".vtu"))
+
+
+def _is_motion(name: str) -> bool:
+    return name.endswith(("_brush.npz", "_ancf.npz", "_rigid.npz"))
 
 
 def _replace_files(fresh: Path, target: Path, is_ours: Callable[[str], bool]) -> None:

@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from contracts.errors import InputError
 from contracts.series import TimeSeries, series_text
 
-__all__ = ["SERIES_FOLDER", "is_ours", "series_file", "series_files", "series_links"]
+__all__ = ["MOTIONS_FOLDER", "SERIES_FOLDER", "is_ours", "series_file", "series_files", "series_links"]
 
+MOTIONS_FOLDER = "motions"
 SERIES_FOLDER = "series"
 _TIRES = ("ancf", "brush", "rigid")
 

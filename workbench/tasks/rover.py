@@ -16,16 +16,18 @@ from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.scenario import run_scenario, scenario_series
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.task import Progress
+from workbench.tasks.motion_file import MOTION, write_motion
 
 __all__ = ["drive_rover"]
 
 
 def drive_rover(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``series.csv``, and ``result.json`` with the outcomes of the scenario and of its study; the shipped rover."""
+    """``series.csv``, ``motion.npz``, and ``result.json`` with the outcomes of scenario and study."""
     scenario, design = scenario_named(inputs["scenario"]), read_rover()
     run = run_scenario(scenario, design)
     progress(0.5)
     write_series(scenario_series(run), out / "series.csv")
+    write_motion(run, out / MOTION)
     outcomes = () if run.stopped else scenario.judge(run) + (scenario.study(scenario, design) if scenario.study else ())
     write_result(out, {"outcomes": [asdict(outcome) for outcome in outcomes], FAILURE: run.stopped})
     return 6 * len(run.motion.positions[0])

@@ -25,7 +25,7 @@ from workbench.topics.topic import Topic
 if TYPE_CHECKING:
     from workbench.comparison.comparison import Comparison
 
-__all__ = ["ROVER", "RoverResult", "RoverResults"]
+__all__ = ["DRAWN", "ROVER", "RoverResult", "RoverResults"]
 
 THESIS = {
     "static": ("static equilibrium", "Fig. 15"),
@@ -45,6 +45,10 @@ MISSION = {
     "stability": "static stability, 40 degrees",
 }
 """Scenario -> what it is called; names as in `rover_dynamics.rover.scenarios.catalogue`."""
+
+
+DRAWN = ("workbench.tasks.motion_file", "workbench.figures.rover_solids", "workbench.figures.solids")
+"""What decides what is recorded of a motion."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,7 +104,7 @@ def _tasks(study: Study) -> Sequence[Task]:
             name=f"rover_{name}",
             function="workbench.tasks.rover:drive_rover",
             inputs={"scenario": name},
-            sources=(*FILES, "rover_dynamics"),
+            sources=(*FILES, *DRAWN, "rover_dynamics"),
             libraries=("numpy", "numba", "scipy"),
             cost=2.0,
         )

@@ -21,6 +21,7 @@ from workbench.comparison.rover_ancf_results import OBSERVED, AncfRover, Drive, 
 from workbench.execution.task import Task
 from workbench.graph.fe import FILES
 from workbench.study.model import Study
+from workbench.topics.rover import DRAWN
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ def _tasks(study: Study) -> Sequence[Task]:
             inputs={"run": name},
             sources=(
                 *FILES,
+                *DRAWN,
                 "rover_dynamics",
                 "ancf_reduced",
                 "workbench.tasks.rover_tires",

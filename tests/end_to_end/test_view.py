@@ -1,0 +1,187 @@
+"""``workbench view`` as a user runs it: the command, its page in headless Chromium, Ctrl-C.
+
+Claim: the page shows results, turns, plays, probes and overlays; it asks nothing of any other machine; bad input is one
+message and exit status 2. Pixels of the 3D view must change where the view does.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.small_report_folder import write_small_report
+
+ROOT = Path(__file__).parents[2]
+PATIENCE = 120_000
+"""Milliseconds a busy machine is given for each step."""
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+ARGUMENTS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A report's folder, its name with a space and an umlaut."""
+    path = tmp_path_factory.mktemp("view") / "mein Räder-Bericht"
+    path.mkdir()
+    write_small_report(path)
+    (path.parent / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.02,150\n", encoding="utf-8")
+    (path.parent / "bad.csv").write_text("x,y\n0,0\n1,1\n", encoding="utf-8")
+    return path
+
+
+def start(*arguments: str) -> subprocess.Popen[str]:
+    """The command, with its output to read."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "workbench", "view", *arguments],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+@pytest.fixture(scope="module")
+def address(folder: Path) -> Iterator[str]:
+    """Where the page is; it ends by Ctrl-C, in silence, with exit status 0."""
+    process = start(str(folder))
+    assert process.stdout is not None
+    line = process.stdout.readline().strip()
+    assert line.startswith("http://127.0.0.1:"), process.communicate()[1]
+    yield line
+    process.send_signal(signal.SIGINT)
+    begun = time.monotonic()
+    out, err = process.communicate(timeout=30)
+    assert (process.returncode, out, err) == (0, "", "")
+    assert time.monotonic() - begun < (10.0 if os.environ.get("CI") else 5.0)
+
+
+def test_the_page_is_answered_on_loopback_only(address: str) -> None:
+    port = int(address.rstrip("/").rpartition(":")[2])
+    with socket.socket() as probe, pytest.raises(OSError):  # noqa: PT011 - refused or unreachable
+        probe.connect(("127.0.0.2", port))
+    head = "GET /index.html HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n"
+    for host, status in ((f"127.0.0.1:{port}", b"200"), (f"elsewhere.example:{port}", b"403")):
+        with socket.create_connection(("127.0.0.1", port), timeout=60) as connection:
+            connection.sendall(head.format(host).encode())
+            assert connection.recv(200).split()[1] == status
+
+
+def test_a_port_in_use_is_one_message(folder: Path, address: str) -> None:
+    process = start(str(folder), "--port", address.rstrip("/").rpartition(":")[2])
+    out, err = process.communicate(timeout=PATIENCE / 1000)
+    assert (process.returncode, out) == (2, "")
+    assert err.startswith("workbench: error: port = ")
+    assert err.count("\n") == 1
+
+
+def test_a_bad_file_or_an_empty_folder_is_one_message(folder: Path, tmp_path: Path) -> None:
+    bad = shutil.copytree(folder, tmp_path / "bad")
+    (bad / "fields" / "fe_phi000_200N.vtu").write_text("<VTKFile", encoding="utf-8")
+    (tmp_path / "empty").mkdir()
+    for name, message in (("bad", "field file = "), ("empty", "report folder = ")):
+        process = start(str(tmp_path / name))
+        out, err = process.communicate(timeout=PATIENCE / 1000)
+        assert (process.returncode, out) == (2, "")
+        assert err.startswith(f"workbench: error: {message}")
+        assert err.count("\n") == 1
+
+
+def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
+    if CHROMIUM is None:
+        assert os.environ.get("CI") != "true", "CI must have Chromium on PATH"
+        pytest.skip("no Chromium on PATH")
+    from playwright.sync_api import Page, sync_playwright
+
+    asked: list[str] = []
+    complaints: list[str] = []
+
+    def pixels(page: Page) -> bytes:
+        return page.locator(".stage canvas").first.screenshot()
+
+    def until_changed(page: Page, before: bytes) -> bytes:
+        end = time.monotonic() + PATIENCE / 1000
+        while (now := pixels(page)) == before:
+            assert time.monotonic() < end, "the picture does not change"
+            page.wait_for_timeout(100)
+        return now
+
+    def caption(page: Page, text: str) -> None:
+        page.locator("#caption", has_text=text).wait_for()
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        page = browser.new_page(viewport={"width": 1000, "height": 700})
+        page.set_default_timeout(PATIENCE)
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("websocket", lambda one: asked.append(one.url))
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.goto(address)
+        caption(page, "FE, 0° down, 200 N")
+        page.wait_for_selector("#chart .main-svg")
+        shown = pixels(page)
+
+        page.click("#orientations button:has-text('30°')")
+        caption(page, "30° down")
+        turned = until_changed(page, shown)
+
+        box = page.locator(".stage canvas").first.bounding_box()
+        assert box is not None
+        x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + 90, y + 10, steps=4)
+        page.mouse.up()
+        seen = until_changed(page, turned)
+        assert page.locator("table#probe").count() == 0  # a drag is no click
+
+        page.click("#reset")
+        until_changed(page, seen)
+        for share in (0.28, 0.25, 0.31, 0.22):  # rim at the left of the ring
+            page.mouse.click(x - share * box["height"], y)
+            page.wait_for_timeout(300)
+        page.wait_for_selector("table#probe")
+        told = page.inner_text("table#probe")
+        assert "MPa" in told
+        assert "node" in told
+        assert "tire" in told or "hub" in told
+
+        page.click("#loads button:has-text('0 N') >> nth=0")
+        caption(page, "(unloaded)")
+        assert "0 MPa" in page.inner_text("table#probe")
+        page.click("#play")
+        caption(page, "200 N")
+
+        page.set_input_files("#own-curve", folder.parent / "bad.csv")
+        page.locator("#message", has_text="bad.csv").wait_for()
+        page.set_input_files("#own-curve", folder.parent / "mine.csv")
+        page.locator("#chart .legend", has_text="mine.csv").wait_for()
+        page.locator("#curves label", has_text="FE 0°").click()
+        page.locator("#chart .legend", has_text="FE 0°").wait_for()
+
+        wheel = pixels(page)
+        page.click("#tab-rover")
+        caption(page, "straight, brush tires")
+        rover = until_changed(page, wheel)
+        page.locator("#chart .legend", has_text="front left").wait_for()
+        page.click("#play")
+        page.locator(".player output", has_text="4.00 of 4.00 s").wait_for()
+        until_changed(page, rover)
+        assert page.evaluate("[document.querySelector('#frame').value, document.querySelector('#frame').max]") == [
+            "39",
+            "39",
+        ]
+        browser.close()
+    assert complaints == []
+    strange = [url for url in asked if not url.startswith((address, "ws://127.0.0.1:", "data:", "blob:"))]
+    assert strange == []
+    assert any(url.startswith("ws://127.0.0.1:") for url in asked)

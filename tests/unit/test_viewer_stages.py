@@ -1,0 +1,43 @@
+"""A wheel's stage: its loads, its ground; nothing is interpolated between loads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.small_report_folder import ring_mesh, write_small_report
+from workbench.viewer.folder import read_folder
+from workbench.viewer.scene import Scene
+from workbench.viewer.stages import RoverStage, wheel_stage
+
+
+def test_a_wheel_is_shown_unloaded_and_at_the_loads_that_are_there(tmp_path: Path) -> None:
+    write_small_report(tmp_path)
+    files = [(one.load, one.path) for one in read_folder(tmp_path).fields if one.orientation == 30.0]
+    stage = wheel_stage(30.0, files)
+    assert stage.loads == (0.0, 100.0, 200.0)
+    assert float(stage.values(0, "stress").max()) == 0.0
+    np.testing.assert_allclose(stage.values(2, "stress"), 2.0 * stage.values(1, "stress"))
+    share = np.clip(ring_mesh().points @ stage.down / 0.14, 0.0, 1.0)
+    np.testing.assert_allclose(stage.values(2, "stress"), 4e8 * share, rtol=1e-6)
+    np.testing.assert_allclose(stage.down, [0.5, 0.0, -np.sqrt(0.75)])
+    assert stage.bar("stress").end == pytest.approx(4e8)
+    corners, _ = stage._ground(stage.places(2))
+    lowest = float((stage.places(2) @ stage.down).max())
+    np.testing.assert_allclose(corners @ stage.down, lowest, atol=1e-3)
+
+
+def test_scene_and_motion_move_what_is_drawn(tmp_path: Path) -> None:
+    write_small_report(tmp_path)
+    rover, scene = RoverStage(tmp_path / "motions" / "straight_brush.npz"), Scene()
+    rover.show(scene, 0, afresh=True)
+    first = [actor.user_matrix[0, 3] for actor, _ in scene._moving]
+    rover.show(scene, len(rover.times) - 1, afresh=False)
+    last = [actor.user_matrix[0, 3] for actor, _ in scene._moving]
+    np.testing.assert_allclose(np.subtract(last, first), 0.5, atol=1e-6)
+    camera = rover.camera()
+    assert abs(np.linalg.norm(camera.eye) - 1.0) < 1e-12
+    assert camera.half_height > 0.3
+    scene.close()

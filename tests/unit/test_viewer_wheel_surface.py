@@ -1,0 +1,65 @@
+"""The outside of hexahedra, and rays that meet it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geometry.hexahedra import VTK_FROM_GMSH, reference_nodes
+from tests.small_report_folder import ring_mesh
+from workbench.viewer.wheel_surface import Probe, WheelField, WheelSurface, wheel_surface
+
+
+def _ring() -> WheelSurface:
+    mesh = ring_mesh()
+    return wheel_surface(mesh.points, mesh.cells, mesh.cell_tags.astype(np.int64))
+
+
+def test_half_a_ring_becomes_a_whole_one_without_its_cut() -> None:
+    surface = _ring()
+    assert len(surface.quads) == 2 * 48 * 4  # inside, outside, and two radial strips of one face
+    assert surface.places[:, 1].min() == pytest.approx(-0.05)
+    middles = surface.places[surface.quads].mean(axis=1)
+    assert np.abs(middles[:, 1]).min() > 0.01  # nothing lies in the cut y = 0
+    assert set(surface.parts.tolist()) == {1, 2}
+
+
+def test_quadrangles_look_outwards() -> None:
+    surface = _ring()
+    corners = surface.places[surface.quads]
+    normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    volume = np.einsum("ij,ij->", corners.mean(axis=1), normal) / 6.0
+    assert volume == pytest.approx(0.1 * 48 / 2 * np.sin(2 * np.pi / 48) * (0.14**2 - 0.1**2), rel=1e-9)
+
+
+def test_a_triquadratic_cell_has_four_flat_pieces_a_face_on_its_own_nodes() -> None:
+    points = reference_nodes(27)[list(VTK_FROM_GMSH)] + (0.0, 2.0, 0.0)
+    surface = wheel_surface(points, np.arange(27)[None], np.array([7]))
+    assert len(surface.quads) == 2 * 24
+    corners = surface.places[surface.quads]
+    area = 0.5 * np.linalg.norm(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1)
+    np.testing.assert_allclose(area, 1.0)
+    assert set(surface.parts.tolist()) == {7}
+
+
+def test_a_ray_meets_the_nearest_point_and_its_part() -> None:
+    surface = _ring()
+    ray = np.array([[0.0, 0.045, -1.0], [0.0, 0.045, 1.0]])
+    found = surface.probe(surface.places, ray)
+    assert found is not None
+    np.testing.assert_allclose(surface.places[found.point], [0.0, 0.05, -0.14], atol=1e-9)
+    assert found.part == 2
+    assert surface.probe(surface.places, ray[::-1]) is not None
+    assert surface.probe(surface.places, ray + np.array([1.0, 0.0, 0.0])) is None
+
+
+def test_the_mirror_image_moves_the_other_way_along_the_axle() -> None:
+    surface, mesh = _ring(), ring_mesh()
+    field = WheelField(
+        displacement=np.tile([1.0, 2.0, 3.0], (len(mesh.points), 1)), von_mises=np.zeros(len(mesh.points))
+    )
+    moved = surface.displacement(field)
+    half = len(moved) // 2
+    assert moved[0].tolist() == [1.0, 2.0, 3.0]
+    assert moved[half].tolist() == [1.0, -2.0, 3.0]
+    assert isinstance(surface.probe(surface.places, np.array([[0.12, -1.0, 0.0], [0.12, 1.0, 0.0]])), Probe)

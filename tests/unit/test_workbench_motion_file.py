@@ -1,0 +1,59 @@
+"""Recorded motions: what is written is read again, to single precision; a damaged file is one clear message."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contracts.errors import InputError
+from tests.small_report_folder import rolling_run
+from workbench.tasks.motion_file import read_motion, write_motion
+
+
+def test_a_motion_comes_back(tmp_path: Path) -> None:
+    run = rolling_run()
+    write_motion(run, tmp_path / "motions" / "m.npz")
+    found = read_motion(tmp_path / "motions" / "m.npz")
+    assert found.title == run.scenario.title
+    np.testing.assert_allclose(found.times, run.motion.times)
+    np.testing.assert_allclose(found.positions, run.motion.positions, atol=1e-6)
+    np.testing.assert_allclose(found.rotations, run.motion.rotations, atol=1e-6)
+    np.testing.assert_allclose(found.up, [0.0, 0.0, 1.0])
+    assert found.vectors.shape[1] == 0
+    assert {solid.body for solid in found.solids} == {-1, *range(found.positions.shape[1])}
+
+
+def test_a_long_motion_keeps_its_ends_and_no_more_than_181_times(tmp_path: Path) -> None:
+    run = rolling_run(frames=1000)
+    write_motion(run, tmp_path / "m.npz")
+    found = read_motion(tmp_path / "m.npz")
+    assert len(found.times) == 181
+    assert found.times[[0, -1]].tolist() == [0.0, 4.0]
+    assert (tmp_path / "m.npz").stat().st_size < 200_000
+
+
+def test_a_slope_is_seen_by_what_is_up(tmp_path: Path) -> None:
+    run = rolling_run()
+    tilt = type(run.scenario.tilt)(angle=0.3, heading=0.0)
+    write_motion(replace(run, scenario=replace(run.scenario, tilt=tilt)), tmp_path / "m.npz")
+    np.testing.assert_allclose(read_motion(tmp_path / "m.npz").up, [-np.sin(0.3), 0.0, np.cos(0.3)], atol=1e-12)
+
+
+@pytest.mark.parametrize("damage", ["cut", "text", "bodies"])
+def test_a_damaged_file_is_refused(tmp_path: Path, damage: str) -> None:
+    path = tmp_path / "m.npz"
+    write_motion(rolling_run(), path)
+    if damage == "cut":
+        path.write_bytes(path.read_bytes()[:2000])
+    elif damage == "text":
+        path.write_text("no archive", encoding="utf-8")
+    else:
+        with np.load(path) as archive:
+            arrays = dict(archive)
+        arrays["bodies"] = arrays["bodies"] + 30
+        np.savez(path, **arrays)
+    with pytest.raises(InputError, match=r"motion file = .*cannot be read"):
+        read_motion(path)

@@ -1,0 +1,126 @@
+"""A rover's motion with what is drawn of it, as a NumPy archive without pickle, for the viewer.
+
+Poses at no more than 181 of the recorded times, in single precision, as quaternions: 150 kB for a rover on brush tires.
+
+Verified by tests/unit/test_workbench_motion_file.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from contracts.errors import InputError
+from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
+from rover_dynamics.rover.scenarios.scenario import ScenarioRun
+from workbench.figures.rover_solids import ground_solids, rover_solids
+from workbench.figures.solids import WORLD, Solid
+
+__all__ = ["MOTION", "RecordedMotion", "read_motion", "write_motion"]
+
+FloatArray = NDArray[np.float64]
+MOTION = "motion.npz"
+_MOST = 181
+"""Times that are kept at most: a quarter second apart in the longest scenarios."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RecordedMotion:
+    """What is needed to play a motion.
+
+    Attributes
+    ----------
+    title : of the scenario
+    times : (n,) float [s]
+    positions, rotations : (n, n_b, 3) [m] and (n, n_b, 3, 3) float, of all bodies, body to world
+    vectors : (n, n_w, n_vectors, 3) float, of ANCF tires; n_w = 0 without
+    up : unit vector against gravity, world
+    solids : rover and ground
+    """
+
+    title: str
+    times: FloatArray
+    positions: FloatArray
+    rotations: FloatArray
+    vectors: FloatArray
+    up: FloatArray
+    solids: tuple[Solid, ...]
+
+
+def write_motion(run: ScenarioRun, path: Path, hub_radius: float | None = None) -> None:
+    """Write a run; of wheels on ANCF tires only the hubs are solid, of the tires' hub radius [m]."""
+    motion, design = run.motion, run.design
+    flexible = isinstance(motion, FlexibleMotion)
+    kept = np.unique(np.linspace(0, len(motion.times) - 1, min(_MOST, len(motion.times))).round().astype(np.int64))
+    places = run.wheels[..., :2].reshape(-1, 2)
+    trodden = np.array([places.min(axis=0) - design.wheel_radius, places.max(axis=0) + design.wheel_radius])
+    ground = ground_solids(run.scenario.terrain(design), trodden)
+    solids = [*rover_solids(design, hub_radius if flexible else None), *ground]
+    turned = Rotation.from_matrix(motion.rotations[kept].reshape(-1, 3, 3)).as_quat(scalar_first=True)
+    vectors = motion.vectors[kept] if isinstance(motion, FlexibleMotion) else np.zeros((len(kept), 0, 0, 3))
+    arrays: dict[str, Any] = {
+        "title": np.array(run.scenario.title),
+        "times": motion.times[kept],
+        "positions": motion.positions[kept].astype(np.float32),
+        "quaternions": turned.reshape(*motion.positions[kept].shape[:2], 4).astype(np.float32),
+        "vectors": vectors.astype(np.float32),
+        "up": -np.array(run.scenario.tilt.gravity(1.0)),
+        "bodies": np.array([solid.body for solid in solids]),
+    }
+    for number, solid in enumerate(solids):
+        arrays[f"points{number}"] = solid.points.astype(np.float32)
+        arrays[f"quads{number}"] = solid.quads.astype(np.int32)
+        arrays[f"colours{number}"] = np.array(solid.colours)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    np.savez_compressed(path, **arrays)
+
+
+def read_motion(path: Path) -> RecordedMotion:
+    """Read what `write_motion` wrote.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or its arrays do not fit together.
+    """
+    try:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
+            return _motion({name: archive[name] for name in archive.files})
+    except Exception as error:  # a damaged archive raises in many ways
+        rule = f"cannot be read ({type(error).__name__}: {str(error)[:80]})"
+        raise InputError("motion file", path, rule, "run the report or the scenario again") from error
+
+
+def _motion(arrays: Mapping[str, NDArray[Any]]) -> RecordedMotion:
+    quaternions, positions = arrays["quaternions"].astype(np.float64), arrays["positions"].astype(np.float64)
+    n, n_b = positions.shape[:2]
+    if quaternions.shape != (n, n_b, 4) or len(arrays["times"]) != n or len(arrays["vectors"]) != n:
+        raise ValueError(f"{len(arrays['times'])} times, positions {positions.shape}")
+    if arrays["bodies"].min() < WORLD or arrays["bodies"].max() >= n_b:
+        raise ValueError(f"solids of bodies that are none of {n_b}")
+    rotations = Rotation.from_quat(quaternions.reshape(-1, 4), scalar_first=True).as_matrix()
+    return RecordedMotion(
+        title=str(arrays["title"]),
+        times=arrays["times"].astype(np.float64),
+        positions=positions,
+        rotations=rotations.reshape(n, n_b, 3, 3),
+        vectors=arrays["vectors"].astype(np.float64),
+        up=arrays["up"].astype(np.float64),
+        solids=tuple(_solid(arrays, number) for number in range(len(arrays["bodies"]))),
+    )
+
+
+def _solid(arrays: Mapping[str, NDArray[Any]], number: int) -> Solid:
+    colours = arrays[f"colours{number}"]
+    return Solid(
+        body=int(arrays["bodies"][number]),
+        points=arrays[f"points{number}"].astype(np.float64),
+        quads=arrays[f"quads{number}"].astype(np.int64),
+        colours=str(colours) if colours.ndim == 0 else colours.astype(np.uint8),
+    )

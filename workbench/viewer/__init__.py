@@ -1,0 +1,1 @@
+"""The viewer: a local page on a report's folder."""

@@ -1,0 +1,74 @@
+"""Colours of a field on the wheel, and the bar that explains them.
+
+Verified by tests/unit/test_viewer_colours.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.figures.palette import STRESS_COLOURS
+
+__all__ = ["ColourBar", "colour_bar"]
+
+FloatArray = NDArray[np.float64]
+_SHARE = 99.8
+"""Percentile at which the colours end, so that a single corner does not take them all."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ColourBar:
+    """Colours from zero to ``end``; values beyond have the last one.
+
+    Attributes
+    ----------
+    title, unit : of the quantity
+    factor : from SI to the unit
+    end : value at the end of the colours [SI]
+    stops : colours at equal steps
+    """
+
+    title: str
+    unit: str
+    factor: float
+    end: float
+    stops: tuple[str, ...] = STRESS_COLOURS
+
+    def colours(self, values: FloatArray) -> NDArray[np.uint8]:
+        """Of values (...) [SI], shape (..., 3)."""
+        stops = np.array([[int(c[i : i + 2], 16) for i in (1, 3, 5)] for c in self.stops], dtype=np.float64)
+        share, places = values / self.end, np.linspace(0.0, 1.0, len(stops))
+        mixed = np.stack([np.interp(share, places, stops[:, i]) for i in range(3)], axis=-1)
+        return mixed.round().astype(np.uint8)
+
+    def text(self, value: float) -> str:
+        """A value [SI] with its unit."""
+        return f"{self.factor * value:.{self._digits}f} {self.unit}"
+
+    def shown(self, largest: float) -> dict[str, object]:
+        """What the page draws: title, gradient, ticks from top to bottom, the largest value of the field."""
+        ticks = np.linspace(self.factor * self.end, 0.0, 6)
+        return {
+            "title": f"{self.title} [{self.unit}]",
+            "gradient": f"linear-gradient(to top, {', '.join(self.stops)})",
+            "ticks": [f"{tick:.{self._digits}f}" for tick in ticks],
+            "above": f"largest {self.text(largest)}",
+        }
+
+    @property
+    def _digits(self) -> int:
+        """So that the steps of the bar can be told apart."""
+        return int(np.clip(1 - np.floor(np.log10(0.2 * self.factor * self.end)), 0, 4))
+
+
+def colour_bar(title: str, unit: str, factor: float, fields: Sequence[FloatArray]) -> ColourBar:
+    """One bar for fields that are to be compared; ends at a round number at or above nearly all of their values."""
+    largest = factor * max(float(np.percentile(np.abs(one), _SHARE)) for one in fields)
+    if largest <= 0.0:
+        return ColourBar(title=title, unit=unit, factor=factor, end=1.0 / factor)
+    step = 10.0 ** np.floor(np.log10(largest) - 0.5)
+    return ColourBar(title=title, unit=unit, factor=factor, end=float(np.ceil(largest / step) * step) / factor)

@@ -1,0 +1,162 @@
+"""What is looked at: the wheel at its loads, a rover in its motion; each knows its pictures and its words.
+
+Verified by tests/unit/test_viewer_stages.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.figures.palette import STRAIN_COLOURS
+from workbench.figures.solids import Quads
+from workbench.figures.tire_animation import StrainedTires, strained_tires
+from workbench.tasks.motion_file import RecordedMotion, read_motion
+from workbench.viewer.colours import ColourBar, colour_bar
+from workbench.viewer.scene import Camera, Scene, read_fields
+from workbench.viewer.wheel_surface import WheelField, WheelSurface
+
+__all__ = ["QUANTITIES", "RoverStage", "WheelStage", "wheel_stage"]
+
+FloatArray = NDArray[np.float64]
+QUANTITIES = {"stress": ("von Mises stress", "MPa", 1e-6), "displacement": ("displacement", "mm", 1e3)}
+"""What the wheel can be coloured by: title, unit, factor from SI."""
+_WHEEL_EYE = (0.42, -0.86, 0.29)
+_ROVER_EYE = (-0.55, -1.0, 0.45)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WheelStage:
+    """A wheel at one orientation: unloaded, and at the loads at which fields were kept.
+
+    Attributes
+    ----------
+    surface : the same at all loads
+    loads : (n,) [N], the first one 0
+    fields : (n,)
+    down : unit vector from the hub to the ground, wheel frame
+    """
+
+    surface: WheelSurface
+    loads: tuple[float, ...]
+    fields: tuple[WheelField, ...]
+    down: FloatArray
+
+    def values(self, number: int, quantity: str) -> FloatArray:
+        """Of one load at the mesh's nodes [SI]."""
+        field = self.fields[number]
+        return field.von_mises if quantity == "stress" else np.linalg.norm(field.displacement, axis=1)
+
+    def bar(self, quantity: str) -> ColourBar:
+        """One for all loads, so that they can be compared."""
+        title, unit, factor = QUANTITIES[quantity]
+        return colour_bar(title, unit, factor, [self.values(k, quantity) for k in range(len(self.loads))])
+
+    def places(self, number: int) -> FloatArray:
+        """Of the surface's points (n, 3) [m], in true scale."""
+        return self.surface.places + self.surface.displacement(self.fields[number])
+
+    def show(self, scene: Scene, number: int, quantity: str, *, afresh: bool) -> None:
+        """Put it into the scene, or only move what stands there."""
+        places = self.places(number)
+        colours = self.bar(quantity).colours(self.values(number, quantity)[self.surface.nodes])
+        if afresh:
+            scene.show_shape((places, self.surface.quads), colours, self._ground(places))
+        else:
+            scene.move_shape(places, colours, self._ground(places))
+
+    def camera(self) -> Camera:
+        """From the side and a little above, with the ground below."""
+        reach = float(np.abs(self.surface.places).max())
+        return Camera(eye=_unit(_WHEEL_EYE), up=(0.0, 0.0, 1.0), centre=(0.0, 0.0, 0.0), half_height=1.35 * reach)
+
+    def _ground(self, places: FloatArray) -> Quads:
+        """A square under the lowest point of the wheel."""
+        depth, half = float((places @ self.down).max()), 0.85 * float(np.abs(places).max())
+        aside = np.cross(self.down, (0.0, 1.0, 0.0))
+        corners = [a * aside + np.array([0.0, b, 0.0]) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        return (depth + 3e-4) * self.down + half * np.array(corners), np.array([[0, 1, 2, 3]])
+
+
+def wheel_stage(orientation: float, files: Sequence[tuple[float, Path]]) -> WheelStage:
+    """Read the fields of one orientation [deg] at loads [N] in increasing order; raises InputError for a bad file."""
+    read = [(load, *read_fields(path)) for load, path in files]
+    _, surface, first = read[0]
+    still = WheelField(displacement=0.0 * first.displacement, von_mises=0.0 * first.von_mises)
+    phi = np.radians(orientation)
+    return WheelStage(
+        surface=surface,
+        loads=(0.0, *(load for load, _, _ in read)),
+        fields=(still, *(field for _, _, field in read)),
+        down=np.array([np.sin(phi), 0.0, -np.cos(phi)]),
+    )
+
+
+class RoverStage:
+    """A rover's recorded motion."""
+
+    def __init__(self, path: Path) -> None:
+        self.motion: RecordedMotion = read_motion(path)
+
+    @property
+    def times(self) -> FloatArray:
+        """Of the frames (n,) [s]."""
+        return self.motion.times
+
+    @cached_property
+    def tires(self) -> StrainedTires | None:
+        """ANCF tires in all frames, coloured by strain; None on other tires."""
+        if self.motion.vectors.shape[1] == 0:
+            return None
+        from ancf_reduced.tire_mesh import build_tire
+        from ancf_reduced.tire_preset import thesis_preset
+
+        return strained_tires(build_tire(thesis_preset()), self.motion.vectors)
+
+    def bar(self) -> dict[str, object] | None:
+        """Of the strain, if tires are coloured by it."""
+        if self.tires is None:
+            return None
+        bar = ColourBar(
+            title="largest principal strain", unit="%", factor=100.0, end=self.tires.end, stops=STRAIN_COLOURS
+        )
+        return bar.shown(self.tires.largest)
+
+    def show(self, scene: Scene, frame: int, *, afresh: bool) -> None:
+        """Put one frame into the scene, or move what stands there."""
+        surfaces = self.tires.surfaces if self.tires else ()
+        if afresh:
+            tires = [((one.points[frame], one.quads), one.colours[frame]) for one in surfaces]
+            scene.show_solids(self.motion.solids, tires)
+        moved = [(one.points[frame], one.colours[frame]) for one in surfaces]
+        scene.move_solids(self.motion.positions[frame], self.motion.rotations[frame], moved)
+
+    def camera(self) -> Camera:
+        """From the right, behind and above, wide enough for the whole motion; up is against gravity."""
+        r, R = self.motion.positions, self.motion.rotations
+        moments = sorted({0, len(r) // 2, len(r) - 1})
+        points = np.concatenate([one.placed(r[k], R[k]) for one in self.motion.solids for k in moments])
+        up = self.motion.up / np.linalg.norm(self.motion.up)
+        ahead = np.array([1.0, 0.0, 0.0]) - up[0] * up
+        ahead /= np.linalg.norm(ahead)
+        eye = np.array(_unit(_ROVER_EYE)) @ np.array([ahead, np.cross(up, ahead), up])
+        across = np.cross(up, eye) / np.linalg.norm(np.cross(up, eye))
+        above = np.cross(eye, across)
+        low, high = points.min(axis=0), points.max(axis=0)
+        seen = points @ np.array([across, above]).T
+        half = 0.62 * max(np.ptp(seen[:, 1]), np.ptp(seen[:, 0]) / 1.5)
+        return Camera(eye=_three(eye), up=_three(up), centre=_three(0.5 * (low + high)), half_height=float(half))
+
+
+def _unit(vector: tuple[float, float, float]) -> tuple[float, float, float]:
+    return _three(np.array(vector) / np.linalg.norm(vector))
+
+
+def _three(vector: FloatArray) -> tuple[float, float, float]:
+    x, y, z = vector.tolist()
+    return x, y, z
