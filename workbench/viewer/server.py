@@ -74,6 +74,7 @@ async def _served(server: Any, port: int, *, open_browser: bool) -> None:
         open_browser=False,
         show_connection_info=False,
         disable_logging=True,
+        thread=True,  # the signals are ours
         timeout=0,
     )
     await asyncio.wait({running, asyncio.create_task(ended.wait())}, return_when=asyncio.FIRST_COMPLETED)

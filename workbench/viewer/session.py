@@ -60,7 +60,7 @@ def initial_state(folder: ReportFolder) -> dict[str, Any]:
         "message": "",
         "caption": "",
         "bar": None,
-        "frames": 1,
+        "last_frame": 0,
         "frame": 0,
         "moment": "",
         "playing": False,
@@ -121,8 +121,8 @@ class Session:
             state.orientation = state.orientations[0]
         self.wheel = self.wheel_at(state.model, float(state.orientation))
         state.loads = [round(load, 3) for load in self.wheel.loads]
-        state.load = state.frame = len(state.loads) - 1
-        state.frames, state.probe = len(state.loads), None
+        state.load = state.frame = state.last_frame = len(state.loads) - 1
+        state.probe = None
         self.scene.mark(None, 0.0)
         self._show_wheel(afresh=True)
         self.draw_curves()
@@ -155,7 +155,7 @@ class Session:
             state.tire = state.tires[0]
         key = (state.scenario, state.tire)
         self.rover = RoverStage(self.folder.motions[key])
-        state.frames, state.frame, state.bar = len(self.rover.times), 0, self.rover.bar()
+        state.last_frame, state.frame, state.bar = len(self.rover.times) - 1, 0, self.rover.bar()
         state.rover_title = self.rover.motion.title
         series = self.folder.series.get(key)
         state.series_choices = quantities(series) if series else {}
@@ -257,10 +257,10 @@ class Session:
     async def play(self) -> None:
         """Step through the loads, or through the motion by the clock, as fast as the browser draws."""
         state = self.state
-        if state.frame >= state.frames - 1:
+        if state.frame >= state.last_frame:
             state.frame = -1 if state.tab == "wheel" else 0
         begun, first = time.monotonic(), max(int(state.frame), 0)
-        while state.playing and state.frame < state.frames - 1:
+        while state.playing and state.frame < state.last_frame:
             self.drawn.clear()
             with state:
                 state.frame = self._due(first, time.monotonic() - begun)
