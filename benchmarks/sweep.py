@@ -1,8 +1,9 @@
 """What the runner costs for each task, and what a second process is worth in a sweep of the section model.
 
 ``make bench NAME=sweep`` prints the table and writes ``build/bench/sweep.json``; "ours" is two processes, "peer" one,
-both in the same run, in turn, the shorter of two. The second means something on a machine with two idle cores only: the
-load at the start is in the table. The first task of each worker, which loads libraries, is left out.
+both in the same run, in turn, the shorter of two. Plain loops say what a second process is worth on this machine at
+best: two where two cores are idle, less on two threads of one core; the load at the start is in the table. The first
+task of each worker, which loads libraries, is left out.
 """
 
 from __future__ import annotations
@@ -33,6 +34,11 @@ def tiny(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     """A task that does next to nothing."""
     (out / "x.txt").write_text(str(inputs["i"]), encoding="utf-8")
     return 0
+
+
+def loop(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Plain arithmetic: what two processes are worth on this machine at best."""
+    return sum(i & 1 for i in range(4_000_000)) - inputs["i"]
 
 
 class Clock:
@@ -69,11 +75,17 @@ def main() -> None:
     options = parser.parse_args()
     run, load = Run("sweep"), os.getloadavg()[0]
     small = [Task(name=f"t{i}", function="benchmarks.sweep:tiny", inputs={"i": i}) for i in range(TINY)]
+    loops = [Task(name=f"l{i}", function="benchmarks.sweep:loop", inputs={"i": i}) for i in range(options.points)]
     study = read_study(ROOT / "studies" / "strip_sweep.toml")
     solid = [section_task(study, f"s{i}", 5.0 * i, [0.005, 0.010, 0.015]) for i in range(options.points)]
     seconds_per_task(solid[:2], 1)  # compiles
     rows = []
-    for case, tasks in ((f"{TINY} tiny tasks", small), (f"{options.points} section curves", solid)):
+    cases = {
+        f"{TINY} tiny tasks": small,
+        f"{options.points} section curves": solid,
+        f"{options.points} plain loops": loops,
+    }
+    for case, tasks in cases.items():
         one, two = (min(seconds_per_task(tasks, workers) for _ in range(2)) for workers in (1, 2))
         metric = "wall time for each task"
         rows.append(

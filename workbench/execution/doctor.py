@@ -27,6 +27,7 @@ NEEDED = {
     "meshio": "mesh files",
     "objective-rating-metrics": "ISO/TS 18571 rating",
     "jinja2": "report page",
+    "pyarrow": "tables of sweeps (Parquet)",
     "rasterio": "terrain from GeoTIFF",
 }
 """Distribution -> what it is needed for."""
