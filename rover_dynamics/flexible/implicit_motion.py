@@ -53,7 +53,7 @@ def drive_on_flexible_tires(
     steps : how they are chosen
     settles_until : up to this time [s] steps are those of the implicit Euler method, as long as Newton's method bears
         them: the vehicle comes to rest without bouncing
-    watch : called with time and state at each step's end
+    watch : called with time and state at each step's end; a ConvergenceError of it ends the motion
     start : bodies and tires begin in this state's place, at rest
     checkpoint : file to keep the motion in every second of it and, if an earlier run of this very motion left it, to
         go on from; removed at the end
@@ -61,7 +61,7 @@ def drive_on_flexible_tires(
     Raises
     ------
     ConvergenceError
-        If the step falls below the shortest one; with the motion up to there.
+        If the step falls below the shortest one, or from ``watch``; with the motion up to there.
     InputError
         See `rover_dynamics.vehicle.vehicle.drive_vehicle`.
     """
@@ -110,13 +110,20 @@ class _Run:
                 self.accepted += 1
                 now, last, t = found, dt, (target if dt == target - t else t + dt)
                 if self.watch is not None:
-                    self.watch(t, now.instant)
+                    self._show(t, now.instant, rows)
             rows.append(system.row(now.instant, t))
             if t >= next_kept:
                 next_kept = t + EVERY
                 self.solver.forget()
                 self._keep((t, length, last), now, rows)
         return self._motion(rows)
+
+    def _show(self, t: float, now: Instant, rows: list[tuple[FloatArray, ...]]) -> None:
+        assert self.watch is not None
+        try:
+            self.watch(t, now)
+        except ConvergenceError as error:
+            raise ConvergenceError(str(error), error.history, self._motion(rows)) from error
 
     def _start(self, start: Instant | None) -> tuple[tuple[float, float, float], StepEnd, list[tuple[FloatArray, ...]]]:
         """Time, wish for the next step and last step [s], state and rows: of the checkpoint, or of the model."""
@@ -172,7 +179,7 @@ class _Run:
     def _stopped(self, t: float, rows: list[tuple[FloatArray, ...]]) -> ConvergenceError:
         message = (
             f"motion on flexible tires stopped at t = {t:g} s of {self.times[-1]:g} s: no step down to "
-            f"{self.steps.shortest:g} s converges; allow a larger error or shorter steps, or look at the tires there"
+            f"{self.steps.shortest:g} s converges; look at tires and bodies there, or allow shorter steps"
         )
         record = IncrementRecord(target=t, step=self.steps.shortest, converged=False, residuals=())
         return ConvergenceError(message, [record], self._motion(rows))

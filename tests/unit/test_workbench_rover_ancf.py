@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import jinja2
 import numpy as np
@@ -53,7 +54,17 @@ def _drive(name: str, tire: str) -> Drive:
         return Drive(outcomes=(), series=None, stopped="a tire folds at t = -4.5 s", spins=(), wall_s=3.0)
     stopped = FOLDED if (name, tire) == ("drop", "ancf") else None
     outcomes = () if stopped else outcomes
-    return Drive(outcomes=outcomes, series=_series(name, tire), stopped=stopped, spins=(SPIN,) * 6, wall_s=3.0)
+    return Drive(
+        outcomes=outcomes, series=_series(name, tire), stopped=stopped, spins=(SPIN,) * 6, wall_s=3.0, **_account()
+    )
+
+
+def _account() -> dict[str, Any]:
+    """Of 2 s: the drives put in 50 W, of which contact damping takes 30 W and motion the rest."""
+    time = np.linspace(0.0, 2.0, 41)
+    table = np.zeros((41, 9))
+    table[:, 0], table[:, 1], table[:, 6], table[:, 8] = time, 20.0 * time, 30.0 * time, 50.0 * time
+    return {"account": table, "closures": {"energy": 1e-4, "momentum": 2e-5}}
 
 
 @pytest.fixture(scope="module")
@@ -105,7 +116,7 @@ def test_a_fall_leaves_its_series_and_why_it_ended(tmp_path: Path) -> None:
     assert drop.series.partial
     assert 0.1 < drop.series.time[-1] < 1.0
     assert drop.outcomes == ()
-    assert "stopped at t = " in str(drop.stopped)
+    assert "a tire folds at t = " in str(drop.stopped)
     assert "failure" not in read_result(tmp_path)  # that of a fall is a finding, not a failed run of the report
 
 
@@ -119,7 +130,8 @@ def test_period_spin_and_ripple_are_read_from_the_series(results: AncfRover) -> 
 def test_gates_hold_and_a_fold_is_a_finding(study: Study, results: AncfRover) -> None:
     checks = _checks(study, results)
     gates = {name for name, check in checks.items() if check.role == "gate"}
-    assert gates == {"rover_ancf.load", "rover_ancf.period"}
+    closed = {f"rover_ancf.{n}_{what}" for n in ("straight", "traction") for what in ("energy", "momentum")}
+    assert gates == {"rover_ancf.load", "rover_ancf.period"} | closed
     assert {checks[name].status for name in gates} == {"pass"}
     assert {name: checks[f"rover_ancf.{name}"].status for name in ("drop", "ripple", "ripple_fine_grid")} == {
         "drop": "pass",
@@ -134,10 +146,12 @@ def test_gates_hold_and_a_fold_is_a_finding(study: Study, results: AncfRover) ->
 def test_another_period_or_load_fails_the_gates(study: Study, results: AncfRover) -> None:
     """Negative control: spins of three spokes instead of four, a load of the wrong mass."""
     three = replace(results["straight"], spins=(0.75 * SPIN,) * 6)
+    lossy = replace(results["traction"], closures={"energy": 0.02, "momentum": 0.0})
     light = replace(results["static"], outcomes=(replace(results["static"].outcomes[0], value=190.0),))
-    damaged = replace(results, runs={**results.runs, "straight": three, "static": light})
+    damaged = replace(results, runs={**results.runs, "straight": three, "static": light, "traction": lossy})
     checks = _checks(study, damaged)
-    assert [checks[f"rover_ancf.{name}"].status for name in ("load", "period")] == ["fail", "fail"]
+    names = ("load", "period", "traction_energy")
+    assert [checks[f"rover_ancf.{name}"].status for name in names] == ["fail", "fail", "fail"]
 
 
 def test_the_section_shows_both_tires_and_what_stopped(study: Study, results: AncfRover) -> None:
@@ -147,7 +161,20 @@ def test_the_section_shows_both_tires_and_what_stopped(study: Study, results: An
     series, figures = series_links(ROVER_ANCF.series(study, results)), ROVER_ANCF.figures(study, results)
     template = environment.get_template("section_rover_ancf.html.j2")
     text = template.render(topic=results, series=series, figures=figures)
-    for words in (FOLDED, "a tire folds at t = -4.5 s", "report --full", "11.5", "not met", "met</td>"):
+    assert results.power == pytest.approx(
+        {"drives": 50.0, "contact_damping": 30.0, "kinetic": 20.0, "speed": 0.0187}
+        | dict.fromkeys(("strain", "contact", "weight", "damping", "friction"), 0.0)
+    )
+    for words in (
+        "takes 30 W, 60 %",
+        "1.0e-04",
+        FOLDED,
+        "a tire folds at t = -4.5 s",
+        "report --full",
+        "11.5",
+        "not met",
+        "met</td>",
+    ):
         assert words in text, words
     assert 'download="straight_ancf.csv"' in text
     assert "slope_up_ancf.csv" not in text

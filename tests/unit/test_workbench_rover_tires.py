@@ -12,11 +12,14 @@ from ancf_reduced.tire_preset import thesis_preset
 from ancf_reduced.wheel_set import wheel_set
 from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Plane
-from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
+from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
+from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, on_flexible_tires
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
+from rover_dynamics.rover.scenarios.ground import on_terrain, touching_height
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, mean_static_load, run_scenario, scenario_series
-from workbench.tasks.rover_tires import START_HEIGHT, on_ancf_tires, unfolded
+from workbench.tasks.rover_shapes import TireShapes
+from workbench.tasks.rover_tires import START_HEIGHT, on_ancf_tires
 
 DESIGN = read_rover()
 
@@ -57,16 +60,43 @@ def test_a_rover_with_other_wheels_is_refused() -> None:
         run_scenario(on_ancf_tires(SCENARIOS["straight"]), replace(DESIGN, wheel_radius=0.15))
 
 
-def test_a_folded_tire_ends_the_motion_before_it_and_says_so(held: ScenarioRun) -> None:
-    """Negative control of the check of plates: in the last sample the shape of one tire is turned inside out."""
-    motion = held.motion
-    assert isinstance(motion, FlexibleMotion)
+def _shapes(held: ScenarioRun, squeeze: float, wheel: int = 3) -> tuple[TireShapes, Instant]:
+    """The rover at rest, one tire squeezed flat along its axle in proportion."""
+    scenario = on_ancf_tires(SCENARIOS["static"])
+    vehicle = scenario.vehicle(DESIGN)
     tires = wheel_set(build_tire(thesis_preset()), Plane(), 6)
-    assert unfolded(motion, tires) is motion
-    shapes = motion.vectors.copy()
-    shapes[2, 3, :, 1] *= -1.0
-    with pytest.raises(ConvergenceError, match=r"a tire folds at t = 0\.1 s") as caught:
-        unfolded(replace(motion, vectors=shapes), tires)
-    assert isinstance(caught.value.last_good, FlexibleMotion)
-    assert caught.value.last_good.times.tolist() == [0.0, 0.05]
-    assert len(caught.value.last_good.vectors) == 2
+    flexible = on_flexible_tires(vehicle, tires)
+    system = FlexibleSystem(flexible)
+    now = system.at_rest(0.0)
+    z = now.z.copy()
+    z[wheel, :, 1] = squeeze * (z[wheel, :, 1] - now.hub.z[wheel, 0, 1]) + now.hub.z[wheel, 0, 1]
+    return TireShapes(system, tires, vehicle.wheels), replace(now, z=z)
+
+
+def test_a_folded_tire_ends_the_motion_and_is_named(held: ScenarioRun) -> None:
+    """Negative control: the undeformed tires pass; a tire turned inside out is refused, with wheel, plate and load."""
+    shapes, whole = _shapes(held, 1.0)
+    for _ in range(5):
+        shapes.watch(0.1, whole)
+    shapes, inverted = _shapes(held, -1.0)
+    shapes.steps = 4  # the plates are looked at every fifth step
+    with pytest.raises(ConvergenceError, match=r"folds at t = 0\.1 s: plate \d+ \((rim|spoke), volume") as caught:
+        shapes.watch(0.1, inverted)
+    assert DESIGN.legs[3].name.replace("_", " ") in str(caught.value)
+    assert "is inverted; lower the load" in str(caught.value)
+
+
+def test_a_stop_is_explained_by_a_tire_only_if_one_gives_way(held: ScenarioRun) -> None:
+    stopped = ConvergenceError("no step converges", [])
+    shapes, whole = _shapes(held, 1.0)
+    shapes.watch(0.1, whole)
+    assert shapes.explained(stopped) is stopped
+    shapes, thin = _shapes(held, 0.01)
+    shapes.watch(0.1, thin)
+    assert "a tire folds at t = 0.1 s, where no step converges" in str(shapes.explained(stopped))
+
+
+def test_on_another_ground_the_tires_start_as_deep_as_on_level_ground() -> None:
+    scenario = on_ancf_tires(SCENARIOS["straight"])
+    raised = on_terrain(scenario, DESIGN, Plane(), "the same")
+    assert raised.height == pytest.approx(START_HEIGHT + touching_height(Plane(), DESIGN))

@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.csv_table import TableRule, read_table
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.series import TimeSeries, read_series
+from rover_dynamics.flexible.account import COLUMNS
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.comparison.oscillation import period, ripple, spectrum
 from workbench.execution.result_files import read_result
@@ -36,19 +38,42 @@ TITLES = {
 OBSERVED = "front_right"
 ROLLING = (5.0, 35.0)
 """Time at the speed of the straight path [s]."""
+_ACCOUNT = TableRule(what="energy account", first=("time_s",), units="give SI units")
+DRIVEN = 1.5
+"""From here to its end at 2 s the run of traction says where the power goes [s]."""
 QUARTER = 0.5 * np.pi
 """A spoke follows on the next one after this angle [rad]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drive:
-    """One run: outcomes, series or None, why it stopped or None, mean spins [rad/s], wall time [s] or None."""
+    """One run: outcomes, series or None, why it stopped or None, mean spins [rad/s], wall time [s] or None.
+
+    ``account`` are time and energies, columns of `rover_dynamics.flexible.account.COLUMNS` behind the time, or None;
+    ``closures`` how far energy and momentum are not accounted for [-].
+    """
 
     outcomes: tuple[Outcome, ...]
     series: TimeSeries | None
     stopped: str | None
     spins: tuple[float, ...]
     wall_s: float | None
+    account: FloatArray | None = None
+    closures: Mapping[str, float] = field(default_factory=dict)
+
+    def closure(self, what: str) -> float:
+        """Of energy or momentum [-]; raises InputError if it was not accounted for."""
+        if what not in self.closures:
+            raise InputError(f"account of {what}", "none", "was not kept", self.stopped or "look at the run")
+        return self.closures[what]
+
+    def spent(self, since: float) -> dict[str, float]:
+        """Mean power of each column of the account from a time on to the end [W], stored energies as they grow."""
+        if self.account is None:
+            raise InputError("energy account", "none", "was not kept", self.stopped or "look at the run")
+        first = min(int(np.searchsorted(self.account[:, 0], since)), len(self.account) - 2)
+        changes = self.account[-1] - self.account[first]
+        return dict(zip(COLUMNS, (changes[1:] / changes[0]).tolist(), strict=True))
 
     def value(self, quantity: str) -> float:
         """Of the first outcome that begins so; raises InputError if there is none."""
@@ -123,6 +148,15 @@ class AncfRover:
             return None
 
     @property
+    def power(self) -> dict[str, float] | None:
+        """Where the power of the drives goes under 3.5 N m in the last half second [W], and the mean speed [m/s]."""
+        try:
+            _, speed = self.window("traction", "body_vx_m_s", (DRIVEN, np.inf))
+            return self["traction"].spent(DRIVEN) | {"speed": float(speed.mean())}
+        except InputError:
+            return None
+
+    @property
     def sweep(self) -> list[tuple[str, float, float, float]]:
         """Run, wheel load [N], deflection on ANCF tires and of the FE average [m]; NaN beyond its end."""
         rows = []
@@ -153,10 +187,13 @@ class AncfRover:
 def read_drive(folder: Path, name: str, tire: str) -> Drive:
     """A run from its task's folder."""
     result, series, manifest = read_result(folder), folder / "series.csv", folder / MANIFEST
+    account, closures = folder / "account.csv", result.get("closures") or [{}]
     return Drive(
         outcomes=tuple(Outcome(**row) for row in result["outcomes"]),
         series=read_series(series, name, tire) if series.exists() else None,
         stopped=result.get("stopped") or result.get("failure"),
         spins=tuple(result.get("spins", ())),
         wall_s=float(json.loads(manifest.read_text(encoding="utf-8"))["wall_s"]) if manifest.exists() else None,
+        account=read_table(account, _ACCOUNT).values if account.exists() else None,
+        closures=closures[0],
     )

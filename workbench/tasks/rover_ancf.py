@@ -1,4 +1,4 @@
-"""Task: one run of the rover on six ANCF tires.
+"""Task: one run of the rover on six ANCF tires, of the thesis or fitted to the wheel.
 
 Verified by tests/unit/test_workbench_rover_ancf.py.
 """
@@ -13,19 +13,27 @@ from typing import Any
 import numpy as np
 
 from ancf_reduced.tire_preset import thesis_preset
+from contracts.csv_table import CsvTable, table_text
 from contracts.errors import ConvergenceError
 from contracts.series import write_series
-from rover_dynamics.rover.rover_file import read_rover
-from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario, scenario_series
-from workbench.execution.result_files import write_result
+from rover_dynamics.flexible.account import COLUMNS, FlexibleAccount
+from rover_dynamics.flexible.flexible_system import FlexibleSystem
+from rover_dynamics.rover.rover_file import RoverDesign, read_rover
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
+from workbench.execution.result_files import FAILURE, read_result, write_result
 from workbench.execution.task import Progress
+from workbench.tasks.ancf_tire import preset_from
 from workbench.tasks.motion_file import MOTION, write_motion
-from workbench.tasks.rover_ancf_runs import ancf_run
-from workbench.tasks.rover_tires import resuming
+from workbench.tasks.rover_ancf_runs import ancf_run, fitted_run
+from workbench.tasks.rover_shapes import Watch
+from workbench.tasks.rover_tires import resuming, watching
 
-__all__ = ["SERIES", "drive_on_ancf_tires"]
+__all__ = ["ACCOUNT", "SERIES", "drive_on_ancf_tires", "drive_on_fitted_tires"]
 
-SERIES = "series.csv"
+SERIES, ACCOUNT = "series.csv", "account.csv"
+_ROWS = 400
+"""Of the account's file, about."""
+_DOFS = 3 * 6 * 36
 
 
 def drive_on_ancf_tires(
@@ -34,21 +42,66 @@ def drive_on_ancf_tires(
     """``result.json`` with outcomes, mean spins of the wheels and why it stopped, ``series.csv`` and ``motion.npz``.
 
     A motion that stops early keeps its series and has no outcomes; one that stops before time zero has neither.
-    Goes on from the motion in ``checkpoint``, if there is one.
+    Goes on from the motion in ``checkpoint``, if there is one. With ``account`` in the inputs also ``account.csv`` and
+    in the result how far energy and momentum close, from time zero or where the motion went on from.
     """
     design = read_rover()
-    scenario = resuming(ancf_run(inputs["run"], design), checkpoint)
+    run = _drive(ancf_run(inputs["run"], design), design, out, checkpoint, bool(inputs.get("account")))
+    if run is not None:
+        write_motion(run, out / MOTION, thesis_preset().hub_radius)
+    return _DOFS
+
+
+def drive_on_fitted_tires(
+    inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
+) -> int:
+    """The same with a scenario of the mission on six tires of a fit, ``inputs["fit"]`` of the needs.
+
+    Writes no ``motion.npz``, which knows the tire of the thesis only.
+    """
+    fit = read_result(needs[inputs["fit"]])
+    if FAILURE in fit:
+        write_result(out, {"outcomes": [], "spins": [], "stopped": f"there is no tire: {fit[FAILURE]}", "steps": 0})
+        return 0
+    design = read_rover()
+    _drive(fitted_run(inputs["run"], preset_from(fit["preset"]), design), design, out, checkpoint, False)
+    return _DOFS
+
+
+def _drive(
+    scenario: Scenario, design: RoverDesign, out: Path, checkpoint: Path | None, accounted: bool
+) -> ScenarioRun | None:
+    """The run, its files written; None if it ended before time zero."""
+    accounts: list[FlexibleAccount] = []
+
+    def account(system: FlexibleSystem) -> Watch:
+        accounts.append(FlexibleAccount(system))
+        return accounts[-1].watch
+
+    scenario = resuming(watching(scenario, account) if accounted else scenario, checkpoint)
     try:
         run = run_scenario(scenario, design)
     except ConvergenceError as error:
         write_result(out, {"outcomes": [], "spins": [], "stopped": str(error), "steps": 0})
-        return 0
+        return None
     write_series(scenario_series(run), out / SERIES)
-    write_motion(run, out / MOTION, thesis_preset().hub_radius)
     outcomes = () if run.stopped else scenario.judge(run)
     numbers = {"outcomes": [asdict(outcome) for outcome in outcomes], "spins": _spins(run), "stopped": run.stopped}
-    write_result(out, numbers | {"steps": run.motion.steps})
-    return 3 * 6 * 36
+    numbers |= {"steps": run.motion.steps, "closures": [_write_account(one, out / ACCOUNT) for one in accounts]}
+    write_result(out, numbers)
+    return run
+
+
+def _write_account(account: FlexibleAccount, path: Path) -> dict[str, float]:
+    """Energies [J] over time, thinned; closures of energy and momentum over all steps [-]."""
+    every = max(1, len(account.times) // _ROWS)
+    rows = np.column_stack([account.times, account.table()])
+    kept = np.unique(np.append(np.arange(0, len(rows), every), len(rows) - 1))
+    source = "rover on ANCF tires: stored energies and, from damping on, sums since the start"
+    names = ("time_s", *(f"{name}_J" for name in COLUMNS))
+    table = CsvTable(names=names, values=rows[kept], source=source, partial=False)
+    path.write_text(table_text(table), encoding="utf-8", newline="")
+    return {"energy": account.energy_closure(), "momentum": account.momentum_closure()}
 
 
 def _spins(run: ScenarioRun) -> list[float]:

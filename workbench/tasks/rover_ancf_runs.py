@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
+from ancf_reduced.contact_law import ContactLaw
 from ancf_reduced.tire_mesh import build_tire
 from ancf_reduced.tire_preset import TirePreset, thesis_preset
 from contracts.errors import InputError
@@ -21,7 +22,7 @@ from rover_dynamics.rover.scenarios.level_ground import all_drives, sweep_of_gra
 from rover_dynamics.rover.scenarios.scenario import Scenario
 from workbench.tasks.rover_tires import LAW, STEPS, on_ancf_tires
 
-__all__ = ["ancf_run"]
+__all__ = ["ancf_run", "fitted_run"]
 
 LOADS = (160.0, 190.0, 220.0, 250.0)
 """Of the sweep [N]."""
@@ -29,6 +30,15 @@ FINE_GRID = (14, 14)
 """Contact points of a plate, about twice as many as the thesis' 100; stiffness and damping of each are less by as
 much."""
 ROCK_SEED = 1
+LIGHTER = 0.5
+"""Density of a fitted tire, of which nothing at rest depends: as fitted it has the mass of the whole wheel, hub
+included."""
+FITTED_START = -0.02
+"""As `workbench.tasks.rover_tires.START_HEIGHT`, of fitted tires [m]."""
+FITTED_DAMPING = 10.0
+SETTLING_DAMPING = {"slope_down": 300.0}
+"""Of each contact point of a fitted tire [N s/m]; that of runs in which the rover settles beyond what its tires carry
+otherwise (380 N on the front wheels, at rest 300)."""
 
 
 def _sweep(turned: float) -> Callable[[RoverDesign], Scenario]:
@@ -50,12 +60,15 @@ def _drop(_: RoverDesign) -> Scenario:
     return on_ancf_tires(replace(SCENARIOS["drop"], lasts=1.0, every=5e-3, closer=None))
 
 
-def _traction(*, half_step: bool = False, fine_grid: bool = False, lasts: float = 2.0) -> Scenario:
+def _traction(
+    *, half_step: bool = False, fine_grid: bool = False, damping: float | None = None, lasts: float = 2.0
+) -> Scenario:
     title = f"3.5 N m on each drive for {lasts:g} s after 5 s of settling, friction 0.6"
     short = replace(SCENARIOS["traction"], title=title, lasts=lasts, every=5e-3)
     steps = replace(STEPS, tolerance=STEPS.tolerance / 8.0) if half_step else STEPS  # of third order
     if not fine_grid:
-        return on_ancf_tires(short, steps=steps)
+        law = LAW if damping is None else replace(LAW, damping=damping)
+        return on_ancf_tires(short, steps=steps, law=law)
     preset = thesis_preset()
     share = math.prod(preset.contact_points) / math.prod(FINE_GRID)
     finer: TirePreset = replace(preset, contact_points=FINE_GRID)
@@ -64,9 +77,9 @@ def _traction(*, half_step: bool = False, fine_grid: bool = False, lasts: float 
 
 
 def _rocks(design: RoverDesign) -> Scenario:
-    straight = SCENARIOS["straight"]
+    straight = on_ancf_tires(SCENARIOS["straight"])
     rocks = rocks_on_the_way(straight, design, ROCK_SEED)
-    return on_ancf_tires(on_terrain(straight, design, rocks, f"random rocks, seed {ROCK_SEED}"))
+    return on_terrain(straight, design, rocks, f"random rocks, seed {ROCK_SEED}")
 
 
 _VARIANTS: dict[str, Callable[[RoverDesign], Scenario]] = {
@@ -77,6 +90,7 @@ _VARIANTS: dict[str, Callable[[RoverDesign], Scenario]] = {
     "traction_half_step": lambda _: _traction(half_step=True),
     "traction_fine_grid": lambda _: _traction(fine_grid=True),
     "traction_whole": lambda _: _traction(lasts=10.0),
+    "traction_undamped": lambda _: _traction(damping=0.0),
     "rocks": _rocks,
 }
 
@@ -89,3 +103,20 @@ def ancf_run(name: str, design: RoverDesign) -> Scenario:
         )
     scenario = _VARIANTS[name](design) if name in _VARIANTS else on_ancf_tires(SCENARIOS[name])
     return replace(scenario, name=name, study=None)
+
+
+def fitted_run(name: str, preset: TirePreset, design: RoverDesign) -> Scenario:
+    """A scenario of the mission, or random rocks, on six tires of a fit."""
+    law = ContactLaw(
+        stiffness=preset.contact_stiffness,
+        damping=FITTED_DAMPING,
+        damping_depth=LAW.damping_depth,
+        friction=LAW.friction,
+    )
+    tire = build_tire(replace(preset, density=LIGHTER * preset.density))
+    base = replace(SCENARIOS["straight" if name == "rocks" else name], height=FITTED_START)
+    scenario = on_ancf_tires(base, tire, law=law, settling_damping=SETTLING_DAMPING.get(name))
+    if name == "rocks":
+        rocks = rocks_on_the_way(base, design, ROCK_SEED)
+        scenario = on_terrain(scenario, design, rocks, f"random rocks, seed {ROCK_SEED}")
+    return replace(scenario, name=f"{name}_fitted", study=None)

@@ -5,25 +5,29 @@ Verified by tests/unit/test_workbench_rover_tires.py and tests/end_to_end/test_r
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ancf_reduced.contact_law import ContactLaw
 from ancf_reduced.tire_mesh import Tire, build_tire
 from ancf_reduced.tire_preset import thesis_preset
 from ancf_reduced.wheel_set import THESIS_LAW, WheelSet, wheel_set
-from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from contracts.errors import ConvergenceError, InputError
 from rover_dynamics.brush_tire import THESIS_BRUSH
 from rover_dynamics.flexible.even_steps import EvenSteps
-from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, on_flexible_tires
+from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
+from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, FlexibleVehicle, on_flexible_tires
 from rover_dynamics.flexible.implicit_motion import drive_on_flexible_tires
 from rover_dynamics.rover.rover_file import RoverDesign
-from rover_dynamics.rover.scenarios.scenario import Scenario, sampled
-from rover_dynamics.vehicle.vehicle import VehicleMotion
+from rover_dynamics.rover.scenarios.scenario import Scenario
+from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion
+from workbench.tasks.rover_shapes import TireShapes, Watch
 
-__all__ = ["DAMPING_RATIO", "LAW", "START_HEIGHT", "AncfRide", "on_ancf_tires", "resuming", "unfolded"]
+__all__ = ["DAMPING_RATIO", "LAW", "START_HEIGHT", "AncfRide", "on_ancf_tires", "resuming", "watching"]
 
 DAMPING_RATIO = 0.05
 """Of the first mode of a tire on a held hub, see `ancf_reduced.wheel_rig.damped_model`; the thesis gives none [-]."""
@@ -43,28 +47,79 @@ class AncfRide:
 
     Attributes
     ----------
-    tire, steps, law, turned : as there
+    tire, steps, law, turned, settling_damping : as there
     checkpoint : file that a long motion is kept in, or None; see `rover_dynamics.flexible.motion_checkpoint`
+    watched : makes of the equations what sees each step's end from time zero on, or None
     """
 
     tire: Tire
     steps: EvenSteps
     law: ContactLaw
     turned: float
+    settling_damping: float | None = None
     checkpoint: Path | None = None
+    watched: Callable[[FlexibleSystem], Watch] | None = None
 
     def __call__(self, scenario: Scenario, design: RoverDesign) -> VehicleMotion:
-        """The motion at the scenario's times."""
+        """The motion at the scenario's times.
+
+        Raises
+        ------
+        ConvergenceError
+            If a tire folds or no step converges; with the motion up to there.
+        """
         _check_size(self.tire, design)
-        vehicle = scenario.vehicle(design)
-        n, friction = len(vehicle.wheels), scenario.tire.friction_max
+        friction = scenario.tire.friction_max
         law = self.law if friction == THESIS_BRUSH.friction_max else replace(self.law, friction=friction)
+        vehicle, times, start = scenario.vehicle(design), scenario.times(), None
+        if self.settling_damping is not None and times[0] < 0.0:
+            quieter = self._on_tires(vehicle, replace(law, damping=self.settling_damping))
+            start = self._driven(quieter, np.array([times[0], 0.0]), None)[1]
+        ride = self._on_tires(vehicle, law)
+        return self._driven(ride, times, start, checkpoint=self.checkpoint, watched=self.watched)[0]
+
+    def _on_tires(self, vehicle: Vehicle, law: ContactLaw) -> tuple[FlexibleVehicle, WheelSet]:
+        n = len(vehicle.wheels)
         tires = wheel_set(self.tire, vehicle.terrain, n, law=law, damping_ratio=DAMPING_RATIO)
-        flexible = on_flexible_tires(vehicle, tires, np.full(n, self.turned))
-        motion = drive_on_flexible_tires(
-            flexible, scenario.times(), self.steps, settles_until=0.0, checkpoint=self.checkpoint
-        )
-        return unfolded(motion, tires)
+        return on_flexible_tires(vehicle, tires, np.full(n, self.turned)), tires
+
+    def _driven(
+        self,
+        ride: tuple[FlexibleVehicle, WheelSet],
+        times: NDArray[np.float64],
+        start: Instant | None,
+        *,
+        checkpoint: Path | None = None,
+        watched: Callable[[FlexibleSystem], Watch] | None = None,
+    ) -> tuple[FlexibleMotion, Instant]:
+        """The motion, and the state at its end."""
+        vehicle, tires = ride
+        system = FlexibleSystem(vehicle)
+        shapes = TireShapes(system, tires, vehicle.vehicle.wheels, _from_zero(watched(system)) if watched else None)
+        try:
+            motion = drive_on_flexible_tires(
+                vehicle,
+                times,
+                self.steps,
+                settles_until=0.0,
+                watch=shapes.watch,
+                start=start,
+                checkpoint=checkpoint,
+            )
+        except ConvergenceError as error:
+            raise shapes.explained(error) from error
+        assert shapes.seen is not None or checkpoint is not None  # a resumed motion may have no step left
+        return motion, shapes.seen[1] if shapes.seen is not None else system.at_rest(float(times[0]))
+
+
+def _from_zero(watch: Watch) -> Watch:
+    """Sees no settling."""
+
+    def seen(t: float, now: Instant) -> None:
+        if t >= 0.0:
+            watch(t, now)
+
+    return seen
 
 
 def on_ancf_tires(
@@ -74,6 +129,7 @@ def on_ancf_tires(
     steps: EvenSteps = STEPS,
     law: ContactLaw = LAW,
     turned: float = 0.0,
+    settling_damping: float | None = None,
 ) -> Scenario:
     """The same on six flexible tires; they settle by implicit Euler steps until time zero.
 
@@ -88,8 +144,16 @@ def on_ancf_tires(
     steps : how they are chosen
     law : contact of each point
     turned : angle of each tire on its wheel about the axle, positive rolls forward [rad]
+    settling_damping : of each contact point while the rover first comes to rest, after which it starts again from
+        there [N s/m]: on slopes it otherwise overshoots; None: that of the law, and one settling
     """
-    ride = AncfRide(tire=tire or build_tire(thesis_preset()), steps=steps, law=law, turned=turned)
+    ride = AncfRide(
+        tire=tire or build_tire(thesis_preset()),
+        steps=steps,
+        law=law,
+        turned=turned,
+        settling_damping=settling_damping,
+    )
     height = START_HEIGHT if scenario.height is None else scenario.height
     return replace(scenario, ride=ride, height=height, tire_model="ancf", has_closed_forms=False, search=None)
 
@@ -101,22 +165,15 @@ def resuming(scenario: Scenario, checkpoint: Path | None) -> Scenario:
     return replace(scenario, ride=replace(scenario.ride, checkpoint=checkpoint))
 
 
+def watching(scenario: Scenario, watched: Callable[[FlexibleSystem], Watch]) -> Scenario:
+    """A scenario on ANCF tires whose steps are seen from time zero on, see `AncfRide`."""
+    assert isinstance(scenario.ride, AncfRide)
+    return replace(scenario, ride=replace(scenario.ride, watched=watched))
+
+
 def _check_size(tire: Tire, design: RoverDesign) -> None:
     """The undeformed wheel of the rover must be the tire's."""
-    radius = tire.preset.outer_radius
+    radius = tire.preset.zero_radius
     if abs(design.wheel_radius - radius) > 1e-9:
         rule = f"is not that of the ANCF tire, {1e3 * radius:g} mm"
         raise InputError("wheel radius of the rover", f"{1e3 * design.wheel_radius:g} mm", rule, "use --tire brush")
-
-
-def unfolded(motion: FlexibleMotion, tires: WheelSet) -> FlexibleMotion:
-    """The motion, if no plate is inverted in it; else raises with what comes before."""
-    for k, z in enumerate(motion.vectors):
-        if float(tires.system.model.volume_ratio(tires.node_coordinates(z)).min()) <= 0.0:
-            before, t = {name: rows[:k] for name, rows in sampled(motion).items()}, motion.times[k]
-            message = (
-                f"a tire folds at t = {t:g} s: a plate is inverted; lower the load, fall less far, or stiffen the tire"
-            )
-            record = IncrementRecord(target=float(t), step=0.0, converged=False, residuals=())
-            raise ConvergenceError(message, [record], replace(motion, **before) if k else None)
-    return motion

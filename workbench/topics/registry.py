@@ -16,6 +16,7 @@ from workbench.topics.rover import ROVER
 from workbench.topics.rover_ancf import ROVER_ANCF
 from workbench.topics.rover_closer import ROVER_CLOSER
 from workbench.topics.rover_crosscheck import ROVER_CROSSCHECK
+from workbench.topics.rover_mission import ROVER_MISSION
 from workbench.topics.section import SECTION
 from workbench.topics.speed import SPEED
 from workbench.topics.strength import STRENGTH
@@ -39,6 +40,7 @@ TOPICS: tuple[Topic, ...] = (
     ROVER,
     ROVER_ANCF,
     ROVER_CROSSCHECK,
+    ROVER_MISSION,
     ROVER_CLOSER,
     VERIFICATION,
     SPEED,

@@ -38,13 +38,15 @@ SHORT = {
     "traction": 10.0,
     "traction_half_step": 10.0,
     "traction_fine_grid": 9.0,
-    "slope_up": 4.0,
-    "slope_down": 3.0,
-    "slope_across": 4.0,
-    "step": 5.0,
+    "slope_up": 2.0,
+    "slope_down": 2.0,
+    "slope_across": 2.0,
+    "step": 4.0,
 }
-LONG = {"traction_whole": 120.0, "crevasse": 40.0, "point_turn": 16.0, "rocks": 11.0}
+LONG = {"traction_undamped": 15.0, "traction_whole": 120.0, "crevasse": 40.0, "point_turn": 16.0, "rocks": 11.0}
 """Run -> processor time it takes about [s]; names as in `workbench.tasks.rover_ancf_runs`."""
+ACCOUNTED = ("straight", "traction", "traction_undamped")
+"""Runs whose energy and momentum are accounted for."""
 
 
 def runs_of(study: Study) -> Sequence[str]:
@@ -57,13 +59,14 @@ def _tasks(study: Study) -> Sequence[Task]:
         Task(
             name=f"rover_ancf_{name}",
             function="workbench.tasks.rover_ancf:drive_on_ancf_tires",
-            inputs={"run": name},
+            inputs={"run": name, "account": True} if name in ACCOUNTED else {"run": name},
             sources=(
                 *FILES,
                 *DRAWN,
                 "rover_dynamics",
                 "ancf_reduced",
                 "workbench.tasks.rover_tires",
+                "workbench.tasks.rover_shapes",
                 "workbench.tasks.rover_ancf_runs",
             ),
             libraries=("numpy", "numba", "scipy"),
@@ -109,7 +112,18 @@ def _checks(study: Study, found: Comparison, results: AncfRover) -> Sequence[Che
         at_least(drop, partial(_reached, results["drop"]), 1.0),
         *_traction_checks(results, thesis),
     ]
-    return [*checks, *_sweep_checks(results), *_mission_checks(results)]
+    return [*checks, *_account_checks(results), *_sweep_checks(results), *_mission_checks(results)]
+
+
+def _account_checks(results: AncfRover) -> list[Check]:
+    """Energy and momentum of whole motions; what contact damping takes of the drives' work."""
+    checks = []
+    for name, words in (("straight", "straight path"), ("traction", "3.5 N m")):
+        for what in ("energy", "momentum"):
+            title = f"{words}: {what} is accounted for"
+            claim = _claim(f"{name}_{what}", title, "what is missing", "-", "laws of conservation", gate=True)
+            checks.append(at_most(claim, partial(results[name].closure, what), 0.01))
+    return checks
 
 
 def _reached(drive: Drive) -> float:

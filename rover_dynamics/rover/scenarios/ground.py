@@ -1,8 +1,8 @@
 """A scenario on another ground, and on other tires.
 
-On uneven ground the rover starts level, so high that the first of its wheels touches, and comes down on the others
-while it settles. Requirements are the mission's for its own ground: what is searched or studied beside the run is left
-out here.
+On uneven ground the rover starts level, so high that the first of its wheels touches, or as far above or below that as
+its scenario says, and comes down on the others while it settles. Requirements are the mission's for its own ground:
+what is searched or studied beside the run is left out here.
 
 Verified by tests/unit/test_rover_ground.py.
 """
@@ -44,7 +44,7 @@ def on_terrain(scenario: Scenario, design: RoverDesign, terrain: Terrain, words:
         For a scenario that has a ground of its own; if the terrain does not cover the way of the wheels.
     """
     check_covered(terrain, _path(scenario, design), design.wheel_radius)
-    height = touching_height(terrain, design)
+    height = touching_height(terrain, design) + (scenario.height or 0.0)
     return replace(
         scenario,
         title=f"{scenario.title}; on {words}",

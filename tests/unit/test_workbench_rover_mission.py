@@ -1,0 +1,89 @@
+"""The mission on fitted ANCF tires: runs, checks, what the section says."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import jinja2
+import numpy as np
+import pytest
+
+import workbench.report.page
+from ancf_reduced.tire_preset import thesis_preset
+from contracts.series import TimeSeries
+from rover_dynamics.rover.rover_file import read_rover
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from workbench.comparison.rover_ancf_results import Drive
+from workbench.execution.result_files import FAILURE, read_result, write_result
+from workbench.report.series import series_links
+from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.rover_ancf import drive_on_fitted_tires
+from workbench.tasks.rover_ancf_runs import FITTED_DAMPING, SETTLING_DAMPING, fitted_run
+from workbench.tasks.rover_tires import AncfRide
+from workbench.topics.rover_mission import ROVER_MISSION, Mission
+
+STUDY = read_study(built_in_study())
+WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
+
+
+def drive(name: str, tire: str, stopped: str | None = None) -> Drive:
+    time = np.linspace(0.0, 20.0, 21)
+    columns = {"body_x_m": 0.018 * time} | {f"{wheel}_load_N": 190.0 + time for wheel in WHEELS}
+    slip = Outcome(quantity="slip and drift", value=0.03, unit="-", limit=0.1, at_least=False)
+    series = TimeSeries(scenario=f"{name}_fitted", tire=tire, time=time, columns=columns)
+    return Drive(outcomes=() if stopped else (slip,), series=series, stopped=stopped, spins=(), wall_s=1.0)
+
+
+@pytest.fixture(scope="module")
+def mission() -> Mission:
+    fitted = {"slope_up": drive("slope_up", "ancf"), "step": drive("step", "ancf", "a tire folds at t = 20.3 s")}
+    return Mission(
+        fitted=fitted, thesis={}, brush={n: drive(n, "brush") for n in ("slope_up", "step")}, tire="six spokes"
+    )
+
+
+def test_tasks_need_the_fit_that_is_kept() -> None:
+    tasks = ROVER_MISSION.tasks(STUDY)
+    assert [task.name for task in tasks] == [
+        f"rover_fitted_{n}" for n in ("slope_up", "slope_down", "slope_across", "step")
+    ]
+    assert STUDY.ancf_fit is not None
+    assert {task.needs for task in tasks} == {(f"ancf_fit_{STUDY.ancf_fit.kept.name}",)}
+    none = STUDY.model_copy(update={"rover": STUDY.rover.model_copy(update={"on_ancf_tires": "none"})})
+    assert ROVER_MISSION.applies(STUDY)
+    assert not ROVER_MISSION.applies(none)
+
+
+def test_a_fitted_run_has_the_fits_contact_and_settles_quietly() -> None:
+    scenario = fitted_run("rocks", thesis_preset(), read_rover())
+    assert isinstance(scenario.ride, AncfRide)
+    assert (scenario.name, scenario.ride.settling_damping) == ("rocks_fitted", None)
+    assert (scenario.ride.law.stiffness, scenario.ride.law.damping) == (1000.0, FITTED_DAMPING)
+    assert "random rocks" in scenario.title
+    down = fitted_run("slope_down", thesis_preset(), read_rover())
+    assert isinstance(down.ride, AncfRide)
+    assert down.ride.settling_damping == SETTLING_DAMPING["slope_down"]
+
+
+def test_without_a_fit_there_is_no_motion_and_it_says_why(tmp_path: Path) -> None:
+    write_result(tmp_path, {FAILURE: "no curve"})
+    drive_on_fitted_tires({"run": "slope_up", "fit": "f"}, {"f": tmp_path}, tmp_path, lambda fraction: None)
+    assert read_result(tmp_path)["stopped"] == "there is no tire: no curve"
+
+
+def test_what_is_met_and_what_is_not(mission: Mission) -> None:
+    checks = ROVER_MISSION.checks(STUDY, None, mission)  # type: ignore[arg-type]
+    assert [check.status for check in checks] == ["pass", "fail"]
+    assert {check.role for check in checks} == {"finding"}
+
+
+def test_the_section_draws_each_run_and_says_where_it_ends(mission: Mission) -> None:
+    loader = jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates")
+    environment = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, autoescape=True)
+    figures, series = ROVER_MISSION.figures(STUDY, mission), series_links(list(ROVER_MISSION.series(STUDY, mission)))
+    assert set(figures) == {f"mission_{n}_{what}" for n in ("slope_up", "step") for what in ("load", "place")}
+    text = environment.get_template("section_rover_mission.html.j2").render(
+        topic=mission, figures=figures, series=series
+    )
+    for words in ("a tire folds at t = 20.3 s", "met</td><td>met", 'download="step_fitted_ancf.csv"', "not met"):
+        assert words in text, words

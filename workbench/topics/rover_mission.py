@@ -1,0 +1,140 @@
+"""Topic: the mission's requirements on fitted ANCF tires, beside the brush tires.
+
+Verified by tests/unit/test_workbench_rover_mission.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contracts.records import Check
+from contracts.series import TimeSeries
+from rover_dynamics.rover.scenarios.outcome import Outcome
+from workbench.checks.rules import Claim, at_least, at_most
+from workbench.comparison.rover_ancf_results import TITLES, Drive, read_drive
+from workbench.execution.task import Task
+from workbench.graph.fe import FILES
+from workbench.graph.fit import fit_name
+from workbench.study.model import Study
+from workbench.topics.rover_crosscheck import ROVER_CROSSCHECK
+from workbench.topics.topic import Topic
+
+if TYPE_CHECKING:
+    from workbench.comparison.comparison import Comparison
+
+__all__ = ["ROVER_MISSION", "Mission"]
+
+SHORT = {"slope_up": 9.0, "slope_down": 12.0, "slope_across": 9.0, "step": 14.0}
+LONG = {"crevasse": 55.0, "point_turn": 25.0, "rocks": 15.0}
+"""Run -> processor time it takes about [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mission:
+    """Runs on fitted tires, those of the thesis as far as driven, and brush tires, by scenario; the fit's name."""
+
+    fitted: Mapping[str, Drive]
+    thesis: Mapping[str, Drive]
+    brush: Mapping[str, Drive]
+    tire: str
+
+    @property
+    def rows(self) -> list[tuple[str, str, Outcome | None, Outcome | None, str | None]]:
+        """Title, quantity, outcome on fitted and on brush tires, why the run on fitted tires stopped."""
+        found: list[tuple[str, str, Outcome | None, Outcome | None, str | None]] = []
+        for name, drive in self.fitted.items():
+            theirs = {one.quantity: one for one in self.brush[name].outcomes} if name in self.brush else {}
+            ours = [one for one in drive.outcomes if one.limit is not None]
+            if not ours:
+                found.append((TITLES[name], "the run reaches its end", None, None, drive.stopped))
+            found += [(TITLES[name], one.quantity, one, theirs.get(one.quantity), None) for one in ours]
+        return found
+
+
+def _runs(study: Study) -> Sequence[str]:
+    return {"none": (), "short": tuple(SHORT), "all": (*SHORT, *LONG)}[study.rover.on_ancf_tires]
+
+
+def _kept(study: Study) -> str:
+    assert study.ancf_fit is not None  # the topic applies
+    return study.ancf_fit.kept.name
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    fit = fit_name(_kept(study))
+    return [
+        Task(
+            name=f"rover_fitted_{name}",
+            function="workbench.tasks.rover_ancf:drive_on_fitted_tires",
+            inputs={"run": name, "fit": fit},
+            needs=(fit,),
+            sources=(
+                *FILES,
+                "rover_dynamics",
+                "ancf_reduced",
+                "workbench.tasks.rover_tires",
+                "workbench.tasks.rover_shapes",
+                "workbench.tasks.rover_ancf_runs",
+                "workbench.tasks.ancf_tire",
+            ),
+            libraries=("numpy", "numba", "scipy"),
+            cost=(SHORT | LONG)[name],
+            resumable=True,
+        )
+        for name in _runs(study)
+    ]
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> Mission:
+    return Mission(
+        fitted={n: read_drive(folders[f"rover_fitted_{n}"], f"{n}_fitted", "ancf") for n in _runs(study)},
+        thesis={n: read_drive(folders[t], n, "ancf") for n in _runs(study) if (t := f"rover_ancf_{n}") in folders},
+        brush={n: read_drive(folders[t], n, "brush") for n in _runs(study) if (t := f"rover_{n}") in folders},
+        tire=_kept(study).replace("_", " "),
+    )
+
+
+def _checks(study: Study, found: Comparison, results: Mission) -> Sequence[Check]:
+    """Findings: what the mission asks for, met or not."""
+    checks = []
+    for k, (title, quantity, ours, _, _) in enumerate(results.rows):
+        claim = Claim(
+            id=f"rover_mission.{k + 1}",
+            title=f"Rover on fitted ANCF tires, {title}: {quantity}",
+            quantity=quantity if ours else "run",
+            unit=ours.unit if ours else "-",
+            role="finding",
+            source="mission requirements, Samarini 2020, section 1",
+        )
+        if ours is None:
+            checks.append(at_least(claim, lambda: 0.0, 1.0))
+            continue
+        rule = at_least if ours.at_least else at_most
+        checks.append(rule(claim, partial(float, ours.value), ours.limit or 0.0))
+    return checks
+
+
+def _figures(study: Study, results: Mission) -> Mapping[str, str]:
+    from workbench.figures.rover_mission import mission_figures
+
+    return mission_figures(results)
+
+
+def _series(study: Study, results: Mission) -> Sequence[TimeSeries]:
+    return [drive.series for drive in results.fitted.values() if drive.series is not None]
+
+
+ROVER_MISSION = Topic(
+    name="rover_mission",
+    title="Mission on ANCF tires",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    figures=_figures,
+    series=_series,
+    applies=lambda study: study.rover.on_ancf_tires != "none" and ROVER_CROSSCHECK.applies(study),
+)
