@@ -29,7 +29,7 @@ WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
 def drive(name: str, tire: str, stopped: str | None = None) -> Drive:
     time = np.linspace(0.0, 20.0, 21)
     columns = {"body_x_m": 0.018 * time} | {f"{wheel}_load_N": 190.0 + time for wheel in WHEELS}
-    slip = Outcome(quantity="slip and drift", value=0.03, unit="-", limit=0.1, at_least=False)
+    slip = Outcome(quantity="slip and drift on 25 degrees", value=0.03, unit="-", limit=0.1, at_least=False)
     series = TimeSeries(scenario=f"{name}_fitted", tire=tire, time=time, columns=columns)
     return Drive(outcomes=() if stopped else (slip,), series=series, stopped=stopped, spins=(), wall_s=1.0)
 
