@@ -7,6 +7,7 @@ tests/end_to_end/test_commands.py.
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -29,6 +30,10 @@ from workbench.commands.results_app import results_app
 
 __all__ = ["app", "main"]
 
+_INTERRUPTED = "interrupted; finished results are kept, start again to go on"
+_LONGEST_MESSAGE = 1600
+_TYPER_INTERRUPTED = 130
+"""What Typer makes of Ctrl-C within a command."""
 app = typer.Typer(
     name="workbench",
     no_args_is_help=True,
@@ -270,7 +275,32 @@ def doctor() -> None:
 
 def main() -> None:
     """Entry point: turns every error into one message on stderr and an exit status."""
-    sys.exit(_run(sys.argv[1:]))
+    try:
+        status = _run(sys.argv[1:])
+    except KeyboardInterrupt:  # while the message of an earlier error was on its way
+        status = _complain(_INTERRUPTED)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the end is near, and must not speak twice
+    exec(
+        ""
+    )  # Python forgets that Ctrl-C came while a library ran text as code, and ends with our status, not by signal
+    sys.exit(_flushed(status))
+
+
+def _flushed(status: int) -> int:
+    """The exit status, or 2 if what was printed could not be written: a full disk behind a redirected output."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:  # the reader, such as head, has seen enough
+        _drop_output()
+    except OSError as error:
+        _drop_output()
+        return status if status == 2 else _complain(f"standard output: {error.strerror}; check path and space")
+    return status
+
+
+def _drop_output() -> None:
+    """Send what is left to nowhere, so that the interpreter's end does not complain again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _run(arguments: list[str]) -> int:
@@ -283,7 +313,7 @@ def _run(arguments: list[str]) -> int:
         show()
         return 2
     except (KeyboardInterrupt, typer.Abort):
-        return _complain("interrupted; finished results are kept, start again to go on")
+        return _complain(_INTERRUPTED)
     except WorkbenchError as error:
         return _complain(str(error))
     except OSError as error:
@@ -293,9 +323,13 @@ def _run(arguments: list[str]) -> int:
             raise
         text = f"{type(error).__name__}: {error}; this is a defect of the workbench, please report it"
         return _complain(f"{text} (set WORKBENCH_TRACEBACK=1 to see where)")
-    return int(status or 0)
+    return _complain(_INTERRUPTED) if status == _TYPER_INTERRUPTED else int(status or 0)
 
 
 def _complain(message: str) -> int:
-    sys.stderr.write(f"workbench: error: {message}\n")
+    """Say it in one line, whatever a file made a message hold; the middle of a very long one is left out."""
+    line = " ".join(message.split())
+    if len(line) > _LONGEST_MESSAGE:
+        line = f"{line[: _LONGEST_MESSAGE // 2]} [...] {line[-_LONGEST_MESSAGE // 2 :]}"
+    sys.stderr.write(f"workbench: error: {line}\n")
     return 2

@@ -118,7 +118,7 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
     """
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except (OSError, ValueError, RecursionError) as error:  # also numbers of thousands of digits, brackets in thousands
         raise InputError(
             "rover file", path, f"cannot be read ({error})", "copy rover_dynamics' own and edit it"
         ) from error
@@ -156,10 +156,10 @@ class _Reader:
         return value
 
     def number(self, key: str) -> float:
-        value = float(self.get(key, (int, float), "a number"))
-        if not np.isfinite(value):
+        value = self.get(key, (int, float), "a number")
+        if not _finite(value):
             raise InputError(f"{self.place}: {key}", value, "must be finite", "give a number")
-        return value
+        return float(value)
 
     def gravity(self, key: str) -> float:
         if isinstance(self.content.get(key), str):
@@ -177,7 +177,7 @@ class _Reader:
 
     def three(self, key: str) -> tuple[float, float, float]:
         values = self.get(key, list, "three numbers")
-        if len(values) != 3 or not all(type(v) in (int, float) and np.isfinite(v) for v in values):
+        if len(values) != 3 or not all(type(v) in (int, float) and _finite(v) for v in values):
             raise InputError(f"{self.place}: {key}", values, "must be three finite numbers", "x, y, z in SI")
         x, y, z = (float(v) for v in values)
         return x, y, z
@@ -208,6 +208,14 @@ class _Reader:
             raise InputError(f"{self.place}: {unknown[0]}", self.content[unknown[0]], "is not a known key", "remove it")
         for part in self.parts.values():
             part.finished()
+
+
+def _finite(value: float) -> bool:
+    """Whether a number is finite as a float: an integer of hundreds of digits is not."""
+    try:
+        return bool(np.isfinite(float(value)))
+    except OverflowError:
+        return False
 
 
 def _sides(row: _Reader) -> dict[str, float]:

@@ -21,6 +21,7 @@ __all__ = ["CurvePair", "Energies", "Judgement", "Outcome", "Samples", "TangentD
 
 type Outcome = Literal["passed", "failed", "undecided", "not judged"]
 _SAMPLES = 401
+_LARGEST_LOAD = 1e12
 _REACH = 0.1
 """Smallest reach of the tangents' regression over the range compared [-]."""
 
@@ -114,6 +115,10 @@ def compared(
         value = f"{curve.curve.model}: {curve.kind}; {reference.curve.model}: {reference.kind}"
         rule = "differ: between two plates the hub carries nothing, on the ground all; neither follows from the other"
         raise InputError("deformations", value, rule, "compare two curves of one kind")
+    for one in (curve.curve, reference.curve):
+        if np.abs(one.load).max() > _LARGEST_LOAD:
+            rule = f"must not exceed {_LARGEST_LOAD:g} N"
+            raise InputError(f"load of {one.model}", f"{np.abs(one.load).max():g} N", rule, "check its unit")
     metrics = compare_curves(curve.curve, reference.curve, max_load)
     samples = _samples(curve, reference, metrics)
     spread = None

@@ -89,7 +89,10 @@ def to_si(value: object, unit: str) -> float:
     kind, example = _KINDS[unit]
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         raise _refuse(f"must be {kind}", f"write it like {example!r}")
-    number = _from_text(value, unit) if isinstance(value, str) else float(value)
+    try:
+        number = _from_text(value, unit) if isinstance(value, str) else float(value)
+    except OverflowError as error:  # an integer of hundreds of digits
+        raise _refuse("is too large", f"write {kind} like {example!r}") from error
     if not math.isfinite(number):
         raise _refuse("must be a finite number", f"write {kind} like {example!r}")
     if unit == "rad" and not isinstance(value, str):

@@ -88,6 +88,8 @@ def read_study_table(path: Path) -> dict[str, Any]:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise StudyError(path, "", "", f"is not valid TOML: {error}", example) from error
+    except (ValueError, RecursionError) as error:  # a number of thousands of digits, brackets in thousands
+        raise StudyError(path, "", "", f"cannot be read as TOML ({error})", example) from error
 
 
 def _study_error(path: Path, error: ValidationError) -> StudyError:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import warnings
 import zipfile
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,9 @@ from contracts.errors import InputError
 from contracts.height_field import HeightField
 
 __all__ = ["read_height_field"]
+
+_DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, MemoryError, TypeError)
+"""What a damaged archive makes of zipfile and NumPy: bad members, an unknown compression, encryption, a huge shape."""
 
 
 def read_height_field(path: Path, origin: tuple[float, float] | None = None) -> HeightField:
@@ -49,10 +53,10 @@ def read_height_field(path: Path, origin: tuple[float, float] | None = None) -> 
 
 def _from_npz(path: Path) -> HeightField:
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
             heights, spacing = (np.asarray(archive[name], dtype=np.float64) for name in ("heights", "spacing"))
             origin = np.asarray(archive.get("origin", (0.0, 0.0)), dtype=np.float64)
-    except (KeyError, ValueError, OSError, zipfile.BadZipFile) as error:
+    except (*_DAMAGED, KeyError, ValueError, OSError) as error:
         rule = "must be a NumPy archive with heights (n_x, n_y) and spacing (2,)"
         raise InputError("terrain file", path, rule, f"write it with numpy.savez ({error})") from error
     if spacing.shape != (2,) or origin.shape != (2,):

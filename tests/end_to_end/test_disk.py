@@ -1,0 +1,96 @@
+"""A full disk and a folder that cannot be written: one message, exit status 2, nothing torn."""
+
+from __future__ import annotations
+
+import os
+import resource
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.end_to_end.small_study import command, environment, run, small_study_text
+
+CURVE = "deflection_m,load_N\n0,0\n0.01,80\n0.02,165\n"
+
+
+@pytest.fixture
+def curve(tmp_path: Path) -> Path:
+    (tmp_path / "c.csv").write_text(CURVE, encoding="utf-8")
+    return tmp_path / "c.csv"
+
+
+def _refused(ended: subprocess.CompletedProcess[str], *texts: str) -> None:
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1), ended.stdout + ended.stderr
+    assert ended.stderr.startswith("workbench: error: ")
+    for text in texts:
+        assert text in ended.stderr
+
+
+def _on(options: str, folder: Path, arguments: list[str], before: str = "") -> subprocess.CompletedProcess[str]:
+    """Run a command with a file system of its own at ``folder``, which no other process sees."""
+    folder.mkdir()
+    script = (
+        f'set -e; mount -t tmpfs -o size=200k none "$1"; {before} mount -o remount,{options} "$1"; shift; exec "$@"'
+    )
+    if os.geteuid() != 0 or subprocess.run(["unshare", "-m", "true"], check=False, capture_output=True).returncode:
+        if os.environ.get("CI") == "true":
+            pytest.fail("mounting needs root and mount namespaces")
+        pytest.skip("mounting a small file system needs root and mount namespaces")
+    whole = ["unshare", "-m", "bash", "-c", script, "bash", str(folder), *arguments]
+    return subprocess.run(whole, env=environment(), capture_output=True, text=True, check=False, timeout=300)
+
+
+def test_a_full_disk_under_the_output(curve: Path, tmp_path: Path) -> None:
+    """The page is too long for what a file may have here: the first that does not fit ends it, and none is left."""
+    out = tmp_path / "out"
+    arguments = command("compare", curve, curve, "--out", out)
+
+    def small_files() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))
+
+    ended = subprocess.run(
+        arguments, env=environment(), capture_output=True, text=True, check=False, timeout=300, preexec_fn=small_files
+    )
+    _refused(ended, "File too large")
+    assert list(out.iterdir()) == []
+
+
+def test_a_full_disk_under_the_store(tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(small_study_text(), encoding="utf-8")
+    store = tmp_path / "store"
+    arguments = command("stiffness", study, "--model", "brush", "--out", tmp_path / "o", "--store", store)
+    fill = 'head -c 300000 /dev/zero > "$1/filler" 2>/dev/null || true;'
+    _refused(_on("rw", store, arguments, before=fill), "No space left on device")
+    assert not (tmp_path / "o").exists()
+
+
+@pytest.mark.parametrize("place", ["--out", "--store"])
+def test_a_folder_that_cannot_be_written(tmp_path: Path, place: str) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(small_study_text(), encoding="utf-8")
+    folders = {"--out": tmp_path / "o", "--store": tmp_path / "s"}
+    options = [part for name, folder in folders.items() for part in (name, str(folder))]
+    ended = _on("ro", folders[place], command("stiffness", study, "--model", "brush", *options))
+    _refused(ended, str(folders[place]))
+    assert ended.stdout == ""
+
+
+def test_standard_output_on_a_full_disk_and_a_reader_that_leaves(curve: Path) -> None:
+    with Path("/dev/full").open("w") as full:
+        ended = subprocess.run(
+            command("compare", curve, curve), env=environment(), stdout=full, stderr=subprocess.PIPE, text=True,
+            check=False, timeout=300,
+        )  # fmt: skip
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1), ended.stderr
+    assert "No space left on device" in ended.stderr
+
+
+def test_paths_with_blanks_and_letters_of_other_alphabets(tmp_path: Path) -> None:
+    folder = tmp_path / "mes courbes – 曲线"
+    folder.mkdir()
+    (folder / "é 1.csv").write_text(CURVE, encoding="utf-8")
+    ended = run("compare", "é 1.csv", "é 1.csv", "--out", "sortie 1", folder=folder)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert (folder / "sortie 1" / "compare.html").exists()
