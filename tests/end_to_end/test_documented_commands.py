@@ -20,6 +20,14 @@ ROOT = Path(__file__).parents[2]
 PAGES = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md"))]
 RUN = [page for page in PAGES if any(not b.reason for b in blocks_of((ROOT / page).read_text(encoding="utf-8")))]
 
+SCRIPT = f"""#!{sys.executable}
+from workbench.cli import main
+
+if __name__ == "__main__":
+    main()
+"""
+"""The command as an installer writes it."""
+
 
 @pytest.fixture(scope="session")
 def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
@@ -27,7 +35,7 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     folder = tmp_path_factory.mktemp("reader")
     command = folder / "bin" / "workbench"
     command.parent.mkdir()
-    command.write_text(f"#!{sys.executable}\nfrom workbench.cli import main\n\nmain()\n", encoding="utf-8")
+    command.write_text(SCRIPT, encoding="utf-8")
     command.chmod(0o755)
     kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WORKBENCH_TRACEBACK")}
     return kept | {
