@@ -26,8 +26,13 @@ FORMULA = re.compile(r'<(div|span) class="arithmatex">\\[(\[](.*?)\\[)\]]</\1>',
 
 
 def on_config(config: Any, **_: Any) -> Any:
-    """Put the packages' pages behind the reference's own in the menu."""
+    """Complete the menu: guides it does not name behind the others, the packages' pages behind the reference's own."""
+    (guides,) = [section["How to"] for section in config.nav if "How to" in section]
     (reference,) = [section["Reference"] for section in config.nav if "Reference" in section]
+    named = set(re.findall(r"[\w/]+\.md", str(config.nav)))
+    docs = Path(config.docs_dir)
+    found = [str(path.relative_to(docs)) for folder in (docs, docs / "how_to") for path in sorted(folder.glob("*.md"))]
+    guides.extend(page for page in found if page not in named)
     reference.append({"API": ["reference/api.md", *({name: f"reference/api/{name}.md"} for name in packages())]})
     return config
 

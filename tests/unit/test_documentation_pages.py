@@ -5,11 +5,13 @@ Negative controls: a section, an equation and a module that are nowhere are miss
 
 from __future__ import annotations
 
+import importlib.util
 import re
 import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -88,6 +90,21 @@ def test_every_command_of_the_command_line_has_its_row() -> None:
     make = set(re.findall(r"^([a-z]+):.*## ", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M))
     assert {"report", "test", "docs", "bench"} <= make
     assert set(re.findall(r"`make (\w+)", listed)) <= make
+
+
+def test_a_guide_outside_the_menu_comes_last_among_the_guides() -> None:
+    spec = importlib.util.spec_from_file_location("site_hooks", DOCS / "hooks" / "site.py")
+    assert spec is not None
+    assert spec.loader is not None
+    hooks = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(hooks)
+    menu = [{"Home": "index.md"}, {"How to": [{"Calibrate": "how_to/calibrate.md"}]}, {"Reference": []}]
+    completed = hooks.on_config(SimpleNamespace(nav=menu, docs_dir=str(DOCS))).nav
+    first, *others = completed[1]["How to"]
+    assert first == {"Calibrate": "how_to/calibrate.md"}
+    assert "curves.md" in others
+    assert not {"index.md", "how_to/calibrate.md", "theory/contact.md"} & set(others)
+    assert {"workbench.study": "reference/api/workbench.study.md"} in completed[2]["Reference"][0]["API"]
 
 
 def test_no_words_of_the_help_are_taken_for_markup() -> None:
