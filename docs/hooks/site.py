@@ -22,6 +22,12 @@ PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dyna
 UNKNOWN_REFERENCE = re.compile(
     rf'<autoref [^>]*identifier="(?!(?:{"|".join(PACKAGES)})\b)([^"]*)"[^>]*>(.*?)</autoref>', re.S
 )
+LISTED = re.compile(
+    r"(?P<name><b><code>(?:<span[^>]*>)?(?P<word>[^<]*)(?:</span>)?</code></b>)"
+    r"(?:\s*\(<code>(?P<words>[^<]*)</code>\))?\s*–\s*"
+    r'<div class="doc-md-description">\s*(?P<more>(?:(?!<div).)*?)\s*</div>',
+    re.S,
+)
 FORMULA = re.compile(r'<(div|span) class="arithmatex">\\[(\[](.*?)\\[)\]]</\1>', re.S)
 
 
@@ -37,9 +43,19 @@ def on_config(config: Any, **_: Any) -> Any:
     return config
 
 
+def _in_words(found: re.Match[str]) -> str:
+    """One name of a docstring's list: what stands behind its colon are words, and a sentence below the list is none."""
+    if not found["words"] and " " in found["word"]:
+        return f"{found['word']} {found['more']}"
+    if not found["words"]:
+        return found.group(0)
+    words = re.sub(r"`+([^`]+)`+", r"<code>\1</code>", found["words"])
+    return f"{found['name']}: {words} {re.sub(r'</?p>', '', found['more'])}"
+
+
 def on_page_content(html: str, **_: Any) -> str:
     """Formulas, marked by arithmatex, to MathML; units in brackets, ``E[i] [Pa]``, are no links."""
-    html = UNKNOWN_REFERENCE.sub(r"[\2][\1]", html)
+    html = LISTED.sub(_in_words, UNKNOWN_REFERENCE.sub(r"[\2][\1]", html))
     return FORMULA.sub(lambda found: mathml(unescape(found[2]).strip(), display=found[1] == "div"), html)
 
 
