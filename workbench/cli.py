@@ -16,13 +16,14 @@ import typer
 from typer.exceptions import TyperException
 
 from contracts.errors import WorkbenchError
+from workbench.commands.calibrate_app import calibrate_app
 from workbench.commands.options import (
     DEFAULT_STORE,
-    DefaultCommand,
     Ranks,
     Scheduler,
     StoreOption,
     StudyArgument,
+    StudyOrBuiltIn,
     Workers,
     computing,
 )
@@ -43,22 +44,8 @@ app = typer.Typer(
     help="Verify the airless wheel of a Mars rover: continuum finite elements against ANCF and brush tires.",
 )
 
-
-class _ThicknessByDefault(DefaultCommand):
-    """``workbench calibrate STUDY`` means ``workbench calibrate thickness STUDY``."""
-
-    default = "thickness"
-
-
-calibrate_app = typer.Typer(
-    cls=_ThicknessByDefault, help="Strip thickness for an initial tangent (the default), or the fit of the ANCF tire."
-)
 app.add_typer(calibrate_app, name="calibrate")
 app.add_typer(results_app, name="results")
-
-StudyOrBuiltIn = Annotated[
-    Path | None, typer.Argument(help="Study file (TOML); the built-in ExoMars study if left out.", show_default=False)
-]
 
 
 @app.command()
@@ -150,44 +137,6 @@ def sweep(
     from workbench.commands.sweep import run_sweep
 
     raise typer.Exit(run_sweep(study, out, store, computing(workers, ranks, scheduler)))
-
-
-@calibrate_app.command("thickness")
-def calibrate_thickness(
-    study: StudyOrBuiltIn = None,
-    target: Annotated[
-        str | None, typer.Option(help="Initial tangent, e.g. '8.25 N/mm'; that of the study's reference if left out.")
-    ] = None,
-    out: Annotated[Path, typer.Option(help="Folder of calibration.json and the study.")] = Path("build/calibration"),
-    store: StoreOption = DEFAULT_STORE,
-    workers: Workers = None,
-    ranks: Ranks = 1,
-    scheduler: Scheduler = None,
-) -> None:
-    """Find the strip thickness for an initial tangent: section model first, confirmed by the solid one. The default."""
-    from workbench.commands.calibrate import run_calibrate
-
-    raise typer.Exit(run_calibrate(study, target, out, store, computing(workers, ranks, scheduler)))
-
-
-@calibrate_app.command("ancf")
-def calibrate_ancf(
-    study: StudyOrBuiltIn = None,
-    tire: Annotated[
-        str | None, typer.Option(help="One tire of [[ancf_fit.tires]]; all of them if left out.", show_default=False)
-    ] = None,
-    out: Annotated[Path, typer.Option(help="Folder of ancf_fit.json, the curves and the study.")] = Path(
-        "build/calibration"
-    ),
-    store: StoreOption = DEFAULT_STORE,
-    workers: Workers = None,
-    ranks: Ranks = 1,
-    scheduler: Scheduler = None,
-) -> None:
-    """Fit the ANCF tire to the finite element curves of every orientation."""
-    from workbench.commands.calibrate_ancf import run_calibrate_ancf
-
-    raise typer.Exit(run_calibrate_ancf(study, tire, out, store, computing(workers, ranks, scheduler)))
 
 
 @app.command()

@@ -19,11 +19,15 @@ __all__ = [
     "Scheduler",
     "StoreOption",
     "StudyArgument",
+    "StudyOrBuiltIn",
     "Workers",
     "computing",
 ]
 
 StudyArgument = Annotated[Path, typer.Argument(help="Study file (TOML).", show_default=False)]
+StudyOrBuiltIn = Annotated[
+    Path | None, typer.Argument(help="Study file (TOML); the built-in ExoMars study if left out.", show_default=False)
+]
 StoreOption = Annotated[
     Path, typer.Option(envvar="WORKBENCH_STORE", help="Folder where results are kept and found again.")
 ]
