@@ -21,6 +21,7 @@ from tests.end_to_end.small_study import run, small_study_text
 
 TASKS = {
     *("mesh", "mesh_whole", "fe_phi000"),
+    "rover_still",
     *("mesh_x1.5", "fe_x1.5", "mesh_x2", "fe_x2"),
     *("section_phi000", "ancf_phi000", "ancf_phi045", "brush", "ancf_surfaces", "metrics", "pictures"),
     "environment_-40C",
@@ -127,7 +128,7 @@ def test_page_is_self_contained_and_shows_everything(first_report: Finished, wor
     outside_scripts = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
     assert not re.search(r"""(src|href)=["'](?!#|data:)""", outside_scripts)
     assert not re.search(r"<script[^>]+src=", page)
-    assert outside_scripts.count("data:image/png;base64,") == 2
+    assert outside_scripts.count("data:image/webp;base64,") == 3
     summary = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))
     gates = sum(c["role"] == "gate" for c in summary["checks"])
     for text in (f"All {gates} gates passed", "Inferred, not published", "inferred from the thesis", "FE average",

@@ -15,8 +15,8 @@ from contracts.records import Check, Timing
 from contracts.series import TimeSeries
 from workbench.report.evidence import Evidence
 from workbench.report.number_format import displayed, displayed_reference
+from workbench.report.opening import verdict
 from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
-from workbench.report.page import verdict
 
 
 def _check(name: str, role: str = "gate", status: str = "pass", value: float | None = 8.0) -> Check:

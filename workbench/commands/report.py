@@ -52,13 +52,15 @@ def run_report(
     from workbench.comparison.results import task_timings
     from workbench.report.curve_links import curve_links
     from workbench.report.evidence import evidence_of
-    from workbench.report.page import PageContent, render, verdict
+    from workbench.report.opening import verdict
+    from workbench.report.page import PageContent, render, rendered_sections
     from workbench.report.provenance import provenance
     from workbench.report.series import series_files
     from workbench.topics.registry import topics_of
 
     with naming(path):
-        found = compare(study, {name: entry.path for name, entry in entries.items()})
+        folders = {name: entry.path for name, entry in entries.items()}
+        found = compare(study, folders)
     timings, origin = task_timings(entries), provenance(path, entries)
     curves = [found.mesh_study.stated(curve) for curve in (*found.fe.by_orientation.values(), found.fe.average)]
     curves += [*found.ancf.by_orientation.values(), found.ancf.average, found.brush]
@@ -69,7 +71,7 @@ def run_report(
     content = PageContent(
         study=study,
         found=found,
-        pictures=entries["pictures"].path,
+        results=folders,
         timings=timings,
         provenance=origin,
         evidence=evidence,
@@ -77,7 +79,7 @@ def run_report(
     )
     gate = gate_of(study.name, verdict(found.checks), found.checks, accepted)
     texts = {
-        "report.html": render(content),
+        "report.html": render(rendered_sections(content)),
         "junit.xml": junit(study.name, found.checks, gate.given_up),
         "summary.md": gate_markdown(gate),
         "summary.json": to_json(summary(study.name, evidence, timings, origin) | gate_rows(gate)),

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import plotly.graph_objects as go  # type: ignore[import-untyped]
+from markupsafe import escape
 from plotly.offline import get_plotlyjs  # type: ignore[import-untyped]
 
 from contracts.curves import StiffnessCurve
@@ -28,6 +29,7 @@ __all__ = [
     "models_figure",
     "named",
     "plotly_script",
+    "plotly_source",
     "section_figure",
     "stress_figure",
 ]
@@ -38,9 +40,20 @@ _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 _MARKERS = ("circle", "square", "diamond", "triangle-up", "cross", "x")
 
 
-def plotly_script() -> str:
-    """Plotly's JavaScript, to be put into the page once."""
+_DRAW_ALL = """addEventListener("DOMContentLoaded", () => document.querySelectorAll(".plot").forEach((box) => {
+  const spec = JSON.parse(document.querySelector(`script[data-for="${box.id}"]`).textContent);
+  Plotly.newPlot(box, spec.data, spec.layout, { responsive: true, displayModeBar: false, plotlyServerURL: "" });
+}));"""
+
+
+def plotly_source() -> str:
+    """Plotly's JavaScript, for a page that draws its figures when they are seen."""
     return str(get_plotlyjs())
+
+
+def plotly_script() -> str:
+    """Plotly's JavaScript, to be put into a page once; it draws every figure of the page when it has loaded."""
+    return f"{plotly_source()}\n{_DRAW_ALL}"
 
 
 def fe_figure(found: Comparison, band: Band) -> str:
@@ -158,16 +171,22 @@ def empty_figure(x: str = "radial deflection [mm]", y: str = "load on the wheel 
         "legend": {"orientation": "h", "yanchor": "bottom", "y": 1.02, "x": 0.0},
         "paper_bgcolor": "rgba(0,0,0,0)",
         "plot_bgcolor": "rgba(0,0,0,0)",
-        "xaxis": {**axis, "title": {"text": x}},
-        "yaxis": {**axis, "title": {"text": y}},
+        "xaxis": {**axis, "title": {"text": x, "font": {"size": 13}}},
+        "yaxis": {**axis, "title": {"text": y, "font": {"size": 13}}},
     }
     return go.Figure(layout=layout)
 
 
 def figure_html(figure: go.Figure, name: str) -> str:
-    """The figure as a piece of the page; ``name`` becomes its id."""
-    options = {"displayModeBar": False, "responsive": True, "plotlyServerURL": ""}
-    return str(figure.to_html(full_html=False, include_plotlyjs=False, div_id=name, config=options))
+    """The figure as a piece of the page: a place with this id, and the numbers the page draws there when it is seen."""
+    text = str(figure.to_json()).replace("</", "<\\/")
+    height = int(figure.layout.height)
+    titles = (figure.layout.xaxis.title.text, figure.layout.yaxis.title.text)
+    label = escape(f"{titles[1]} against {titles[0]}")
+    return (
+        f'<div class="plot" id="{name}" role="img" aria-label="{label}" style="height: {height}px"></div>'
+        f'<script type="application/json" data-for="{name}">{text}</script>'
+    )
 
 
 def named(name: str, curve: StiffnessCurve) -> str:

@@ -46,6 +46,8 @@ MISSION = {
 }
 """Scenario -> what it is called; names as in `rover_dynamics.rover.scenarios.catalogue`."""
 
+_DRAWN = ("rover_scene", "rover_animation", "rover_solids", "solids", "stills", "palette")
+
 
 DRAWN = ("workbench.tasks.motion_file", "workbench.figures.rover_solids", "workbench.figures.solids")
 """What decides what is recorded of a motion."""
@@ -99,6 +101,18 @@ class RoverResults:
 
 
 def _tasks(study: Study) -> Sequence[Task]:
+    still = Task(
+        name="rover_still",
+        function="workbench.tasks.rover_still:draw",
+        inputs={},
+        sources=(*FILES, "rover_dynamics", *(f"workbench.figures.{name}" for name in _DRAWN)),
+        libraries=("numpy", "numba", "pyvista", "pillow"),
+        cost=5.0,
+    )
+    return [still, *_scenario_tasks()]
+
+
+def _scenario_tasks() -> list[Task]:
     return [
         Task(
             name=f"rover_{name}",
