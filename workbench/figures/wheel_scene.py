@@ -54,7 +54,7 @@ def surface_pieces(mesh: TaggedMesh) -> list[Piece]:
 
 def surface_with_fields(mesh: TaggedMesh, solved: Mapping[float, Path], yield_strength: float) -> Stressed:
     """The boundary of the solved mesh, with the fields of each orientation's folder."""
-    used, quads = _compact(np.asarray(surface(mesh).faces).reshape(-1, 5)[:, 1:])
+    used, quads = _compact(np.asarray(surface(mesh).faces, dtype=np.int64).reshape(-1, 5)[:, 1:])
     poses = []
     for orientation, folder in solved.items():
         for path in sorted(folder.glob(FIELDS), key=_load):
