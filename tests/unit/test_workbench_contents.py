@@ -38,7 +38,7 @@ def _agreement(distance: float, uncertainty: float | None, verdict: str) -> Agre
 def test_every_section_stands_in_one_group() -> None:
     placed = [section.name for group in contents(TITLES) for section in group.sections]
     assert sorted(placed) == sorted(TITLES)
-    assert [s.name for s in contents(TITLES)[-1].sections] == ["checks", "origin", "reading", "new"]
+    assert {"checks", "origin", "reading", "new"} <= {s.name for s in contents(TITLES)[-1].sections}
     assert all(group.sections for group in contents({"fe": "Finite elements"}))
 
 

@@ -31,7 +31,7 @@ class Group:
 
 _WHEEL = ("wheel", "fe", "orientations", "strength", "mesh_study", "contact", "section", "hub", "environment")
 _TIRE = ("ancf", "ancf_fit", "ancf_mesh", "ancf_dynamics")
-_ROVER = ("rover", "rover_ancf", "rover_crosscheck", "rover_closer")
+_ROVER = ("rover", "rover_mission", "rover_ancf", "rover_crosscheck", "rover_closer")
 _SOLVERS = ("verification", "multibody", "speed", "numerics")
 _LAST = "Behind the numbers"
 _GROUPS: Mapping[str, Sequence[str]] = {
