@@ -54,6 +54,7 @@ def run_report(
     from workbench.report.evidence import evidence_of
     from workbench.report.opening import verdict
     from workbench.report.page import PageContent, render, rendered_sections
+    from workbench.report.pdf import document_pdf
     from workbench.report.provenance import provenance
     from workbench.report.series import series_files
     from workbench.topics.registry import topics_of
@@ -78,8 +79,10 @@ def run_report(
         curves=curve_links(curves),
     )
     gate = gate_of(study.name, verdict(found.checks), found.checks, accepted)
-    texts = {
-        "report.html": render(rendered_sections(content)),
+    page = rendered_sections(content)
+    texts: dict[str, str | bytes] = {
+        "report.pdf": document_pdf(page),
+        "report.html": render(page),
         "junit.xml": junit(study.name, found.checks, gate.given_up),
         "summary.md": gate_markdown(gate),
         "summary.json": to_json(summary(study.name, evidence, timings, origin) | gate_rows(gate)),

@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
+from matplotlib import get_data_path
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 from workbench.figures.palette import INK
 
-__all__ = ["png_bytes", "stacked_axes"]
+__all__ = ["blank_figure", "font_folder", "png_bytes", "red_green_blue", "stacked_axes"]
 
 
 def stacked_axes(heights: Sequence[float], size: tuple[float, float]) -> tuple[Figure, list[Any]]:
@@ -27,6 +30,21 @@ def stacked_axes(heights: Sequence[float], size: tuple[float, float]) -> tuple[F
         one.set_axisbelow(True)
         one.tick_params(colors=INK)
     return figure, axes
+
+
+def blank_figure(width: float, height: float) -> Any:
+    """A page [inches] without axes."""
+    return Figure(figsize=(width, height))
+
+
+def red_green_blue(name: str) -> tuple[float, float, float, float]:
+    """A colour's name or hexadecimal number as red, green, blue, opacity."""
+    return to_rgba(name)
+
+
+def font_folder() -> Path:
+    """Where matplotlib's DejaVu fonts lie."""
+    return Path(get_data_path()) / "fonts" / "ttf"
 
 
 def png_bytes(figure: Figure, dpi: int = 144) -> bytes:

@@ -46,7 +46,7 @@ def curve_file(curve: StiffnessCurve) -> str:
 
 def publish(
     out: Path,
-    texts: Mapping[str, str],
+    texts: Mapping[str, str | bytes],
     curves: Sequence[StiffnessCurve] = (),
     fields: Mapping[str, Path] | None = None,
     series: Sequence[TimeSeries] = (),
@@ -87,7 +87,10 @@ def publish(
             for name, path in (files or {}).items():
                 shutil.copyfile(path, fresh / folder / name)
         for name, text in texts.items():
-            (fresh / name).write_text(text, encoding="utf-8")
+            if isinstance(text, bytes):
+                (fresh / name).write_bytes(text)
+            else:
+                (fresh / name).write_text(text, encoding="utf-8")
         if curves:
             _replace_files(fresh / "curves", out / "curves", _is_curve_or_field)
         if named:

@@ -1,0 +1,131 @@
+"""The report as a document: ``report.pdf``, set by Typst from the sections of the page. The one module that imports it.
+
+Nothing is fetched: fonts are Typst's own and matplotlib's DejaVu. Verified by tests/end_to_end/test_report_pdf.py.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import typst
+from PIL import Image
+
+from contracts.records import Check
+from workbench.figures.printed import draw
+from workbench.figures.still_charts import font_folder
+from workbench.report.document import Node, Tree, read_html
+from workbench.report.number_format import displayed, displayed_reference
+from workbench.report.opening import Opening
+from workbench.report.page import Rendered
+
+__all__ = ["document_pdf", "with_pictures"]
+
+_TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
+_LEFT_OUT = ("evidence",)
+"""Sections that only make sense where they can be unfolded."""
+_LEAD = "model-curves"
+
+
+def document_pdf(rendered: Rendered) -> bytes:
+    """The document; every figure as vectors, every scene as its still."""
+    values = rendered.values
+    trees = {name: read_html(text) for name, text in rendered.sections.items() if name not in _LEFT_OUT}
+    with tempfile.TemporaryDirectory() as made:
+        folder = Path(made)
+        lead = read_html(values["figures"]["models"])
+        draw(lead.figures[_LEAD], folder / "lead.svg", whole_width=True)
+        pictured = {name: with_pictures(tree, folder) for name, tree in trees.items()}
+        groups = [
+            {"title": g.title, "nodes": [node for s in g.sections for node in pictured.get(s.name, ())]}
+            for g in values["groups"]
+        ]
+        content = _first_page(values["opening"], values["status"]) | {
+            "title": values["study"].title,
+            "study": values["study"].name,
+            "created": values["provenance"]["created"][:16].replace("T", " ") + " UTC",
+            "lead": "lead.svg",
+            "groups": groups,
+        }
+        (folder / "document.json").write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
+        (folder / "report.typ").write_text(_TEMPLATE.read_text(encoding="utf-8"), encoding="utf-8")
+        fonts = [str(font_folder())]
+        made_pdf = typst.compile(str(folder / "report.typ"), root=made, font_paths=fonts, ignore_system_fonts=True)
+        assert isinstance(made_pdf, bytes)
+        return made_pdf
+
+
+def with_pictures(tree: Tree, folder: Path) -> list[Node]:
+    """Its nodes, each figure and picture with the file it was written to in ``folder``."""
+    return [_placed(node, tree, folder, whole_width=True) for node in tree.nodes]
+
+
+def _placed(node: Node, tree: Tree, folder: Path, *, whole_width: bool) -> Node:
+    if isinstance(node, str):
+        return node
+    narrow = node["t"] == "pair"
+    placed = dict(node)
+    placed["c"] = [_placed(c, tree, folder, whole_width=whole_width and not narrow) for c in node.get("c", ())]
+    if node["t"] == "plot" and node["name"] in tree.figures:
+        placed["file"] = f"{node['name']}.svg"
+        draw(tree.figures[node["name"]], folder / placed["file"], whole_width=whole_width)
+    elif node["t"] == "img":
+        placed["file"] = _picture(node["src"], folder)
+    elif node["t"] == "plot":
+        placed["file"] = ""
+    return placed
+
+
+def _picture(link: str, folder: Path) -> str:
+    """A ``data:`` link as a PNG file's name; empty where there is none."""
+    if not link.startswith("data:image/"):
+        return ""
+    name = f"picture{len(list(folder.glob('picture*')))}.png"
+    with Image.open(io.BytesIO(base64.b64decode(link.partition(",")[2]))) as picture:
+        picture.save(folder / name)
+    return name
+
+
+def _first_page(found: Opening, status: str) -> dict[str, Any]:
+    """What stands before the contents, in words."""
+    ratings = [
+        {"name": r.name, "distance": _known_to(r.found.distance, r.found.uncertainty), "words": r.words,
+         "tone": {"error": "warn"}.get(r.tone, r.tone)}
+        for r in found.ratings
+    ]  # fmt: skip
+    return {
+        "word": {"pass": "Pass", "fail": "Fail", "error": "Error"}[status],
+        "tone": "pass" if status == "pass" else "fail",
+        "verdict": found.verdict,
+        "counts": [{"words": _counted(*row), "tone": _tone(row[0], row[1])} for row in found.counts],
+        "ratings": ratings,
+        "band": [_row(c) | {"title": c.title.removeprefix("Average FE curve: ")} for c in found.band],
+        "outside": [{"title": o.check.title, "value": f"{o.value} ({o.check.tolerance})"} for o in found.outside],
+    }
+
+
+def _row(check: Check) -> dict[str, str]:
+    return {
+        "value": displayed(check.value, check.unit, check.quantity),
+        "reference": displayed_reference(check),
+        "tone": _tone(check.role, check.status),
+        "word": {"pass": "✓ pass", "fail": "✗ fail", "error": "? not evaluated"}[check.status],
+    }
+
+
+def _known_to(distance: float, uncertainty: float | None) -> str:
+    return f"{100 * distance:.1f} %" + ("" if uncertainty is None else f" ± {100 * uncertainty:.1f} %")
+
+
+def _tone(role: str, status: str) -> str:
+    return "pass" if status == "pass" else "fail" if role == "gate" and status == "fail" else "warn"
+
+
+def _counted(role: str, status: str, number: int) -> str:
+    state = {"pass": "passed" if role == "gate" else "inside limits", "error": "not evaluated",
+             "fail": "failed" if role == "gate" else "outside limits"}[status]  # fmt: skip
+    return f"{number} {role}{'s' if number != 1 else ''} {state}"
