@@ -13,7 +13,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -107,10 +107,11 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
     def pixels(page: Page) -> bytes:
         return page.locator(".stage canvas").first.screenshot()
 
-    def until_changed(page: Page, before: bytes) -> bytes:
+    def until_changed(page: Page, before: bytes, again: Callable[[], None] = lambda: None) -> bytes:
         end = time.monotonic() + PATIENCE / 1000
         while (now := pixels(page)) == before:
             assert time.monotonic() < end, "the picture does not change"
+            again()
             page.wait_for_timeout(100)
         return now
 
@@ -137,11 +138,16 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         box = page.locator(".stage canvas").first.bounding_box()
         assert box is not None
         x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
-        page.mouse.move(x, y)
-        page.mouse.down()
-        page.mouse.move(x + 90, y + 10, steps=4)
-        page.mouse.up()
-        seen = until_changed(page, turned)
+
+        def drag() -> None:
+            page.mouse.move(x, y)
+            page.mouse.down()
+            for k in range(1, 6):
+                page.mouse.move(x + 18 * k, y + 2 * k)
+                page.evaluate("() => new Promise(requestAnimationFrame)")  # vtk.js turns once a frame
+            page.mouse.up()
+
+        seen = until_changed(page, turned, drag)
         assert page.locator("table#probe").count() == 0  # a drag is no click
 
         page.click("#reset")

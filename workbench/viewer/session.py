@@ -88,8 +88,9 @@ class Session:
         self.rover: RoverStage | None = None
         self.drawn = asyncio.Event()
         self._wheels: dict[tuple[str, float], WheelStage] = {}
-        for one in folder.fields:
-            self.wheel_at(one.model, one.orientation)  # what cannot be read is said before the page opens
+        for one in folder.fields:  # what cannot be read is said before the page opens
+            self.wheel_at(one.model, one.orientation)
+        self._rovers = {key: RoverStage(path) for key, path in folder.motions.items()}
 
     def wheel_at(self, model: str, orientation: float) -> WheelStage:
         """The stage of a model at an orientation [deg], read once."""
@@ -154,7 +155,7 @@ class Session:
         if state.tire not in state.tires:
             state.tire = state.tires[0]
         key = (state.scenario, state.tire)
-        self.rover = RoverStage(self.folder.motions[key])
+        self.rover = self._rovers[key]
         state.last_frame, state.frame, state.bar = len(self.rover.times) - 1, 0, self.rover.bar()
         state.rover_title = self.rover.motion.title
         series = self.folder.series.get(key)
