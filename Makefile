@@ -33,7 +33,7 @@ test: lint ## lint, then every test, two processes
 	$(PYTHON) -m pytest -n 2 --dist loadfile
 
 docs: $(READY) ## the manual, build/site/index.html; strict: no warning, no broken link
-	NO_MKDOCS_2_WARNING=1 $(VENV)/bin/mkdocs build --quiet --site-dir build/site
+	NO_MKDOCS_2_WARNING=1 $(VENV)/bin/mkdocs build --site-dir build/site
 	@echo "manual: build/site/index.html"
 
 lint: $(READY) ## ruff (rules and format) and mypy --strict

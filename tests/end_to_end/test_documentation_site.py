@@ -27,7 +27,7 @@ FETCHED = re.compile(
 def build(folder: Path, out: Path) -> subprocess.CompletedProcess[str]:
     """``mkdocs build`` of the manual in a folder."""
     return subprocess.run(
-        [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", out],
+        [sys.executable, "-m", "mkdocs", "build", "--site-dir", out],
         cwd=folder, capture_output=True, text=True, check=False, timeout=550,
     )  # fmt: skip
 
