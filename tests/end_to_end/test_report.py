@@ -132,7 +132,7 @@ def test_page_is_self_contained_and_shows_everything(first_report: Finished, wor
     summary = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))
     gates = sum(c["role"] == "gate" for c in summary["checks"])
     for text in (f"All {gates} gates passed", "Inferred, not published", "inferred from the thesis", "FE average",
-                 "ANCF 45", "brush line", "grid convergence index", "under 20 N",
+                 "ANCF 45", "brush line", "grid convergence index", "The deformed wheel on the ground",
                  "How to read this"):  # fmt: skip
         assert text in page, text
     named = re.findall(r".{4}Sivo's data", html.unescape(page))
