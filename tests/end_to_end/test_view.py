@@ -182,6 +182,8 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         page.click("#play")
         page.locator(".player output", has_text="4.00 of 4.00 s").wait_for()
         until_changed(page, rover)
+        places = page.evaluate("[document.querySelector('#frame').value, document.querySelector('#frame').max]")
+        assert places == ["39", "39"]
         browser.close()
     assert complaints == []
     strange = [url for url in asked if not url.startswith((address, "ws://127.0.0.1:", "data:", "blob:"))]

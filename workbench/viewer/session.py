@@ -103,10 +103,8 @@ class Session:
     def open(self) -> None:
         """Show what the tab is about, from its first view."""
         self.state.playing = False
-        if self.state.tab == "wheel" and self.wheel_models():
-            self.open_wheel()
-        elif self.state.tab == "rover" and self.folder.motions:
-            self.open_rover()
+        self.open_wheel()
+        self.open_rover()
         self.draw_curves()
         self.look()
 
@@ -115,8 +113,10 @@ class Session:
         return [one["value"] for one in self.state.models]
 
     def open_wheel(self) -> None:
-        """Another model or orientation: its loads, and the largest of them."""
+        """Another model or orientation: its loads, and the largest of them. Nothing while the rover is looked at."""
         state = self.state
+        if state.tab != "wheel" or not self.wheel_models():
+            return
         state.orientations = sorted({one.orientation for one in self.folder.fields if one.model == state.model})
         if state.orientation not in state.orientations:
             state.orientation = state.orientations[0]
@@ -149,8 +149,10 @@ class Session:
         self.view.update()
 
     def open_rover(self) -> None:
-        """Another scenario or kind of tires, from its start."""
+        """Another scenario or kind of tires, from its start. Nothing while the wheel is looked at."""
         state = self.state
+        if state.tab != "rover" or not self.folder.motions:
+            return
         state.tires = [tire for scenario, tire in self.folder.motions if scenario == state.scenario]
         if state.tire not in state.tires:
             state.tire = state.tires[0]
