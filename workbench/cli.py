@@ -28,6 +28,7 @@ from workbench.commands.options import (
     computing,
 )
 from workbench.commands.results_app import results_app
+from workbench.execution.interrupts import interrupt_safely
 
 __all__ = ["app", "main"]
 
@@ -224,6 +225,7 @@ def doctor() -> None:
 
 def main() -> None:
     """Entry point: turns every error into one message on stderr and an exit status."""
+    interrupt_safely()
     try:
         status = _run(sys.argv[1:])
     except KeyboardInterrupt:  # while the message of an earlier error was on its way
