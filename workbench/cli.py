@@ -17,6 +17,7 @@ from typer.exceptions import TyperException
 
 from contracts.errors import WorkbenchError
 from workbench.commands.calibrate_app import calibrate_app
+from workbench.commands.interrupts import interrupt_safely
 from workbench.commands.options import (
     DEFAULT_STORE,
     Ranks,
@@ -28,7 +29,6 @@ from workbench.commands.options import (
     computing,
 )
 from workbench.commands.results_app import results_app
-from workbench.execution.interrupts import interrupt_safely
 
 __all__ = ["app", "main"]
 

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from workbench.execution.interrupts import delicate
+from workbench.commands.interrupts import delicate
 
 ROOT = Path(__file__).parents[2]
 SCRIPT = """
 import signal, sys, time
 signal.signal(signal.SIGINT, signal.default_int_handler)
-from workbench.execution.interrupts import interrupt_safely
+from workbench.commands.interrupts import interrupt_safely
 interrupt_safely()
 text = '''
 signal.raise_signal(signal.SIGINT)
