@@ -32,12 +32,32 @@ def test_a_wheel_is_shown_unloaded_and_at_the_loads_that_are_there(tmp_path: Pat
 def test_scene_and_motion_move_what_is_drawn(tmp_path: Path) -> None:
     write_small_report(tmp_path)
     rover, scene = RoverStage(tmp_path / "motions" / "straight_brush.npz"), Scene()
-    rover.show(scene, 0, afresh=True)
-    first = [actor.user_matrix[0, 3] for actor, _ in scene._moving]
-    rover.show(scene, len(rover.times) - 1, afresh=False)
-    last = [actor.user_matrix[0, 3] for actor, _ in scene._moving]
+    rover.show(scene, 0)
+    first = [actor.user_matrix[0, 3] for actor, _ in scene._now.moving]
+    rover.show(scene, len(rover.times) - 1)
+    last = [actor.user_matrix[0, 3] for actor, _ in scene._now.moving]
     np.testing.assert_allclose(np.subtract(last, first), 0.5, atol=1e-6)
     camera = rover.camera()
     assert abs(np.linalg.norm(camera.eye) - 1.0) < 1e-12
     assert camera.half_height > 0.3
+    scene.close()
+
+
+def test_the_address_of_an_object_in_the_scene_never_stands_for_another(tmp_path: Path) -> None:
+    """The browser knows VTK's objects by address: one that is let go would give its name to another kind of object."""
+    write_small_report(tmp_path)
+    fields, scene = read_folder(tmp_path).fields, Scene()
+    wheels = [wheel_stage(phi, [(f.load, f.path) for f in fields if f.orientation == phi]) for phi in (0.0, 30.0)]
+    rover = RoverStage(tmp_path / "motions" / "straight_brush.npz")
+    named: dict[str, object] = {}
+    renderer = scene._plotter.renderer
+    for number in range(12):
+        wheels[number % 2].show(scene, number % 3, "stress")
+        scene.mark(wheels[0].places(0)[number], 0.01)
+        rover.show(scene, number)
+        for actor in renderer.GetActors():
+            for thing in (actor, actor.GetProperty(), actor.GetMapper(), actor.GetMapper().GetInput()):
+                assert named.setdefault(thing.__this__.split("_p_")[0], thing) is thing
+    shown = [actor for actor in renderer.GetActors() if actor.GetVisibility()]
+    assert len(shown) == len(scene._now.actors) + 1  # and the mark
     scene.close()

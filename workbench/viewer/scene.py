@@ -8,9 +8,9 @@ Verified by tests/unit/test_viewer_scene.py and tests/end_to_end/test_view.py.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -75,70 +75,101 @@ def read_fields(path: Path) -> tuple[WheelSurface, WheelField]:
     return wheel_surface(points, cells, part), WheelField(displacement=moved, von_mises=stress)
 
 
+@dataclass(slots=True)
+class _Drawn:
+    """What one stage has put into the scene: everything, what moves with a body, what changes its shape."""
+
+    actors: list[Any] = field(default_factory=list)
+    moving: list[tuple[Any, int]] = field(default_factory=list)
+    shapes: list[pv.PolyData] = field(default_factory=list)
+    ground: pv.PolyData | None = None
+
+
 class Scene:
-    """A wheel, or a rover in motion, for the browser to draw."""
+    """A wheel, or a rover in motion, for the browser to draw.
+
+    Every actor lives as long as the scene and is hidden while another stage is looked at: the browser knows VTK's
+    objects by their addresses, and would take a new object at the address of one that is gone for the old one.
+    """
 
     def __init__(self) -> None:
         with _quiet():  # that there is no display is no news
             plotter: Any = pv.Plotter(off_screen=True, lighting="light kit")
         plotter.set_background("white")
         self._plotter = plotter
-        self._moving: list[tuple[Any, int]] = []
-        self._shapes: list[pv.PolyData] = []
+        self._stages: dict[Hashable, _Drawn] = {}
+        self._now = _Drawn()
+        ball = pv.Sphere(radius=1.0, theta_resolution=20, phi_resolution=20)
+        self._mark = plotter.add_mesh(ball, color=_MARK, pickable=False, ambient=0.6, diffuse=0.4)
+        self._mark.visibility = False
 
     @property
     def window(self) -> Any:
         """The render window trame takes over."""
         return self._plotter.render_window
 
-    def show_shape(self, quads: Quads, colours: Colours, ground: Quads | None) -> None:
-        """One surface, coloured at its points (n, 3) uint8, on a piece of ground; everything else goes."""
-        self._clear()
-        points, faces = quads
-        drawn = _surface(points, faces)
+    def turn_to(self, stage: Hashable) -> bool:
+        """Hide what is not this stage's; returns whether it has been here before, else it must add its things."""
+        known = stage in self._stages
+        drawn = self._stages.setdefault(stage, _Drawn())
+        if drawn is not self._now:
+            for actor in self._now.actors:
+                actor.visibility = False
+            for actor in drawn.actors:
+                actor.visibility = True
+            self._now = drawn
+        return known
+
+    def add_shape(self, quads: Quads, colours: Colours, ground: Quads | None) -> None:
+        """One surface, coloured at its points (n, 3) uint8, on a piece of ground."""
+        drawn = _surface(*quads)
         drawn.point_data["colour"] = colours
-        self._plotter.add_mesh(drawn, scalars="colour", rgb=True, name="shape", **_MATTE)
-        self._shapes = [drawn]
+        self._add(drawn, pickable=True, scalars="colour", rgb=True)
+        self._now.shapes.append(drawn)
         if ground is not None:
-            self._plotter.add_mesh(_surface(*ground), color=_GROUND, name="ground", pickable=False, **_MATTE)
+            self._now.ground = _surface(*ground)
+            self._add(self._now.ground, color=_GROUND)
 
     def move_shape(self, points: FloatArray, colours: Colours, ground: Quads | None) -> None:
-        """Other places (n, 3) [m] and colours of the surface that is shown."""
-        (drawn,) = self._shapes
+        """Other places (n, 3) [m] and colours of the surface that is shown, and other places of its ground."""
+        (drawn,) = self._now.shapes
         drawn.points = points
         drawn.point_data["colour"] = colours
-        if ground is not None:
-            self._plotter.add_mesh(_surface(*ground), color=_GROUND, name="ground", pickable=False, **_MATTE)
+        if ground is not None and self._now.ground is not None:
+            self._now.ground.points = ground[0]
 
     def mark(self, place: FloatArray | None, radius: float) -> None:
         """A ball [m] at a place that was probed, or none."""
-        self._plotter.remove_actor("mark", render=False)
+        self._mark.visibility = place is not None
         if place is not None:
-            ball = pv.Sphere(radius=radius, center=tuple(place), theta_resolution=20, phi_resolution=20)
-            self._plotter.add_mesh(ball, color=_MARK, name="mark", pickable=False, ambient=0.6, diffuse=0.4)
+            self._mark.position, self._mark.scale = tuple(place), (radius, radius, radius)
 
-    def show_solids(self, solids: Sequence[Solid], tires: Sequence[tuple[Quads, Colours]] = ()) -> None:
+    def add_solids(self, solids: Sequence[Solid], tires: Sequence[tuple[Quads, Colours]] = ()) -> None:
         """Solids that move as a whole, and surfaces that change their shape, coloured by face."""
-        self._clear()
-        for number, solid in enumerate(solids):
+        for solid in solids:
             drawn = _surface(solid.points, solid.quads)
-            actor = self._add(drawn, solid.colours, f"solid{number}")
+            if isinstance(solid.colours, str):
+                actor = self._add(drawn, color=solid.colours)
+            else:
+                drawn.cell_data["colour"] = solid.colours
+                actor = self._add(drawn, scalars="colour", rgb=True)
             if solid.body != WORLD:
-                self._moving.append((actor, solid.body))
-        for number, ((points, faces), colours) in enumerate(tires):
-            drawn = _surface(points, faces)
-            self._add(drawn, colours, f"tire{number}")
-            self._shapes.append(drawn)
+                self._now.moving.append((actor, solid.body))
+        for quads, colours in tires:
+            drawn = _surface(*quads)
+            drawn.cell_data["colour"] = colours
+            self._add(drawn, scalars="colour", rgb=True)
+            self._now.shapes.append(drawn)
 
     def move_solids(
         self, positions: FloatArray, rotations: FloatArray, tires: Sequence[tuple[FloatArray, Colours]] = ()
     ) -> None:
         """Places (n_b, 3) [m] and rotations (n_b, 3, 3) of all bodies; points and colours of the tires."""
-        for actor, body in self._moving:
+        for actor, body in self._now.moving:
             pose = np.eye(4)
             pose[:3, :3], pose[:3, 3] = rotations[body], positions[body]
             actor.user_matrix = pose
-        for drawn, (points, colours) in zip(self._shapes, tires, strict=True):
+        for drawn, (points, colours) in zip(self._now.shapes, tires, strict=True):
             drawn.points = points
             drawn.cell_data["colour"] = colours
 
@@ -154,15 +185,10 @@ class Scene:
         """Let go of the window."""
         self._plotter.close()
 
-    def _add(self, drawn: pv.PolyData, colours: str | Colours, name: str) -> Any:
-        if isinstance(colours, str):
-            return self._plotter.add_mesh(drawn, color=colours, name=name, pickable=False, **_MATTE)
-        drawn.cell_data["colour"] = colours
-        return self._plotter.add_mesh(drawn, scalars="colour", rgb=True, name=name, pickable=False, **_MATTE)
-
-    def _clear(self) -> None:
-        self._plotter.clear_actors()
-        self._moving, self._shapes = [], []
+    def _add(self, drawn: pv.PolyData, *, pickable: bool = False, **colours: Any) -> Any:
+        actor = self._plotter.add_mesh(drawn, pickable=pickable, **colours, **_MATTE)
+        self._now.actors.append(actor)
+        return actor
 
 
 @contextmanager

@@ -125,21 +125,21 @@ class Session:
         state.load = state.frame = state.last_frame = len(state.loads) - 1
         state.probe = None
         self.scene.mark(None, 0.0)
-        self._show_wheel(afresh=True)
+        self._show_wheel()
         self.draw_curves()
 
     def show_load(self) -> None:
         """Another load or colour on the wheel that stands there; a probed point keeps its node."""
         if self.wheel is not None and self.state.tab == "wheel":
-            self._show_wheel(afresh=False)
+            self._show_wheel()
             if self.state.probe:
                 self._tell(self.state.probe["point"], self.state.probe["tag"])
             self.draw_curves()
 
-    def _show_wheel(self, *, afresh: bool) -> None:
+    def _show_wheel(self) -> None:
         assert self.wheel is not None
         state, number = self.state, int(self.state.load)
-        self.wheel.show(self.scene, number, state.quantity, afresh=afresh)
+        self.wheel.show(self.scene, number, state.quantity)
         values = self.wheel.values(number, state.quantity)
         state.bar = self.wheel.bar(state.quantity).shown(float(values.max()))
         state.moment = f"{self.wheel.loads[number]:g} N"
@@ -166,7 +166,7 @@ class Session:
             state.series = next(iter(state.series_choices), "")
         lasts = float(self.rover.times[-1] - self.rover.times[0])
         state.speed = min((0.1, 0.5, 1, 2, 5, 10), key=lambda speed: abs(np.log(lasts / speed / 12.0)))
-        self._show_rover(afresh=True)
+        self._show_rover()
         self.draw_curves()
 
     def show_frame(self) -> None:
@@ -174,12 +174,12 @@ class Session:
         if self.state.tab == "wheel":
             self.state.load = int(self.state.frame)
         elif self.rover is not None:
-            self._show_rover(afresh=False)
+            self._show_rover()
 
-    def _show_rover(self, *, afresh: bool) -> None:
+    def _show_rover(self) -> None:
         assert self.rover is not None
         frame = int(self.state.frame)
-        self.rover.show(self.scene, frame, afresh=afresh)
+        self.rover.show(self.scene, frame)
         self.state.cursor = float(self.rover.times[frame])
         self.state.moment = f"{self.rover.times[frame]:.2f} of {self.rover.times[-1]:.2f} s"
         tires = "ANCF" if self.state.tire == "ancf" else self.state.tire

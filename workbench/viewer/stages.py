@@ -61,14 +61,14 @@ class WheelStage:
         """Of the surface's points (n, 3) [m], in true scale."""
         return self.surface.places + self.surface.displacement(self.fields[number])
 
-    def show(self, scene: Scene, number: int, quantity: str, *, afresh: bool) -> None:
+    def show(self, scene: Scene, number: int, quantity: str) -> None:
         """Put it into the scene, or only move what stands there."""
         places = self.places(number)
         colours = self.bar(quantity).colours(self.values(number, quantity)[self.surface.nodes])
-        if afresh:
-            scene.show_shape((places, self.surface.quads), colours, self._ground(places))
-        else:
+        if scene.turn_to(self):
             scene.move_shape(places, colours, self._ground(places))
+        else:
+            scene.add_shape((places, self.surface.quads), colours, self._ground(places))
 
     def camera(self) -> Camera:
         """From the side and a little above, with the ground below."""
@@ -127,12 +127,12 @@ class RoverStage:
         )
         return bar.shown(self.tires.largest)
 
-    def show(self, scene: Scene, frame: int, *, afresh: bool) -> None:
+    def show(self, scene: Scene, frame: int) -> None:
         """Put one frame into the scene, or move what stands there."""
         surfaces = self.tires.surfaces if self.tires else ()
-        if afresh:
+        if not scene.turn_to(self):
             tires = [((one.points[frame], one.quads), one.colours[frame]) for one in surfaces]
-            scene.show_solids(self.motion.solids, tires)
+            scene.add_solids(self.motion.solids, tires)
         moved = [(one.points[frame], one.colours[frame]) for one in surfaces]
         scene.move_solids(self.motion.positions[frame], self.motion.rotations[frame], moved)
 
