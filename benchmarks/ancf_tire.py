@@ -20,13 +20,13 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from ancf_reduced.contact_law import ContactLaw  # noqa: E402
-from ancf_reduced.plate_contact import PlateContact  # noqa: E402
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch  # noqa: E402
-from ancf_reduced.plate_model import PlateModel, build_plate_model  # noqa: E402
-from ancf_reduced.static_tire import solve_tire  # noqa: E402
-from ancf_reduced.tire_mesh import build_tire  # noqa: E402
-from ancf_reduced.tire_preset import thesis_preset  # noqa: E402
+from ancf_reduced.contact.law import ContactLaw  # noqa: E402
+from ancf_reduced.contact.plate_contact import PlateContact  # noqa: E402
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch  # noqa: E402
+from ancf_reduced.plates.model import PlateModel, build_plate_model  # noqa: E402
+from ancf_reduced.tire.mesh import build_tire  # noqa: E402
+from ancf_reduced.tire.preset import thesis_preset  # noqa: E402
+from ancf_reduced.tire.static import solve_tire  # noqa: E402
 from benchmarks.ancf_rows.clock import multiply_add_rate, row, shortest  # noqa: E402
 from benchmarks.ancf_rows.motion import QUADRATURE, motion_rows, six_wheels_rows  # noqa: E402
 from benchmarks.output.run import Run, add_option  # noqa: E402

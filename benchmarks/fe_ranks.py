@@ -94,9 +94,9 @@ def solve(size: str, answer: Path) -> None:
     from contracts.materials import TI_6AL_4V
     from geometry import WheelDesign, build_mesh
     from reference_fe.dolfinx_api import COMM, MPI
-    from reference_fe.domain import Domain
-    from reference_fe.newton import NewtonSolver
-    from reference_fe.wheel import WheelLoadCase, solve_wheel
+    from reference_fe.problem.domain import Domain
+    from reference_fe.solver.newton import NewtonSolver
+    from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 
     element_size, axial_size = SIZES[size]
     mesh = build_mesh(

@@ -2,7 +2,8 @@
 
 The hub frame is fixed in the wheel, its y axis is the axle (to the left when the wheel rolls along x with z up); a
 positive spin about +y rolls the wheel forward. Everything is given in the world frame, SI. Rigid, brush and ANCF tires
-implement `Tire`, and so can an adapter to another solver: see `rover_dynamics.brush_wheel.BrushTire` for an example.
+implement `Tire`, and so can an adapter to another solver: see `rover_dynamics.tires.brush_wheel.BrushTire` for an
+example.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ import functools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from reference_fe import triangular_product
+from reference_fe.solver import triangular_product
 
 with contextlib.suppress(ModuleNotFoundError):
     triangular_product.provide()  # before PETSc is loaded

@@ -1,1 +1,1 @@
-"""The companion solver of the rover: a multibody engine, the brush tire, vehicles, the rover."""
+"""The companion solver of the rover: multibody engine, rigid and brush tires, flexible tires, vehicles, the rover."""

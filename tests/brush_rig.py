@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from contracts.terrain import Plane, Terrain
-from rover_dynamics.brush_force import BrushResult, HubMotions
-from rover_dynamics.brush_settings import BrushSettings
-from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
-from rover_dynamics.brush_wheel import BrushWheels
+from rover_dynamics.tires.brush_force import BrushResult, HubMotions
+from rover_dynamics.tires.brush_settings import BrushSettings
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
+from rover_dynamics.tires.brush_wheel import BrushWheels
 
 FloatArray = NDArray[np.float64]
 RADIUS = 0.1425

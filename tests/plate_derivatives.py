@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.plate_model import PlateModel
+from ancf_reduced.plates.model import PlateModel
 
 FloatArray = NDArray[np.float64]
 

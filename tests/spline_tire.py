@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ancf_reduced.plate_mesh import PlateMesh, build_plate_mesh
-from ancf_reduced.spline_plates import plates_on_surface
-from ancf_reduced.tire_mesh import RIM, SPOKE
-from ancf_reduced.tire_preset import TirePreset
+from ancf_reduced.plates.mesh import PlateMesh, build_plate_mesh
+from ancf_reduced.plates.spline_plates import plates_on_surface
+from ancf_reduced.tire.mesh import RIM, SPOKE
+from ancf_reduced.tire.preset import TirePreset
 from contracts.frames import ground_direction_h
 from geometry.spline_surface import SplineSurface
 

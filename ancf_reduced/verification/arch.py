@@ -17,10 +17,10 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.plate_mesh import PlatePatch, build_plate_mesh
-from ancf_reduced.plate_model import build_plate_model
-from ancf_reduced.tire_mesh import rim_patch
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.plates.mesh import PlatePatch, build_plate_mesh
+from ancf_reduced.plates.model import build_plate_model
+from ancf_reduced.tire.mesh import rim_patch
+from ancf_reduced.tire.preset import thesis_preset
 from ancf_reduced.verification.plate_strips import compliance, strip
 from contracts.frames import ground_direction_h
 

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array
 
-from ancf_reduced.equilibrium import NewtonControls
-from ancf_reduced.plate_mesh import build_plate_mesh
-from ancf_reduced.plate_model import PlateModel, build_plate_model
+from ancf_reduced.motion.equilibrium import NewtonControls
+from ancf_reduced.plates.mesh import build_plate_mesh
+from ancf_reduced.plates.model import PlateModel, build_plate_model
 from ancf_reduced.verification.plate_strips import Load, strip, strip_path
 from contracts.errors import InputError
 from contracts.published import published_table

@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from ancf_reduced.plate_mass import mass_matrix
-from ancf_reduced.plate_mesh import build_plate_mesh
-from ancf_reduced.plate_model import build_plate_model
-from ancf_reduced.plate_system import build_plate_system
-from ancf_reduced.spectrum import natural_frequencies
-from ancf_reduced.tire_mesh import rim_patch
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.vector_coordinates import with_held_vectors
+from ancf_reduced.motion.plate_system import build_plate_system
+from ancf_reduced.motion.spectrum import natural_frequencies
+from ancf_reduced.motion.vector_coordinates import with_held_vectors
+from ancf_reduced.plates.mass import mass_matrix
+from ancf_reduced.plates.mesh import build_plate_mesh
+from ancf_reduced.plates.model import build_plate_model
+from ancf_reduced.tire.mesh import rim_patch
+from ancf_reduced.tire.preset import thesis_preset
 from ancf_reduced.verification.plate_strips import strip
 
 __all__ = ["RING_THICKNESS", "THICKNESS", "Frequencies", "cantilever_frequencies", "ring_frequencies"]

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ancf_reduced.plate_mesh import build_plate_mesh
-from ancf_reduced.plate_model import PoissonLocking, build_plate_model
+from ancf_reduced.plates.mesh import build_plate_mesh
+from ancf_reduced.plates.model import PoissonLocking, build_plate_model
 from ancf_reduced.verification.plate_strips import compliance, strip
 
 __all__ = ["BentCantilever", "bent_cantilever"]

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
-from ancf_reduced.plate_mesh import build_plate_mesh
-from ancf_reduced.plate_model import build_plate_model
-from ancf_reduced.plate_system import PlateSystem, build_plate_system
-from ancf_reduced.spectrum import stable_step
-from ancf_reduced.vector_coordinates import with_held_vectors
+from ancf_reduced.motion.explicit import MotionState, integrate_explicit
+from ancf_reduced.motion.plate_system import PlateSystem, build_plate_system
+from ancf_reduced.motion.spectrum import stable_step
+from ancf_reduced.motion.vector_coordinates import with_held_vectors
+from ancf_reduced.plates.mesh import build_plate_mesh
+from ancf_reduced.plates.model import build_plate_model
 from ancf_reduced.verification.plate_strips import strip
 from contracts.published import published_table
 

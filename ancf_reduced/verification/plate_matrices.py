@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.plate_mass import gravity_force, mass_matrix
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.plate_model import PlateModel, build_plate_model
-from ancf_reduced.shape_functions import THESIS_SHAPE, PlateShape, plate_shape, plate_shape_gradient
+from ancf_reduced.plates.mass import gravity_force, mass_matrix
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.plates.model import PlateModel, build_plate_model
+from ancf_reduced.plates.shape_functions import THESIS_SHAPE, PlateShape, plate_shape, plate_shape_gradient
 from contracts.published import published_matrix
 
 __all__ = ["EXACT", "PlateErrors", "misread_shape", "plate_errors", "reference_plate"]

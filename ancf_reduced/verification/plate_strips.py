@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve
 
-from ancf_reduced.equilibrium import NewtonControls, NewtonResult, follow_path, newton_solve
-from ancf_reduced.plate_assembly import sparse_matrix
-from ancf_reduced.plate_mesh import PlatePatch, flat_patch
-from ancf_reduced.plate_model import PlateModel
+from ancf_reduced.motion.equilibrium import NewtonControls, NewtonResult, follow_path, newton_solve
+from ancf_reduced.plates.assembly import sparse_matrix
+from ancf_reduced.plates.mesh import PlatePatch, flat_patch
+from ancf_reduced.plates.model import PlateModel
 from contracts.errors import IncrementRecord
 
 __all__ = ["Load", "StripPath", "compliance", "strip", "strip_path"]

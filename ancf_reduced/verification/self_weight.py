@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
-from ancf_reduced.equilibrium import NewtonControls
-from ancf_reduced.plate_mass import gravity_force
-from ancf_reduced.plate_mesh import build_plate_mesh
-from ancf_reduced.plate_model import build_plate_model
+from ancf_reduced.motion.equilibrium import NewtonControls
+from ancf_reduced.plates.mass import gravity_force
+from ancf_reduced.plates.mesh import build_plate_mesh
+from ancf_reduced.plates.model import build_plate_model
 from ancf_reduced.verification.plate_strips import strip, strip_path
 
 __all__ = ["DROP", "TIP_X", "YOUNG", "HangingPlate", "hanging_plate"]

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import TirePreset, thesis_preset
-from ancf_reduced.wheel_set import THESIS_LAW, wheel_set
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import TirePreset, thesis_preset
+from ancf_reduced.tire.wheel_set import THESIS_LAW, wheel_set
 from contracts.terrain import Plane
 from rover_dynamics.flexible.even_steps import EvenSteps
 from rover_dynamics.flexible.flexible_system import Instant

@@ -11,7 +11,7 @@ import cProfile
 import pstats
 from collections.abc import Callable
 
-from ancf_reduced.wheel_set import WheelSet
+from ancf_reduced.tire.wheel_set import WheelSet
 from benchmarks.ancf_rows.clock import shortest
 from benchmarks.flexible_rows.cases import driven, row
 from benchmarks.flexible_rows.motions import TOLERANCE
@@ -28,9 +28,9 @@ __all__ = ["kernel_rows", "kernel_times", "profile_rows"]
 STEP, BUDGET = 0.01, 0.3
 """Length of the step whose matrix is condensed; time for each kernel [s]."""
 PARTS = {
-    "forces of plates": {("plate_model.py", "elastic_force"), ("plate_model.py", "damping_force")},
+    "forces of plates": {("plates/model.py", "elastic_force"), ("plates/model.py", "damping_force")},
     "forces of contact": {("plate_contact.py", "force")},
-    "tangents of plates": {("plate_model.py", "step_matrices")},
+    "tangents of plates": {("plates/model.py", "step_matrices")},
     "tangents of contact": {("plate_contact.py", "tangents")},
     "plates' matrices to blocks": {("block_reduction.py", "__call__")},
     "condensation": {("linear_solves.py", "condense")},

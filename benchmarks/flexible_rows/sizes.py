@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ancf_reduced.tire_preset import refined_preset, thesis_preset
+from ancf_reduced.tire.preset import refined_preset, thesis_preset
 from benchmarks.flexible_rows.cases import STRAIGHT, driven, rover, row
 from benchmarks.flexible_rows.kernels import kernel_times
 

@@ -12,7 +12,7 @@ from contracts.materials import TI_6AL_4V, Material
 from contracts.mesh import TaggedMesh
 from geometry import build_mesh, exomars
 from geometry.inp import TWENTY_NODES
-from reference_fe.orientation import curved_axis_first
+from reference_fe.cells.orientation import curved_axis_first
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 __all__ = ["FRONT", "REAR", "TOLERANCE", "Description", "LoadCase", "from_description", "half_cylinder", "wheel"]

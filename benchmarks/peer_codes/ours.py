@@ -8,12 +8,12 @@ import time
 
 from benchmarks.peer_codes.case import FRONT, REAR, TOLERANCE, LoadCase, from_description
 from contracts.errors import IncrementRecord
-from reference_fe.discretisation import Discretisation, ElementFamily
-from reference_fe.domain import Domain
-from reference_fe.increments import solve_increments
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import StaticProblem
-from reference_fe.supports import Support
+from reference_fe.cells.discretisation import Discretisation, ElementFamily
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.increments import solve_increments
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 
 ELEMENTS = {
     "27 nodes": Discretisation(),

@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_dynamics.brush_tire import BrushTireParameters
 from rover_dynamics.multibody.motion_law import MotionLaw
+from rover_dynamics.tires.brush_tire import BrushTireParameters
 from rover_dynamics.vehicle.vehicle import Vehicle
 
 __all__ = ["SAMPLED", "PeerRun", "alike", "run_exudyn"]

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from contracts.errors import IncrementRecord
 from contracts.materials import Material
 from contracts.published import published_table
-from reference_fe.domain import Domain
-from reference_fe.increments import solve_increments
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import Discretisation, ElementFamily, StaticProblem
-from reference_fe.supports import Support
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, ElementFamily, StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.increments import solve_increments
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 __all__ = [

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from contracts.materials import Material
 from contracts.published import published_table
-from reference_fe.domain import Domain
-from reference_fe.static_problem import Discretisation, ElementFamily, StaticProblem
-from reference_fe.supports import EdgeLoad, Support
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, ElementFamily, StaticProblem
+from reference_fe.problem.supports import EdgeLoad, Support
 from reference_fe.verification.load_path import LoadPath, load_path
 from reference_fe.verification.structured_hexahedra import block_mesh
 

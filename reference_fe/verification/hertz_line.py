@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from contracts.errors import ConvergenceError
 from contracts.materials import Material
 from contracts.published import published_table
-from reference_fe.contact_obstacle import ContactMethod, ObstacleContact, ObstacleTerm
-from reference_fe.domain import Domain
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.obstacles import HalfRoundRock
-from reference_fe.static_problem import Discretisation, StaticProblem
-from reference_fe.supports import Support
+from reference_fe.contact.obstacle import ContactMethod, ObstacleContact, ObstacleTerm
+from reference_fe.contact.obstacles import HalfRoundRock
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 __all__ = ["CELLS", "E_STAR", "HALF_WIDTH", "LOAD", "PEAK_PRESSURE", "RADIUS", "LineContact", "line_contact"]

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import IncrementRecord, InputError
-from reference_fe.increments import solve_increments
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import StaticProblem
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.solver.increments import solve_increments
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 
 __all__ = ["LoadPath", "load_path", "relative_error"]
 

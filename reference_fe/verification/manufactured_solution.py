@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from contracts.materials import Material
 from reference_fe import dolfinx_api as api
 from reference_fe.dolfinx_api import Expr, fem, ufl
-from reference_fe.domain import Domain
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.increments import solve_increments
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import Discretisation, StaticProblem
-from reference_fe.supports import BodyForce, Support
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, StaticProblem
+from reference_fe.problem.supports import BodyForce, Support
+from reference_fe.solver.increments import solve_increments
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 __all__ = ["MESHES", "RUBBER", "Convergence", "convergence", "with_shear_modulus"]

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from contracts.errors import ConvergenceError
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
-from reference_fe.domain import Domain
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import Discretisation, StaticProblem
-from reference_fe.stress import StressRecovery
-from reference_fe.supports import Support, Traction
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.material.stress import StressRecovery
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, StaticProblem
+from reference_fe.problem.supports import Support, Traction
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 __all__ = [

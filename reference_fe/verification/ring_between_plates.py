@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from contracts.errors import IncrementRecord
 from contracts.materials import Material
 from contracts.published import PublishedTable, published_table
-from reference_fe.contact_obstacle import ContactMethod, ObstacleContact
-from reference_fe.domain import Domain
-from reference_fe.increments import ConvergedState, solve_increments
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.orientation import curved_axis_first
-from reference_fe.static_problem import Discretisation, StaticProblem
-from reference_fe.supports import Support
+from reference_fe.cells.orientation import curved_axis_first
+from reference_fe.contact.obstacle import ContactMethod, ObstacleContact
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.increments import ConvergedState, solve_increments
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 __all__ = [

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError
 from contracts.materials import Material
-from reference_fe.contact_obstacle import ObstacleContact, ObstacleTerm
-from reference_fe.domain import Domain
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import StaticProblem
-from reference_fe.supports import Support
+from reference_fe.contact.obstacle import ObstacleContact, ObstacleTerm
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 __all__ = ["FRICTION", "PENALTY", "SIDE", "SINK", "DraggedBlock", "dragged_block"]

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_dynamics.brush_force import HubMotions, brush_forces, brush_result, brush_scratch
-from rover_dynamics.brush_settings import wheel_numbers
 from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle, rigid_vectors
 from rover_dynamics.flexible.hub_kernels import HubMotion, hub_motion, hub_wrenches, wheel_jacobians
 from rover_dynamics.multibody.generalised_alpha import Method, newmark, step_frames
 from rover_dynamics.multibody.tree_kernels import TreeMotion, bias_and_mass, tree_motion
+from rover_dynamics.tires.brush_force import HubMotions, brush_forces, brush_result, brush_scratch
+from rover_dynamics.tires.brush_settings import wheel_numbers
 from rover_dynamics.vehicle.implicit_method import Known
 from rover_dynamics.vehicle.joint_actions import JointActions
 

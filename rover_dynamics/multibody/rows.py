@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_dynamics.brush_compiled import Vector, along, cross, dot
 from rover_dynamics.multibody.compiled import compiled
+from rover_dynamics.tires.brush_compiled import Vector, along, cross, dot
 
 __all__ = [
     "Matrix",

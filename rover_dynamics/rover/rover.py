@@ -10,13 +10,13 @@ from dataclasses import dataclass, field, replace
 
 from contracts.errors import InputError
 from contracts.terrain import Plane, Terrain
-from rover_dynamics.brush_settings import BrushSettings
-from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.multibody.body import RigidBody, body
 from rover_dynamics.multibody.joint import Joint, revolute
 from rover_dynamics.multibody.model import Drive, MultibodyModel
 from rover_dynamics.multibody.motion_law import Hold, MotionLaw
 from rover_dynamics.rover.rover_file import Leg, RoverDesign
+from rover_dynamics.tires.brush_settings import BrushSettings
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.vehicle.joint_actions import JointEffort
 from rover_dynamics.vehicle.vehicle import Vehicle
 

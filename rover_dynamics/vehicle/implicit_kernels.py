@@ -21,8 +21,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_dynamics.brush_derivatives import brush_derivatives
-from rover_dynamics.brush_force import BrushResult, HubMotions, brush_forces
 from rover_dynamics.multibody.compiled import compiled
 from rover_dynamics.multibody.generalised_alpha import Method, newmark, step_frames
 from rover_dynamics.multibody.rows import matrix, put_matrix, put_vector, vector
@@ -30,6 +28,8 @@ from rover_dynamics.multibody.small_matrices import product
 from rover_dynamics.multibody.tree_arrays import TreeMotion, tree_memory
 from rover_dynamics.multibody.tree_forces import bias_and_mass, needed_efforts
 from rover_dynamics.multibody.tree_kernels import move_tree, tree_motion
+from rover_dynamics.tires.brush_derivatives import brush_derivatives
+from rover_dynamics.tires.brush_force import BrushResult, HubMotions, brush_forces
 from rover_dynamics.vehicle.implicit_method import Known, Moment
 from rover_dynamics.vehicle.linearisation import changes, linearise
 from rover_dynamics.vehicle.system import Newton, System, Work

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.terrain import TerrainPieces
-from rover_dynamics.brush_force import BrushResult, BrushScratch, brush_result
-from rover_dynamics.brush_settings import WheelNumbers
 from rover_dynamics.multibody.tree_kernels import Tree
+from rover_dynamics.tires.brush_force import BrushResult, BrushScratch, brush_result
+from rover_dynamics.tires.brush_settings import WheelNumbers
 
 __all__ = ["Newton", "System", "Tires", "Work", "work_for"]
 

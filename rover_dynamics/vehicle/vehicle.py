@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.terrain import Terrain
-from rover_dynamics.brush_derivatives import derivative_result
-from rover_dynamics.brush_force import BrushResult, brush_scratch
-from rover_dynamics.brush_settings import BrushSettings, wheel_numbers
-from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.multibody.generalised_alpha import generalised_alpha
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 from rover_dynamics.multibody.model import MultibodyModel
+from rover_dynamics.tires.brush_derivatives import derivative_result
+from rover_dynamics.tires.brush_force import BrushResult, brush_scratch
+from rover_dynamics.tires.brush_settings import BrushSettings, wheel_numbers
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.vehicle.implicit_kernels import evaluate, implicit_step
 from rover_dynamics.vehicle.implicit_method import Moment, rescaled
 from rover_dynamics.vehicle.joint_actions import JointActions, JointEffort
@@ -78,7 +78,7 @@ class VehicleMotion:
     ----------
     times : (n,) float [s]
     positions, rotations, velocities : (n, n_b, 3), (n, n_b, 3, 3), (n, n_b, 6) float, of all bodies, world
-    tires : (n, n_w, 10) float, outputs of the tires, see `rover_dynamics.brush_force.OUTPUT_SIZE`
+    tires : (n, n_w, 10) float, outputs of the tires, see `rover_dynamics.tires.brush_force.OUTPUT_SIZE`
     wrenches : (n, n_w, 6) float, on the hubs, world [N, N m]
     efforts : (n, n_d) float, of the drives, in the order of the model's [N m, N]
     steps, iterations, rejected : counts

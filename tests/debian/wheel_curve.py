@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
 from reference_fe import dolfinx_api
-from reference_fe.wheel import WheelLoadCase, solve_wheel
+from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 
 
 def main(path: Path) -> None:

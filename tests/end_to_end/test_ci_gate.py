@@ -27,8 +27,8 @@ CHANGES = {
 }
 """Pattern in the small study -> what this one has: no fits, one temperature, a slope the coarse wheel still has."""
 DEFECTS = {
-    "reference_fe/wheel_problem.py": ("sides=2.0 if half_width", "sides=1.0 if half_width", "fe.initial_tangent"),
-    "ancf_reduced/shape_functions.py": (
+    "reference_fe/wheel/problem.py": ("sides=2.0 if half_width", "sides=1.0 if half_width", "fe.initial_tangent"),
+    "ancf_reduced/plates/shape_functions.py": (
         "-a * (v - 1) * (u - 1) * (3 * u - 1)",
         "-a * (v - 1) * (u - 1) * (3 * u - 1.1)",
         "ancf.preset_phi000",

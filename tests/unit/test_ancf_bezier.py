@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced.bezier import bezier_to_plate, coons_residual, elevated, plate_to_bezier
-from ancf_reduced.shape_functions import plate_shape
+from ancf_reduced.plates.bezier import bezier_to_plate, coons_residual, elevated, plate_to_bezier
+from ancf_reduced.plates.shape_functions import plate_shape
 from geometry.spline_surface import bernstein
 
 RNG = np.random.default_rng(1)

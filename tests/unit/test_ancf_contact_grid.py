@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_grid import build_contact_grid, contact_grid
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.tire_surfaces import surface_grid
+from ancf_reduced.contact.grid import build_contact_grid, contact_grid
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.surfaces import surface_grid
 from contracts.errors import InputError
 
 TIRE = build_tire(thesis_preset())

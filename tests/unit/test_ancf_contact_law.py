@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_law import ContactLaw, normal_force, point_force, point_tangents, slip
+from ancf_reduced.contact.law import ContactLaw, normal_force, point_force, point_tangents, slip
 from contracts.errors import InputError
 
 LAW = ContactLaw(stiffness=1000.0, damping=20.0, damping_depth=0.004, friction=0.6, slip_velocity=0.02)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.plate_assembly import dense_matrix
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.plate_model import PlateModel, PoissonLocking, build_plate_model
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.plates.assembly import dense_matrix
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.plates.model import PlateModel, PoissonLocking, build_plate_model
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 
 VISCOSITY = (300.0, 500.0)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced.plate_mesh import build_plate_mesh
-from ancf_reduced.plate_model import PlateModel, build_plate_model
+from ancf_reduced.plates.mesh import build_plate_mesh
+from ancf_reduced.plates.model import PlateModel, build_plate_model
 from ancf_reduced.verification.cantilever import MOMENT, end_load
 from ancf_reduced.verification.plate_strips import strip
 from tests.plate_derivatives import crumpled

@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve
 
-from ancf_reduced.equilibrium import NewtonControls, NewtonResult, follow_path, newton_solve
+from ancf_reduced.motion.equilibrium import NewtonControls, NewtonResult, follow_path, newton_solve
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 
 CONTROLS = NewtonControls()

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.curve_fit import LoadData, fit_curves
-from ancf_reduced.plate_mass import flexible_mass
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_parameters import FreeParameter, Parameter, with_mass
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.fit.curve_fit import LoadData, fit_curves
+from ancf_reduced.fit.parameters import FreeParameter, Parameter, with_mass
+from ancf_reduced.plates.mass import flexible_mass
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 
 DATA = LoadData(phi=np.zeros(1), deflection=np.array([0.01, 0.02]), load=np.ones((1, 2)), scale=np.ones((1, 2)))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import linregress
 
-from ancf_reduced.fit_statistics import fit_statistics
+from ancf_reduced.fit.fit_statistics import fit_statistics
 
 X = np.linspace(1.0, 3.0, 12)
 Y = 2.0 * X - 1.0 + 0.1 * np.random.default_rng(4).standard_normal(12)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.wheel_rig import HubDrive
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.wheel_rig import HubDrive
 
 SPIN, TURNED = 2.5, 0.8
 

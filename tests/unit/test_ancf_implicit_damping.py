@@ -8,21 +8,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced import linearisation
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.explicit_dynamics import MotionState, _Kick, integrate_explicit
-from ancf_reduced.implicit_damping import ImplicitDamping
-from ancf_reduced.mass_factor import MassFactor
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.plate_model import build_plate_model
-from ancf_reduced.plate_system import HubMass, PlateSystem, build_plate_system
-from ancf_reduced.reference_node import tie_reference_node
-from ancf_reduced.spectrum import stable_step
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.triad_equations import TriadEquations
-from ancf_reduced.vector_coordinates import all_free, side_by_side, with_reference_node
-from ancf_reduced.wheel_rig import wheel_rig
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.motion import linearisation
+from ancf_reduced.motion.explicit import MotionState, _Kick, integrate_explicit
+from ancf_reduced.motion.implicit_damping import ImplicitDamping
+from ancf_reduced.motion.mass_factor import MassFactor
+from ancf_reduced.motion.plate_system import HubMass, PlateSystem, build_plate_system
+from ancf_reduced.motion.reference_node import tie_reference_node
+from ancf_reduced.motion.spectrum import stable_step
+from ancf_reduced.motion.triad_equations import TriadEquations
+from ancf_reduced.motion.vector_coordinates import all_free, side_by_side, with_reference_node
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.plates.model import build_plate_model
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.wheel_rig import wheel_rig
 from contracts.errors import ConvergenceError
 from contracts.terrain import Plane
 from tests.unit.test_ancf_rigid_hub import HUB, paddle, rigid_start

@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced import linearisation
-from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
-from ancf_reduced.implicit_dynamics import ImplicitSettings, integrate_implicit
-from ancf_reduced.linearisation import Linearisation
-from ancf_reduced.plate_system import PlateSystem
-from ancf_reduced.rigid_triads import triad_defect
-from ancf_reduced.spectrum import stable_step
-from ancf_reduced.triad_equations import TriadEquations
+from ancf_reduced.motion import linearisation
+from ancf_reduced.motion.explicit import MotionState, integrate_explicit
+from ancf_reduced.motion.implicit import ImplicitSettings, integrate_implicit
+from ancf_reduced.motion.linearisation import Linearisation
+from ancf_reduced.motion.plate_system import PlateSystem
+from ancf_reduced.motion.rigid_triads import triad_defect
+from ancf_reduced.motion.spectrum import stable_step
+from ancf_reduced.motion.triad_equations import TriadEquations
 from contracts.errors import ConvergenceError, InputError
 from tests.unit.test_ancf_rigid_hub import paddle, rigid_start
 

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.load_sensitivity import load_gradient, vary_tire
-from ancf_reduced.static_tire import solve_near, solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_parameters import FreeParameter, Parameter, preset_at, unknowns_of
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.fit.load_sensitivity import load_gradient, vary_tire
+from ancf_reduced.fit.parameters import FreeParameter, Parameter, preset_at, unknowns_of
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import solve_near, solve_tire
 
 PRESET = replace(thesis_preset(), phase=0.1, datum_radius=0.1425, outer_radius=0.143, quadrature=(3, 3, 2))
 DEFLECTION = np.array([0.0053, 0.0203])

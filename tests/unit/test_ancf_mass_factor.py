@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.sparse import block_diag, csc_array
 
-from ancf_reduced.mass_factor import MassFactor
-from ancf_reduced.plate_assembly import sparse_matrix
-from ancf_reduced.plate_mass import mass_blocks
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.motion.mass_factor import MassFactor
+from ancf_reduced.plates.assembly import sparse_matrix
+from ancf_reduced.plates.mass import mass_blocks
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 
 MODEL = build_tire(thesis_preset()).model

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.curve_fit import LoadData, fit_curves
-from ancf_reduced.phase_search import fit_from_phases, phases_over_a_turn
-from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_parameters import FreeParameter, Parameter
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.fit.curve_fit import LoadData, fit_curves
+from ancf_reduced.fit.parameters import FreeParameter, Parameter
+from ancf_reduced.fit.phase_search import fit_from_phases, phases_over_a_turn
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import solve_tire
 from contracts.errors import InputError
 
 TRUTH = replace(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ancf_reduced.equilibrium import NewtonControls
-from ancf_reduced.plane_problem import PlaneProblem
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.motion.equilibrium import NewtonControls
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.plane_problem import PlaneProblem
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.frames import ground_direction_h
 
 PROBLEM = PlaneProblem(tire=build_tire(thesis_preset()), direction=ground_direction_h(0.2))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced.plate_assembly import dense_matrix, plate_rows, sparse_matrix
-from ancf_reduced.plate_mass import mass_blocks
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.plates.assembly import dense_matrix, plate_rows, sparse_matrix
+from ancf_reduced.plates.mass import mass_blocks
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 
 MODEL = build_tire(thesis_preset()).model
 

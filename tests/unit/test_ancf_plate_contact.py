@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.plate_assembly import dense_matrix
-from ancf_reduced.plate_contact import ContactNormal, PlateContact
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.contact.plate_contact import ContactNormal, PlateContact
+from ancf_reduced.plates.assembly import dense_matrix
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 from contracts.height_field import sampled_terrain
 from contracts.terrain import Plane, Terrain, inclined_plane

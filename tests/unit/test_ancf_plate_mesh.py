@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.shape_functions import plate_shape, plate_shape_gradient
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.plates.shape_functions import plate_shape, plate_shape_gradient
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError, MeshError
 
 X, Y, Z = np.eye(3)

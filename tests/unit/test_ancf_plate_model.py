@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.plate_mesh import PlateMesh, build_plate_mesh, flat_patch
-from ancf_reduced.plate_model import PlateModel, build_plate_model
-from ancf_reduced.reference_node import rigid_reference_node, tie_reference_node
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.motion.reference_node import rigid_reference_node, tie_reference_node
+from ancf_reduced.plates.mesh import PlateMesh, build_plate_mesh, flat_patch
+from ancf_reduced.plates.model import PlateModel, build_plate_model
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError, MeshError
 from tests.plate_derivatives import asymmetry, crumpled, force_errors, tangent_error
 

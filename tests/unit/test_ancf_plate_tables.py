@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from ancf_reduced.compiled import LANES
-from ancf_reduced.plate_tables import in_blocks, plate_tables
-from ancf_reduced.shape_functions import plate_shape, plate_shape_gradient
+from ancf_reduced.plates.shape_functions import plate_shape, plate_shape_gradient
+from ancf_reduced.plates.tables import in_blocks, plate_tables
 from contracts.errors import InputError
 
 

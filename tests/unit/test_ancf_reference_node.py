@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.reference_node import rigid_reference_node, tie_reference_node
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.motion.reference_node import rigid_reference_node, tie_reference_node
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 
 TIRE = build_tire(thesis_preset())

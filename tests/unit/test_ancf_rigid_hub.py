@@ -9,16 +9,16 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
-from ancf_reduced.mass_factor import MassFactor
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.plate_model import build_plate_model
-from ancf_reduced.plate_system import HubMass, PlateSystem, build_plate_system, hub_mass
-from ancf_reduced.reference_node import tie_reference_node
-from ancf_reduced.rigid_triads import RigidTriads, triad_defect
-from ancf_reduced.spectrum import stable_step
-from ancf_reduced.triad_equations import TriadEquations
-from ancf_reduced.vector_coordinates import with_reference_node
+from ancf_reduced.motion.explicit import MotionState, integrate_explicit
+from ancf_reduced.motion.mass_factor import MassFactor
+from ancf_reduced.motion.plate_system import HubMass, PlateSystem, build_plate_system, hub_mass
+from ancf_reduced.motion.reference_node import tie_reference_node
+from ancf_reduced.motion.rigid_triads import RigidTriads, triad_defect
+from ancf_reduced.motion.spectrum import stable_step
+from ancf_reduced.motion.triad_equations import TriadEquations
+from ancf_reduced.motion.vector_coordinates import with_reference_node
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.plates.model import build_plate_model
 from contracts.errors import ConvergenceError, InputError
 
 HUB = HubMass(mass=2.0, inertia=np.diag([0.011, 0.017, 0.009]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced.shape_functions import gauss_points, plate_shape, plate_shape_gradient
+from ancf_reduced.plates.shape_functions import gauss_points, plate_shape, plate_shape_gradient
 
 DIMENSIONS = np.array([0.2, 0.12, 0.025])
 CORNERS = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])

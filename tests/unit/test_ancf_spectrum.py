@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced import spectrum
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.plate_model import build_plate_model
-from ancf_reduced.plate_system import PlateSystem, build_plate_system
-from ancf_reduced.spectrum import natural_frequencies, stable_step
-from ancf_reduced.vector_coordinates import all_free
+from ancf_reduced.motion import spectrum
+from ancf_reduced.motion.plate_system import PlateSystem, build_plate_system
+from ancf_reduced.motion.spectrum import natural_frequencies, stable_step
+from ancf_reduced.motion.vector_coordinates import all_free
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.plates.model import build_plate_model
 
 
 @pytest.fixture(scope="module")

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.spline_plates import FACES, plate_surfaces, plates_between, plates_on_surface
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import refined_preset, thesis_preset
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.plates.spline_plates import FACES, plate_surfaces, plates_between, plates_on_surface
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import refined_preset, thesis_preset
 from contracts.errors import InputError
 from geometry.spline_surface import SplineSurface, bezier_surface
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.equilibrium import NewtonControls
-from ancf_reduced.static_tire import TireEquilibria, solve_near, solve_tire, stiffness_curve
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.motion.equilibrium import NewtonControls
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import TireEquilibria, solve_near, solve_tire, stiffness_curve
 from contracts.errors import ConvergenceError, InputError
 
 TIRE = build_tire(thesis_preset())

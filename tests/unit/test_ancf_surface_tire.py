@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.plate_mesh import PlateMesh
-from ancf_reduced.spline_plates import plate_surfaces
-from ancf_reduced.surface_tire import surface_mesh
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.plates.mesh import PlateMesh
+from ancf_reduced.plates.spline_plates import plate_surfaces
+from ancf_reduced.tire.from_surfaces import surface_mesh
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 from geometry.spline_surface import SplineSurface
 from tests.spline_tire import ring, spokes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced.terrain_kernels import is_clear, is_outside, piece_bound, piece_gap
+from ancf_reduced.contact.terrain_kernels import is_clear, is_outside, piece_bound, piece_gap
 from contracts.height_field import HeightField
 from contracts.terrain import Terrain, TerrainPieces, inclined_plane, normals
 from contracts.terrain_ridges import HalfRound, Sinusoid, Step

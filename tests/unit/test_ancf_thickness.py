@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.plate_model import PlateModel, PoissonLocking, build_plate_model
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.plates.model import PlateModel, PoissonLocking, build_plate_model
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from tests.plate_derivatives import asymmetry, crumpled, force_errors, tangent_error
 
 

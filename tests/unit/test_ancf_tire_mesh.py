@@ -8,9 +8,9 @@ import sys
 import numpy as np
 import pytest
 
-from ancf_reduced.tire_mesh import arc_tangent_length, build_tire
-from ancf_reduced.tire_preset import refined_preset, thesis_preset
-from ancf_reduced.tire_surfaces import surface_grid, tire_surfaces
+from ancf_reduced.tire.mesh import arc_tangent_length, build_tire
+from ancf_reduced.tire.preset import refined_preset, thesis_preset
+from ancf_reduced.tire.surfaces import surface_grid, tire_surfaces
 
 TIRE = build_tire(thesis_preset())
 
@@ -54,6 +54,6 @@ def test_refined_tire_ties_the_hub_nodes_only(plates: int, per_spoke: int, nodes
 
 
 def test_package_imports_without_numba() -> None:
-    code = "import sys, ancf_reduced, ancf_reduced.tire_preset; print('numba' in sys.modules)"
+    code = "import sys, ancf_reduced, ancf_reduced.tire.preset; print('numba' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from ancf_reduced.tire_preset import refined_preset, thesis_preset
+from ancf_reduced.tire.preset import refined_preset, thesis_preset
 from contracts.errors import InputError
 
 

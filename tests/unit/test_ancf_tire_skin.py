@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.tire_skin import tire_skin
-from ancf_reduced.tire_surfaces import tire_surfaces
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.skin import tire_skin
+from ancf_reduced.tire.surfaces import tire_surfaces
 
 TIRE = build_tire(replace(thesis_preset(), quadrature=(3, 3, 2)))
 SKIN = tire_skin(TIRE, 7, 3)

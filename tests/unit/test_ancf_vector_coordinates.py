@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.vector_coordinates import all_free, side_by_side, with_held_vectors, with_reference_node
+from ancf_reduced.motion.vector_coordinates import all_free, side_by_side, with_held_vectors, with_reference_node
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 
 TIRE = build_tire(thesis_preset())

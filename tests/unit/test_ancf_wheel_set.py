@@ -9,13 +9,13 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced import linearisation
-from ancf_reduced.plate_system import PlateSystem, build_plate_system
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.vector_coordinates import with_reference_node
-from ancf_reduced.wheel_rig import damped_model
-from ancf_reduced.wheel_set import THESIS_LAW, WheelSet, wheel_set
+from ancf_reduced.motion import linearisation
+from ancf_reduced.motion.plate_system import PlateSystem, build_plate_system
+from ancf_reduced.motion.vector_coordinates import with_reference_node
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.wheel_rig import damped_model
+from ancf_reduced.tire.wheel_set import THESIS_LAW, WheelSet, wheel_set
 from contracts.errors import InputError
 from contracts.terrain import Plane
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from rover_dynamics.brush_settings import BrushSettings, SlipLaw, wheel_numbers
-from rover_dynamics.brush_standstill import BAND, SMALLEST, bristle_force, held_motion
-from rover_dynamics.brush_tire import THESIS_BRUSH
+from rover_dynamics.tires.brush_settings import BrushSettings, SlipLaw, wheel_numbers
+from rover_dynamics.tires.brush_standstill import BAND, SMALLEST, bristle_force, held_motion
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 
 BRUSH = wheel_numbers(THESIS_BRUSH, BrushSettings())
 FIALA = wheel_numbers(THESIS_BRUSH, BrushSettings(slip_law=SlipLaw.FIALA))

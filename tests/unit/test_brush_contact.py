@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 from contracts.height_field import sampled_terrain
 from contracts.terrain import PieceKind, Plane, Terrain, TerrainUnion, inclined_plane
 from contracts.terrain_ridges import Crevasse, HalfRound, Sinusoid, Step
-from rover_dynamics.brush_contact import find_contacts
-from rover_dynamics.brush_edges import convex_distance
-from rover_dynamics.brush_force import brush_scratch
-from rover_dynamics.brush_graph import graph
-from rover_dynamics.brush_profile import SAMPLES, profile_distance
-from rover_dynamics.brush_wheel import BrushWheels
+from rover_dynamics.tires.brush_contact import find_contacts
+from rover_dynamics.tires.brush_edges import convex_distance
+from rover_dynamics.tires.brush_force import brush_scratch
+from rover_dynamics.tires.brush_graph import graph
+from rover_dynamics.tires.brush_profile import SAMPLES, profile_distance
+from rover_dynamics.tires.brush_wheel import BrushWheels
 from tests.brush_rig import RADIUS, STIFFNESS, motion, turned
 
 FloatArray = NDArray[np.float64]

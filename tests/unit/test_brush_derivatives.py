@@ -10,9 +10,9 @@ from scipy.spatial.transform import Rotation
 from contracts.height_field import sampled_terrain
 from contracts.terrain import Plane, Terrain
 from contracts.terrain_ridges import Crevasse, Sinusoid, Step
-from rover_dynamics.brush_force import HubMotions
-from rover_dynamics.brush_settings import BrushSettings, SlipLaw
-from rover_dynamics.brush_wheel import BrushWheels
+from rover_dynamics.tires.brush_force import HubMotions
+from rover_dynamics.tires.brush_settings import BrushSettings, SlipLaw
+from rover_dynamics.tires.brush_wheel import BrushWheels
 from tests.brush_rig import RADIUS, motion, turned
 
 FloatArray = NDArray[np.float64]

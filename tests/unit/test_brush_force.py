@@ -14,8 +14,8 @@ from contracts.errors import InputError
 from contracts.height_field import HeightField
 from contracts.terrain import Plane, TerrainPieces, inclined_plane
 from contracts.terrain_ridges import Sinusoid, Step
-from rover_dynamics.brush_derivatives import brush_derivatives, derivative_result
-from rover_dynamics.brush_force import (
+from rover_dynamics.tires.brush_derivatives import brush_derivatives, derivative_result
+from rover_dynamics.tires.brush_force import (
     BrushResult,
     BrushScratch,
     HubMotions,
@@ -23,8 +23,8 @@ from rover_dynamics.brush_force import (
     brush_result,
     brush_scratch,
 )
-from rover_dynamics.brush_settings import BrushSettings, DamperLaw, WheelNumbers
-from rover_dynamics.brush_wheel import BrushWheels
+from rover_dynamics.tires.brush_settings import BrushSettings, DamperLaw, WheelNumbers
+from rover_dynamics.tires.brush_wheel import BrushWheels
 from tests.brush_rig import RADIUS, STIFFNESS, motion, turned
 
 FloatArray = NDArray[np.float64]

@@ -8,8 +8,8 @@ from dataclasses import fields
 import pytest
 
 from contracts.errors import InputError
-from rover_dynamics.brush_settings import BrushSettings, DamperLaw, SlipLaw, wheel_numbers
-from rover_dynamics.brush_tire import THESIS_BRUSH
+from rover_dynamics.tires.brush_settings import BrushSettings, DamperLaw, SlipLaw, wheel_numbers
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 
 
 def test_bristles_are_as_stiff_in_both_directions() -> None:

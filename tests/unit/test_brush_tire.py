@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contracts.errors import InputError
-from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters, radial_load, stiffness_curve
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, radial_load, stiffness_curve
 
 TABLES = Path(__file__).parents[1] / "data" / "thesis_tables.toml"
 

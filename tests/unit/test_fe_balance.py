@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from contracts.materials import Material
-from reference_fe.balance import support_moment
-from reference_fe.contact_obstacle import ObstacleContact
-from reference_fe.domain import Domain
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import StaticProblem
-from reference_fe.supports import Support
+from reference_fe.contact.obstacle import ObstacleContact
+from reference_fe.problem.balance import support_moment
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 RUBBER = Material(name="soft", young_modulus=1e6, poisson_ratio=0.3, density=1.0, yield_strength=1.0, source="test")

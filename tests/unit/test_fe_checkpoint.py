@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reference_fe.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
+from reference_fe.solver.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 

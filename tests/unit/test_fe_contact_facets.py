@@ -7,8 +7,8 @@ import pytest
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
-from reference_fe.contact_facets import ContactFacets, gauss_line, local_stiffness, simpson_line
-from reference_fe.domain import Domain
+from reference_fe.contact.facets import ContactFacets, gauss_line, local_stiffness, simpson_line
+from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 FACES = ("x0", "x1", "y0", "y1", "z0", "z1")

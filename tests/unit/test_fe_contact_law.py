@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference_fe.contact_law import friction_traction, ramped_pressure
+from reference_fe.contact.law import friction_traction, ramped_pressure
 
 PENALTY, RAMP = 1e11, 5e-6
 

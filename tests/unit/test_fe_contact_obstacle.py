@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
-from reference_fe.contact_obstacle import ContactMethod, ObstacleContact, ObstacleTerm
-from reference_fe.domain import Domain
-from reference_fe.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
+from reference_fe.contact.obstacle import ContactMethod, ObstacleContact, ObstacleTerm
+from reference_fe.contact.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
+from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 OBSTACLES = [Plane(), StepEdge(height=0.5, edge_radius=0.2), HalfRoundRock(radius=0.7, position=0.1)]

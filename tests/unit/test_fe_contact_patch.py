@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from reference_fe.contact_patch import contact_faces, distance_at_touch, measure_patch
+from reference_fe.contact.patch import contact_faces, distance_at_touch, measure_patch
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 RADIUS = 0.1425

@@ -9,9 +9,9 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
-from reference_fe.contact_obstacle import ObstacleContact
-from reference_fe.contact_touch import check_touch
-from reference_fe.domain import Domain
+from reference_fe.contact.obstacle import ObstacleContact
+from reference_fe.contact.touch import check_touch
+from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 BLOCK = Domain.from_tagged(block_mesh((1, 1, 1), lambda X: X + np.array([0.0, 0.0, 1.0])))

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
-from reference_fe.direct_solver import direct_solver
 from reference_fe.dolfinx_api import COMM, PETSc
+from reference_fe.solver.direct import direct_solver
 
 SECOND_USE = """
 import resource
 import numpy as np
 if {keep}:
-    from reference_fe.direct_solver import keep_freed_memory
+    from reference_fe.solver.direct import keep_freed_memory
     assert keep_freed_memory()
 def faults():
     before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt

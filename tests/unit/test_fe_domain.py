@@ -7,7 +7,7 @@ import pytest
 
 from contracts.errors import InputError
 from reference_fe.dolfinx_api import facet_midpoints
-from reference_fe.domain import Domain
+from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 

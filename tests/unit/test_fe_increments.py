@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
-from reference_fe.increments import solve_increments
-from reference_fe.newton import NewtonOutcome
+from reference_fe.solver.increments import solve_increments
+from reference_fe.solver.newton import NewtonOutcome
 
 
 class ScriptedSolver:

@@ -13,11 +13,11 @@ from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry import WheelDesign, build_mesh
 from geometry.planar import build_planar_mesh
+from reference_fe.contact.inner import ContactPair, InnerContact, InnerContactTerm
+from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
+from reference_fe.contact.inner_pairs import wheel_contact_pairs
 from reference_fe.dolfinx_api import fem
-from reference_fe.domain import Domain
-from reference_fe.inner_contact import ContactPair, InnerContact, InnerContactTerm
-from reference_fe.inner_contact_kernels import contact_blocks, nearest_contacts
-from reference_fe.inner_contact_pairs import wheel_contact_pairs
+from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh, stacked
 
 Array = NDArray[np.float64]

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from contracts.materials import Material
 from reference_fe.dolfinx_api import ufl
-from reference_fe.domain import Domain
-from reference_fe.static_problem import Discretisation, ElementFamily, StaticProblem
-from reference_fe.supports import BodyForce, EdgeLoad, EndMoment, Load, Support, Traction
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, ElementFamily, StaticProblem
+from reference_fe.problem.supports import BodyForce, EdgeLoad, EndMoment, Load, Support, Traction
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 SOFT = Material(name="soft", young_modulus=1e6, poisson_ratio=0.3, density=1.0, yield_strength=1e9, source="none")

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from reference_fe.nearby_solver import NearbySolver
+from reference_fe.solver.nearby import NearbySolver
 
 Array = NDArray[np.float64]
 SIZE, TOUCHED = 40, (3, 17, 18, 31)

@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from contracts.errors import InputError
-from reference_fe.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge, piece_gap, smallest_gap, touch_level
+from reference_fe.contact.obstacles import (
+    HalfRoundRock,
+    Obstacle,
+    Plane,
+    StepEdge,
+    piece_gap,
+    smallest_gap,
+    touch_level,
+)
 
 STEP = StepEdge(height=0.03, edge_radius=0.004, position=0.01)
 ROCK = HalfRoundRock(radius=0.02, position=-0.005)

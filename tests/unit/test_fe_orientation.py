@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from reference_fe.orientation import curved_axis_first
+from reference_fe.cells.orientation import curved_axis_first
 from reference_fe.verification.structured_hexahedra import block_mesh
 from tests.structured_quadrilaterals import planar_block
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contracts.mesh import TaggedMesh
-from reference_fe.overlap import FaceOverlap
+from reference_fe.contact.overlap import FaceOverlap
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 GAP = 0.02

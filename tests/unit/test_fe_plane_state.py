@@ -9,7 +9,7 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
-from reference_fe.plane_state import PLANE_STRAIN, PLANE_STRESS, planar_lambda, strip_constraint
+from reference_fe.material.plane_state import PLANE_STRAIN, PLANE_STRESS, planar_lambda, strip_constraint
 
 NU = 0.342
 

@@ -10,11 +10,11 @@ import pytest
 from numpy.typing import NDArray
 
 from contracts.materials import Material
-from reference_fe.domain import Domain
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import Discretisation, StaticProblem
-from reference_fe.supports import Support
-from reference_fe.surface_term import SurfaceForces
+from reference_fe.contact.surface_term import SurfaceForces
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 SOFT = Material(name="a", young_modulus=3.0, poisson_ratio=0.3, density=1.0, yield_strength=1.0, source="test")

@@ -8,9 +8,9 @@ import itertools
 import numpy as np
 import pytest
 
-from reference_fe.direct_solver import direct_solver
 from reference_fe.dolfinx_api import COMM, PETSc
-from reference_fe.triangular_product import provide
+from reference_fe.solver.direct import direct_solver
+from reference_fe.solver.triangular_product import provide
 
 LIBRARY = provide()
 pytestmark = pytest.mark.skipif(LIBRARY is None, reason="this build of PETSc keeps its own dgemmt")

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import refined_preset, thesis_preset
-from ancf_reduced.wheel_set import WheelSet, wheel_set
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import refined_preset, thesis_preset
+from ancf_reduced.tire.wheel_set import WheelSet, wheel_set
 from contracts.terrain import Plane
 from rover_dynamics.flexible import linear_solves
 from rover_dynamics.flexible.linear_solves import CondensedTires, condense

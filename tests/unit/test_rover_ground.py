@@ -11,12 +11,12 @@ from contracts.errors import InputError
 from contracts.height_field import HeightField
 from contracts.terrain import Plane, inclined_plane
 from contracts.terrain_cover import check_covered
-from rover_dynamics.brush_settings import BrushSettings
-from rover_dynamics.brush_tire import THESIS_BRUSH
 from rover_dynamics.rover.rover_file import RoverDesign, gravity_named, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way, touching_height
 from rover_dynamics.rover.scenarios.scenario import run_scenario
+from rover_dynamics.tires.brush_settings import BrushSettings
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 
 DRIVES = ("straight", "traction", "slope_up", "slope_down", "slope_across", "point_turn")
 

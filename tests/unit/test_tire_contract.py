@@ -8,7 +8,7 @@ import pytest
 from contracts.errors import InputError
 from contracts.terrain import Plane
 from contracts.tire import HubMotion, Tire
-from rover_dynamics.brush_wheel import BrushTire
+from rover_dynamics.tires.brush_wheel import BrushTire
 
 AT_REST = {
     "position": np.array([0.0, 0.0, 0.12]),

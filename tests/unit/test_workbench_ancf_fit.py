@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ancf_reduced.static_tire import stiffness_curve
-from ancf_reduced.tire_parameters import Parameter
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.fit.parameters import Parameter
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import stiffness_curve
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import InputError, StudyError
 from workbench.comparison.ancf_fit import average_error, fitted_deflections, perturbed, read_fit

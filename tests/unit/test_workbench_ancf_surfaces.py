@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 from workbench.checks.models import surfaces_check
 from workbench.commands.mesh import deflections_si, run_mesh_of

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError
-from rover_dynamics.brush_settings import BrushSettings
+from rover_dynamics.tires.brush_settings import BrushSettings
 from workbench.report.chosen import chosen_groups
 from workbench.study.reading import built_in_study, read_study
 

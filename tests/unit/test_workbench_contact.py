@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve
-from reference_fe.contact_obstacle import ContactMethod
-from reference_fe.obstacles import HalfRoundRock, Plane, StepEdge
+from reference_fe.contact.obstacle import ContactMethod
+from reference_fe.contact.obstacles import HalfRoundRock, Plane, StepEdge
 from workbench.graph.fe import fe_inputs
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import workbench.report.page
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.wheel_set import wheel_set
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.wheel_set import wheel_set
 from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Plane
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant

@@ -54,8 +54,8 @@ def test_models_take_the_study_values() -> None:
 
 def test_shipped_ancf_and_brush_numbers_are_the_thesis_ones() -> None:
     """The study repeats the library's thesis presets; a slip in either file shows here."""
-    from ancf_reduced.tire_preset import thesis_preset
-    from rover_dynamics.brush_tire import THESIS_BRUSH
+    from ancf_reduced.tire.preset import thesis_preset
+    from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 
     study = read_study(built_in_study())
     assert ancf_preset(study) == thesis_preset()

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ancf_reduced.spline_plates import plate_surfaces
-from ancf_reduced.static_tire import stiffness_curve
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.plates.spline_plates import plate_surfaces
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import stiffness_curve
 from contracts.curves import read_curve
 from contracts.errors import StudyError
 from geometry.surface_step import write_surfaces_step

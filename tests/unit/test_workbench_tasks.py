@@ -10,11 +10,11 @@ import meshio
 import numpy as np
 import pytest
 
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.curves import StiffnessCurve, read_curve, write_curve
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
-from rover_dynamics.brush_tire import THESIS_BRUSH
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from workbench.execution.result_files import read_result, write_result
 from workbench.tasks import ancf, brush, metrics
 from workbench.tasks.field_file import write_fields

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.tire_skin import tire_skin
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.skin import tire_skin
 from contracts.errors import InputError
 from contracts.terrain import Plane
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion

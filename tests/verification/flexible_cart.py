@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.wheel_set import wheel_set
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.wheel_set import wheel_set
 from contracts.terrain import Plane
 from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle, on_flexible_tires
 from rover_dynamics.multibody.body import body

@@ -14,15 +14,15 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_grid import build_contact_grid
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
-from ancf_reduced.implicit_dynamics import ImplicitSettings, integrate_implicit
-from ancf_reduced.plate_contact import ContactNormal, PlateContact
-from ancf_reduced.plate_mesh import build_plate_mesh, flat_patch
-from ancf_reduced.plate_model import build_plate_model
-from ancf_reduced.plate_system import PlateSystem, build_plate_system
-from ancf_reduced.vector_coordinates import all_free
+from ancf_reduced.contact.grid import build_contact_grid
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.contact.plate_contact import ContactNormal, PlateContact
+from ancf_reduced.motion.explicit import MotionState, integrate_explicit
+from ancf_reduced.motion.implicit import ImplicitSettings, integrate_implicit
+from ancf_reduced.motion.plate_system import PlateSystem, build_plate_system
+from ancf_reduced.motion.vector_coordinates import all_free
+from ancf_reduced.plates.mesh import build_plate_mesh, flat_patch
+from ancf_reduced.plates.model import build_plate_model
 from contracts.terrain import Plane, Terrain
 from contracts.terrain_ridges import Sinusoid
 

@@ -15,12 +15,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_grid import build_contact_grid
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.plate_contact import ContactNormal, ContactPatch, PlateContact
-from ancf_reduced.plate_mesh import PlateMesh, build_plate_mesh, flat_patch
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.contact.grid import build_contact_grid
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.contact.plate_contact import ContactNormal, ContactPatch, PlateContact
+from ancf_reduced.plates.mesh import PlateMesh, build_plate_mesh, flat_patch
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.height_field import HeightField, sampled_terrain
 from contracts.terrain import Terrain, inclined_plane
 from contracts.terrain_ridges import HalfRound, Sinusoid, Step

@@ -14,11 +14,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.curve_fit import CurveFit, LoadData, fit_curves
-from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_parameters import FreeParameter, Parameter
-from ancf_reduced.tire_preset import TirePreset, thesis_preset
+from ancf_reduced.fit.curve_fit import CurveFit, LoadData, fit_curves
+from ancf_reduced.fit.parameters import FreeParameter, Parameter
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import TirePreset, thesis_preset
+from ancf_reduced.tire.static import solve_tire
 
 START = replace(thesis_preset(), quadrature=(3, 3, 2))
 TRUTH = replace(START, young_modulus=340e3, hub_radius=0.044, contact_stiffness=1700.0)

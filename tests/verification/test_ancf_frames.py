@@ -3,8 +3,8 @@
 Source: unit-load theorem, bending only; the model is ancf_reduced/verification/frames.py. The plates' slopes differ at
 the corner by any angle and no constraint equation joins them (thesis eqs. 2.17 to 2.19). Eight plates a leg: six times
 as long as thick. Tolerance 1 %: the shared node lets the corner shear, with a stiffness in proportion to the plates'
-length (see `plate_mesh`), which is measured below: plates half as long as thick are far too soft. Negative control: 2 %
-of thickness.
+length (see `plates.mesh`), which is measured below: plates half as long as thick are far too soft. Negative control: 2
+% of thickness.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ def test_frames_bend_as_frames(name: str) -> None:
 
 
 def test_short_plates_soften_the_corner() -> None:
-    """The limit stated in `plate_mesh`: plates half as long as thick have a soft corner; longer ones do not."""
+    """The limit stated in `plates.mesh`: plates half as long as thick have a soft corner; longer ones do not."""
     thick = 0.2 * LENGTH
     soft, stiff = (loaded_frame((0.0,), n, thick).drop / frame_drop(0.0, thick) for n in (10, 2))
     assert soft > 1.15

@@ -14,7 +14,7 @@ from dataclasses import astuple
 import numpy as np
 import pytest
 
-from ancf_reduced.shape_functions import PlateShape, plate_shape, plate_shape_gradient
+from ancf_reduced.plates.shape_functions import PlateShape, plate_shape, plate_shape_gradient
 from ancf_reduced.verification.plate_matrices import misread_shape, plate_errors, reference_plate
 from contracts.errors import MeshError
 

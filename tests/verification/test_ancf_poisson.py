@@ -12,7 +12,7 @@ import functools
 
 import pytest
 
-from ancf_reduced.plate_model import PoissonLocking
+from ancf_reduced.plates.model import PoissonLocking
 from ancf_reduced.verification.narrow_cantilever import bent_cantilever
 
 bent = functools.cache(bent_cantilever)

@@ -18,17 +18,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_grid import build_contact_grid
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
-from ancf_reduced.linearisation import Linearisation
-from ancf_reduced.plate_contact import PlateContact
-from ancf_reduced.plate_mesh import join_meshes
-from ancf_reduced.plate_model import build_plate_model
-from ancf_reduced.plate_system import HubMass, PlateSystem, build_plate_system
-from ancf_reduced.tire_mesh import RIM, Tire, build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.vector_coordinates import side_by_side, with_reference_node
+from ancf_reduced.contact.grid import build_contact_grid
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.contact.plate_contact import PlateContact
+from ancf_reduced.motion.explicit import MotionState, integrate_explicit
+from ancf_reduced.motion.linearisation import Linearisation
+from ancf_reduced.motion.plate_system import HubMass, PlateSystem, build_plate_system
+from ancf_reduced.motion.vector_coordinates import side_by_side, with_reference_node
+from ancf_reduced.plates.mesh import join_meshes
+from ancf_reduced.plates.model import build_plate_model
+from ancf_reduced.tire.mesh import RIM, Tire, build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import MeshError
 from contracts.terrain import Plane, TerrainUnion
 from contracts.terrain_ridges import HalfRound

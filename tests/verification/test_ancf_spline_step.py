@@ -2,8 +2,8 @@
 
 Claim: points gmsh finds on the exported surfaces, by their own parametrisation, are those of the plates (thesis eqs.
 2.11 to 2.13, evaluated without Bezier patches), for the lower, middle and upper surface of each plate.
-Source: a plate's surfaces are bicubic Bezier patches (ancf_reduced/bezier.py); B_SPLINE_SURFACE_WITH_KNOTS holds them.
-Tolerance: 1e-9 m, the issue's; the file has 13 digits of a millimetre. Measured: 1e-13 m.
+Source: a plate's surfaces are bicubic Bezier patches (ancf_reduced/plates/bezier.py); B_SPLINE_SURFACE_WITH_KNOTS
+holds them. Tolerance: 1e-9 m, the issue's; the file has 13 digits of a millimetre. Measured: 1e-13 m.
 What is read as control points becomes the same plates again, to 1e-12 m.
 Negative controls: a control point moved by 10 nm before the export; the other state's surface; the patch turned over.
 """
@@ -16,11 +16,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ancf_reduced.spline_plates import FACES, plate_surfaces, plates_between
-from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.tire_surfaces import surface_grid
+from ancf_reduced.plates.spline_plates import FACES, plate_surfaces, plates_between
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import solve_tire
+from ancf_reduced.tire.surfaces import surface_grid
 from geometry.spline_surface import SplineSurface
 from geometry.step_surfaces import read_surfaces_step
 from geometry.surface_step import step_points, write_surfaces_step

@@ -19,13 +19,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ancf_reduced.bezier import coons_residual
-from ancf_reduced.plate_mesh import PlateMesh, build_plate_mesh
-from ancf_reduced.spline_plates import plates_on_surface
-from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_mesh import build_tire, tire_on_mesh
-from ancf_reduced.tire_preset import refined_preset, thesis_preset
-from ancf_reduced.tire_surfaces import surface_grid
+from ancf_reduced.plates.bezier import coons_residual
+from ancf_reduced.plates.mesh import PlateMesh, build_plate_mesh
+from ancf_reduced.plates.spline_plates import plates_on_surface
+from ancf_reduced.tire.mesh import build_tire, tire_on_mesh
+from ancf_reduced.tire.preset import refined_preset, thesis_preset
+from ancf_reduced.tire.static import solve_tire
+from ancf_reduced.tire.surfaces import surface_grid
 from contracts.errors import InputError
 from geometry.spline_surface import SplineSurface
 from geometry.step_surfaces import read_surfaces_step

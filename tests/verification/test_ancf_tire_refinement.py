@@ -15,10 +15,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import refined_preset, thesis_preset
-from ancf_reduced.tire_surfaces import outer_face_error
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import refined_preset, thesis_preset
+from ancf_reduced.tire.static import solve_tire
+from ancf_reduced.tire.surfaces import outer_face_error
 
 COUNTS = (4, 8, 12, 16)
 

@@ -15,10 +15,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.plate_mass import flexible_mass
-from ancf_reduced.static_tire import solve_tire, stiffness_curve
-from ancf_reduced.tire_mesh import Tire, build_tire
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.plates.mass import flexible_mass
+from ancf_reduced.tire.mesh import Tire, build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import solve_tire, stiffness_curve
 
 DEFLECTION = np.array([2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 32, 35]) * 1e-3
 SPOKE_DOWN = np.array([17.7, 43.4, 68.4, 98.2, 125.7, 151.0, 173.8, 194.0, 211.6, 226.5, 238.6, 247.9])

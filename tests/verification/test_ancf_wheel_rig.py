@@ -15,17 +15,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.energy_account import EnergyAccount
-from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
-from ancf_reduced.implicit_dynamics import ImplicitSettings, integrate_implicit
-from ancf_reduced.plate_mass import flexible_mass
-from ancf_reduced.plate_system import HubMass
-from ancf_reduced.spectrum import stable_step
-from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.wheel_rig import MARS_GRAVITY, WheelRig, damped_model, wheel_rig
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.motion.energy_account import EnergyAccount
+from ancf_reduced.motion.explicit import MotionState, integrate_explicit
+from ancf_reduced.motion.implicit import ImplicitSettings, integrate_implicit
+from ancf_reduced.motion.plate_system import HubMass
+from ancf_reduced.motion.spectrum import stable_step
+from ancf_reduced.plates.mass import flexible_mass
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import solve_tire
+from ancf_reduced.tire.wheel_rig import MARS_GRAVITY, WheelRig, damped_model, wheel_rig
 from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Plane, TerrainUnion
 from contracts.terrain_ridges import HalfRound

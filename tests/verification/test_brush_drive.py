@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from contracts.terrain import Plane
-from rover_dynamics.brush_settings import BrushSettings, SlipLaw, wheel_numbers
-from rover_dynamics.brush_slip import brush_slip, falling_friction, fiala_slip
-from rover_dynamics.brush_standstill import bristle_force
-from rover_dynamics.brush_tire import THESIS_BRUSH
-from rover_dynamics.brush_wheel import BrushWheels
+from rover_dynamics.tires.brush_settings import BrushSettings, SlipLaw, wheel_numbers
+from rover_dynamics.tires.brush_slip import brush_slip, falling_friction, fiala_slip
+from rover_dynamics.tires.brush_standstill import bristle_force
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
+from rover_dynamics.tires.brush_wheel import BrushWheels
 from tests.brush_rig import RADIUS, STIFFNESS, Rig, motion
 
 FloatArray = NDArray[np.float64]

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rover_dynamics.brush_settings import BrushSettings, DamperLaw
+from rover_dynamics.tires.brush_settings import BrushSettings, DamperLaw
 from tests.brush_rig import RADIUS, STIFFNESS, Rig
 
 FloatArray = NDArray[np.float64]

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from contracts.terrain import inclined_plane
-from rover_dynamics.brush_settings import BrushSettings, SlipLaw
-from rover_dynamics.brush_tire import THESIS_BRUSH
+from rover_dynamics.tires.brush_settings import BrushSettings, SlipLaw
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from tests.brush_rig import RADIUS, STIFFNESS, Rig, turned
 
 SLOPE = np.radians(25.0)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from contracts.published import published_table
-from rover_dynamics.brush_slip import brush_slip, falling_friction, fiala_slip
+from rover_dynamics.tires.brush_slip import brush_slip, falling_friction, fiala_slip
 
 PRINTED = 5.01e-10
 LOAD = 198.0

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from contracts.materials import Material
 from geometry import WheelDesign, build_mesh
 from geometry.sidewall import SidewallSprings, sidewall_profile
-from reference_fe.wheel import WheelLoadCase, solve_wheel
+from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 from workbench.study.model_parameters import wheel_design
 from workbench.study.reading import read_study
 

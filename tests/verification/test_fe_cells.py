@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from contracts.materials import Material
-from reference_fe import cell_kernels
-from reference_fe.discretisation import Discretisation, ElementFamily
-from reference_fe.domain import Domain
-from reference_fe.static_problem import StaticProblem
-from reference_fe.supports import Support
+from reference_fe.cells import kernels as cell_kernels
+from reference_fe.cells.discretisation import Discretisation, ElementFamily
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.problem.supports import Support
 from reference_fe.verification.structured_hexahedra import block_mesh
 
 SOFT = Material(name="a", young_modulus=3.0, poisson_ratio=0.3, density=1.0, yield_strength=1.0, source="test")

@@ -18,14 +18,14 @@ from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
 from geometry import WheelDesign, build_mesh
-from reference_fe import contact_obstacle
-from reference_fe.contact_facets import gauss_line
-from reference_fe.contact_obstacle import ContactMethod, ObstacleTerm
-from reference_fe.increments import ConvergedState, solve_increments
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.obstacles import HalfRoundRock
+from reference_fe.contact import obstacle as contact_obstacle
+from reference_fe.contact.facets import gauss_line
+from reference_fe.contact.obstacle import ContactMethod, ObstacleTerm
+from reference_fe.contact.obstacles import HalfRoundRock
+from reference_fe.solver.increments import ConvergedState, solve_increments
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.ring_between_plates import RADIUS, quarter_ring
-from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel
 
 CASE = WheelLoadCase(orientation_deg=15.0, deflections=(0.002, 0.004), inner_contact=False)
 

@@ -20,9 +20,9 @@ from contracts.curves import StiffnessCurve
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
 from geometry.planar import build_planar_mesh
-from reference_fe.obstacles import HalfRoundRock
-from reference_fe.section import solve_section
-from reference_fe.wheel import WheelLoadCase, solve_wheel
+from reference_fe.contact.obstacles import HalfRoundRock
+from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
+from reference_fe.wheel.section import solve_section
 from workbench.checks.energy import energy_error, quadrature_error
 
 STEPS = 8

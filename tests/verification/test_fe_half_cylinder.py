@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from reference_fe.static_problem import Discretisation, ElementFamily
+from reference_fe.problem.static_problem import Discretisation, ElementFamily
 from reference_fe.verification.half_cylinder import (
     FELUPE,
     FELUPE_S8,

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import pytest
 
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.static_problem import Discretisation, ElementFamily
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.problem.static_problem import Discretisation, ElementFamily
 from reference_fe.verification.manufactured_solution import convergence, with_shear_modulus
 
 

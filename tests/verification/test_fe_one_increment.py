@@ -16,10 +16,12 @@ import pytest
 
 from geometry import WheelDesign
 from geometry.planar import build_planar_mesh
-from reference_fe import contact_step, increments, wheel_problem
-from reference_fe.section import solve_section
-from reference_fe.static_problem import Discretisation
-from reference_fe.wheel import WheelLoadCase, WheelResult
+from reference_fe.contact import newton_step as contact_step
+from reference_fe.problem.static_problem import Discretisation
+from reference_fe.solver import increments
+from reference_fe.wheel import problem as wheel_problem
+from reference_fe.wheel.pressed import WheelLoadCase, WheelResult
+from reference_fe.wheel.section import solve_section
 
 END = 0.030
 

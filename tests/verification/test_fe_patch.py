@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from reference_fe import dolfinx_api as api
-from reference_fe.domain import Domain
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import Discretisation, StaticProblem
-from reference_fe.supports import Support
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.patch import (
     STEEL,
     distorted_cube,

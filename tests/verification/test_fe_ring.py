@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from contracts.errors import InputError
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.static_problem import Discretisation
-from reference_fe.stress import StressRecovery
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.material.stress import StressRecovery
+from reference_fe.problem.static_problem import Discretisation
 from reference_fe.verification.ring_between_plates import (
     RADIUS,
     STRIP,

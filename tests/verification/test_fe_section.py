@@ -18,18 +18,18 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh, build_planar_mesh
-from reference_fe.discretisation import Discretisation
-from reference_fe.domain import Domain
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.inner_contact_pairs import wheel_contact_pairs
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.plane_state import PLANE_STRAIN, PLANE_STRESS
-from reference_fe.section import solve_section, strip_constraints
-from reference_fe.static_problem import StaticProblem
-from reference_fe.stress import StressRecovery
-from reference_fe.supports import Support, Traction
-from reference_fe.thermal_state import dilate
-from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.cells.discretisation import Discretisation
+from reference_fe.contact.inner_pairs import wheel_contact_pairs
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.material.plane_state import PLANE_STRAIN, PLANE_STRESS
+from reference_fe.material.stress import StressRecovery
+from reference_fe.material.thermal_state import dilate
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.problem.supports import Support, Traction
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
+from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.wheel.section import solve_section, strip_constraints
 from tests.structured_quadrilaterals import planar_block
 
 DEFLECTIONS = (0.005, 0.010, 0.020, 0.030)

@@ -14,7 +14,7 @@ import functools
 import numpy as np
 import pytest
 
-from reference_fe.static_problem import Discretisation
+from reference_fe.problem.static_problem import Discretisation
 from reference_fe.verification.cantilever import LENGTH, THICKNESS, EndLoad, cantilever_path, cantilever_table
 from reference_fe.verification.load_path import LoadPath, relative_error
 

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from reference_fe.static_problem import Discretisation, ElementFamily
+from reference_fe.problem.static_problem import Discretisation, ElementFamily
 from reference_fe.verification.hemisphere import QUARTERS, TWENTY_NODES, hemisphere_path, hemisphere_table
 from reference_fe.verification.load_path import relative_error
 

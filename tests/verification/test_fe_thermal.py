@@ -19,15 +19,15 @@ from contracts.mesh import TaggedMesh
 from geometry import WheelDesign, build_mesh
 from reference_fe import dolfinx_api as api
 from reference_fe.dolfinx_api import fem, ufl
-from reference_fe.domain import Domain
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.newton import NewtonSettings
-from reference_fe.static_problem import Discretisation, StaticProblem
-from reference_fe.stress import StressRecovery
-from reference_fe.supports import Support
-from reference_fe.thermal_state import dilate, solve_thermal_state
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.material.stress import StressRecovery
+from reference_fe.material.thermal_state import dilate, solve_thermal_state
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import Discretisation, StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.newton import NewtonSettings
 from reference_fe.verification.structured_hexahedra import block_mesh
-from reference_fe.wheel import WheelLoadCase, solve_wheel
+from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 
 SOFT = Material(
     name="soft",

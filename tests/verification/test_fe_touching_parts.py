@@ -23,14 +23,14 @@ from numpy.typing import NDArray
 from contracts.materials import TI_6AL_4V, Material
 from geometry import WheelDesign, build_mesh
 from geometry.parts import HubRing
-from reference_fe.domain import Domain
-from reference_fe.increments import ConvergedState, solve_increments
-from reference_fe.inner_contact import ContactPair, InnerContact
-from reference_fe.newton import NewtonSettings, NewtonSolver
-from reference_fe.static_problem import StaticProblem
-from reference_fe.supports import Support, Traction
+from reference_fe.contact.inner import ContactPair, InnerContact
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.problem.supports import Support, Traction
+from reference_fe.solver.increments import ConvergedState, solve_increments
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh, stacked
-from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel
 
 Array = NDArray[np.float64]
 SOFT = Material(name="a", young_modulus=1e7, poisson_ratio=0.0, density=1.0, yield_strength=1.0, source="round numbers")

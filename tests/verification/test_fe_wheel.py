@@ -15,10 +15,10 @@ import pytest
 from contracts.errors import ConvergenceError
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
-from reference_fe.contact_obstacle import ObstacleTerm
-from reference_fe.newton import NewtonOutcome, NewtonSolver
-from reference_fe.static_problem import StaticProblem
-from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.contact.obstacle import ObstacleTerm
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.solver.newton import NewtonOutcome, NewtonSolver
+from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel
 
 DEFLECTIONS = (0.002, 0.005)
 

@@ -15,9 +15,9 @@ import pytest
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
 from geometry.planar import build_planar_mesh
-from reference_fe import contact_step
-from reference_fe.section import solve_section
-from reference_fe.wheel import WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.contact import newton_step as contact_step
+from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.wheel.section import solve_section
 
 END, POINTS, MOST = 0.030, 20, 80
 

@@ -21,12 +21,12 @@ from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
 from geometry import WheelDesign, build_mesh
 from geometry.planar import build_planar_mesh
-from reference_fe.contact_obstacle import ObstacleTerm
-from reference_fe.increments import solve_increments
-from reference_fe.newton import NewtonSolver
-from reference_fe.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
-from reference_fe.wheel_case import WheelLoadCase
-from reference_fe.wheel_problem import wheel_problem
+from reference_fe.contact.obstacle import ObstacleTerm
+from reference_fe.contact.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
+from reference_fe.solver.increments import solve_increments
+from reference_fe.solver.newton import NewtonSolver
+from reference_fe.wheel.case import WheelLoadCase
+from reference_fe.wheel.problem import wheel_problem
 
 RISE = 0.003
 

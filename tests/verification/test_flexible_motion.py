@@ -1,8 +1,8 @@
 """One wheel on a flexible tire moves as the tire's own solver says.
 
 Claim: a free rigid hub with an ANCF tire, as a vehicle of one body whose reference node is eliminated onto the body,
-moves by the generalised-alpha method as the same wheel does in `ancf_reduced.wheel_rig`, where the reference node is
-one of the coordinates, held orthonormal by constraints and integrated by explicit symplectic steps.
+moves by the generalised-alpha method as the same wheel does in `ancf_reduced.tire.wheel_rig`, where the reference node
+is one of the coordinates, held orthonormal by constraints and integrated by explicit symplectic steps.
 Source: both are thesis eq. 2.26 with the tie of eq. 2.20; they share the plates' forces and nothing else.
 Tolerance: 1e-5 m in the hub's place over 60 ms in which the wheel touches down at 0.3 m/s and rolls, a thousandth of
 what it travels; 2e-6 m is found at an error allowed of 1e-7 m a step, ten times as much at 1e-4 m.
@@ -17,14 +17,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.explicit_dynamics import integrate_explicit
-from ancf_reduced.plate_system import HubMass
-from ancf_reduced.spectrum import stable_step
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.wheel_rig import wheel_rig
-from ancf_reduced.wheel_set import wheel_set
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.motion.explicit import integrate_explicit
+from ancf_reduced.motion.plate_system import HubMass
+from ancf_reduced.motion.spectrum import stable_step
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.wheel_rig import wheel_rig
+from ancf_reduced.tire.wheel_set import wheel_set
 from contracts.terrain import Plane
 from rover_dynamics.flexible.even_steps import EvenSteps
 from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle, on_flexible_tires, rigid_tire_mass

@@ -18,9 +18,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from rover_dynamics.brush_tire import THESIS_BRUSH
 from rover_dynamics.rover.rover import build_rover
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from rover_dynamics.vehicle.vehicle import Vehicle, drive_vehicle
 
 FloatArray = NDArray[np.float64]

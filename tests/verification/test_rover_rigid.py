@@ -19,16 +19,16 @@ import pytest
 
 from contracts.terrain import Plane
 from contracts.tire import HubMotion, Tire
-from rover_dynamics.brush_tire import THESIS_BRUSH
-from rover_dynamics.brush_wheel import BrushTire
 from rover_dynamics.multibody.motion_law import Hold
-from rover_dynamics.rigid_tire import RigidTire, rigid_parameters
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_rigid_tires
 from rover_dynamics.rover.scenarios.level_ground import SPEED, all_drives
 from rover_dynamics.rover.scenarios.offsets import loads_against_offset
 from rover_dynamics.rover.scenarios.scenario import Scenario, run_scenario
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
+from rover_dynamics.tires.brush_wheel import BrushTire
+from rover_dynamics.tires.rigid import RigidTire, rigid_parameters
 
 LOAD = 197.92
 

@@ -1,7 +1,7 @@
 """Every wheel of the standing rover lies on its tire's own static curve.
 
 Claim: the rover at rest on six ANCF tires, each turned to another orientation, bears its weight, and each wheel's load
-is that of `ancf_reduced.static_tire` (hub held, ground pushed up, no vehicle) at the same orientation and deflection,
+is that of `ancf_reduced.tire.static` (hub held, ground pushed up, no vehicle) at the same orientation and deflection,
 for each mean load of a sweep begun from the equilibrium before.
 Source: both are the statics of thesis eq. 2.22; they share the plates' and contact forces and no solver.
 Tolerance: 0.5 % of the load; wheels tilt by up to 0.4 degrees with their bogies, which the static tire does not.
@@ -15,11 +15,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.wheel_set import WheelSet, wheel_set
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.static import solve_tire
+from ancf_reduced.tire.wheel_set import WheelSet, wheel_set
 from contracts.errors import InputError
 from contracts.terrain import Plane
 from rover_dynamics.rover.rover_file import read_rover

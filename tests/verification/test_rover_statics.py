@@ -25,8 +25,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rover_dynamics.brush_settings import BrushSettings, DamperLaw
-from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.multibody.motion_law import Hold
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
@@ -34,6 +32,8 @@ from rover_dynamics.rover.scenarios.closed_forms import drive_force, single_whee
 from rover_dynamics.rover.scenarios.level_ground import DROP_HEIGHT, TORQUE, all_drives
 from rover_dynamics.rover.scenarios.offsets import OFFSETS, with_offset
 from rover_dynamics.rover.scenarios.scenario import run_scenario
+from rover_dynamics.tires.brush_settings import BrushSettings, DamperLaw
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 
 FloatArray = NDArray[np.float64]
 STIFF = replace(

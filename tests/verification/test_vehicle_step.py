@@ -20,7 +20,6 @@ from scipy.integrate import solve_ivp
 
 import rover_dynamics.vehicle.vehicle as vehicle_module
 from contracts.terrain import Plane
-from rover_dynamics.brush_settings import BrushSettings, DamperLaw
 from rover_dynamics.multibody.body import GROUND, body
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 from rover_dynamics.multibody.joint import revolute, spherical
@@ -30,6 +29,7 @@ from rover_dynamics.multibody.motion_law import Hold, Turn
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
 from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import read_rover
+from rover_dynamics.tires.brush_settings import BrushSettings, DamperLaw
 from rover_dynamics.vehicle.implicit_method import Moment
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 from tests.brush_rig import RADIUS, Rig

@@ -15,7 +15,7 @@ import numpy as np
 from contracts.materials import TI_6AL_4V
 from geometry import WheelDesign, build_mesh
 from reference_fe.dolfinx_api import COMM
-from reference_fe.wheel import WheelLoadCase, solve_wheel
+from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 
 DEFLECTIONS = (0.003, 0.007, 0.011, 0.015)
 """The last one lies beyond the touch of springs and rim."""

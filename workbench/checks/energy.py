@@ -26,8 +26,8 @@ def energy_error(curve: StiffnessCurve) -> float:
     """|work - change of stored energy - dissipation| / work at the curve's end [-].
 
     The work of the rising ground is the integral of load over deflection, by the trapezoid rule over the points; so is
-    what friction dissipates, see `reference_fe.friction_energy`. Elastic slip stores energy as the body does. What the
-    springs of the contact penalty store, at most half the load times the penetration, is not counted.
+    what friction dissipates, see `reference_fe.contact.friction_energy`. Elastic slip stores energy as the body does.
+    What the springs of the contact penalty store, at most half the load times the penetration, is not counted.
     """
     if ENERGY not in curve.columns:
         raise InputError("curve", curve.source, f"has no column {ENERGY}", "compute it again")

@@ -134,7 +134,7 @@ def _record(run: ScenarioRun, path: Path) -> None:
 
     hub_radius = None
     if isinstance(run.motion, FlexibleMotion):
-        from ancf_reduced.tire_preset import thesis_preset
+        from ancf_reduced.tire.preset import thesis_preset
 
         hub_radius = thesis_preset().hub_radius
     write_motion(run, path, hub_radius)
@@ -145,8 +145,8 @@ def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Pa
 
     (x, y, z), tire = scenario.tilt.gravity(1.0), None
     if isinstance(run.motion, FlexibleMotion):
-        from ancf_reduced.tire_mesh import build_tire
-        from ancf_reduced.tire_preset import thesis_preset
+        from ancf_reduced.tire.mesh import build_tire
+        from ancf_reduced.tire.preset import thesis_preset
 
         tire = build_tire(thesis_preset())
     ground = scenario.terrain(design)

@@ -29,7 +29,7 @@ from workbench.figures.rover_solids import body_names, ground_solids, rover_soli
 from workbench.figures.solids import WORLD, Solid
 
 if TYPE_CHECKING:
-    from ancf_reduced.tire_mesh import Tire
+    from ancf_reduced.tire.mesh import Tire
     from workbench.figures.stills import View
 
 __all__ = ["framing", "shown_frames", "write_animation"]

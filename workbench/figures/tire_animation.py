@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.tire_mesh import Tire
-from ancf_reduced.tire_skin import tire_skin
+from ancf_reduced.tire.mesh import Tire
+from ancf_reduced.tire.skin import tire_skin
 from workbench.figures.palette import STRAIN_COLOURS
 from workbench.figures.solids import Deforming, Solid
 from workbench.figures.stills import View, draw_motion

@@ -35,7 +35,7 @@ type Model = str
 
 
 _ANCF = Origin(sources=(*FILES, "ancf_reduced", "workbench.tasks.ancf_tire"), libraries=("numpy", "numba"))
-_BRUSH = Origin(sources=("contracts", "rover_dynamics.brush_tire"), libraries=("numpy",))
+_BRUSH = Origin(sources=("contracts", "rover_dynamics.tires.brush_tire"), libraries=("numpy",))
 _METRICS = Origin(
     sources=(*FILES, "workbench.comparison.metrics", "workbench.comparison.results"),
     libraries=("numpy", "objective-rating-metrics"),

@@ -20,10 +20,10 @@ from workbench.study.sections import Section
 from workbench.tasks.ancf_tire import tire_values
 
 if TYPE_CHECKING:
-    from ancf_reduced.plate_mesh import PlateMesh
-    from ancf_reduced.tire_preset import TirePreset
+    from ancf_reduced.plates.mesh import PlateMesh
+    from ancf_reduced.tire.preset import TirePreset
     from geometry.wheel import WheelDesign
-    from rover_dynamics.brush_tire import BrushTireParameters
+    from rover_dynamics.tires.brush_tire import BrushTireParameters
 
 __all__ = [
     "SectionInputError",
@@ -121,7 +121,7 @@ class _WheelParts:
 
 def ancf_preset(study: Study) -> TirePreset:
     """Parameters of the ANCF tire; raises SectionInputError if they do not fit together."""
-    from ancf_reduced.tire_preset import TirePreset
+    from ancf_reduced.tire.preset import TirePreset
 
     exclude = {"orientations", "max_deflection", "points", "thesis_preset", "surfaces"}
     return _in_section("ancf", lambda: TirePreset(**study.ancf.model_dump(exclude=exclude)))
@@ -138,7 +138,7 @@ def ancf_mesh(study: Study) -> PlateMesh | None:
     path = study.ancf.surfaces
     if path is None:
         return None
-    from ancf_reduced.surface_tire import surface_mesh
+    from ancf_reduced.tire.from_surfaces import surface_mesh
     from geometry.step_surfaces import read_surfaces_step
 
     preset = ancf_preset(study)
@@ -166,7 +166,7 @@ def fit_start(study: Study, tire: FittedTireSection) -> TirePreset:
 
 def brush_parameters(study: Study) -> BrushTireParameters:
     """Parameters of the brush tire; raises SectionInputError if they break a rule."""
-    from rover_dynamics.brush_tire import BrushTireParameters
+    from rover_dynamics.tires.brush_tire import BrushTireParameters
 
     values = study.brush.model_dump()
     values["cornering_stiffness"] = values.pop("cornering_stiffness_per_degree") * 180.0 / math.pi

@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ancf_reduced.plate_mass import flexible_mass
-from ancf_reduced.static_tire import tire_curve
-from ancf_reduced.tire_surfaces import outer_face_error
+from ancf_reduced.plates.mass import flexible_mass
+from ancf_reduced.tire.static import tire_curve
+from ancf_reduced.tire.surfaces import outer_face_error
 from contracts.curves import write_curve
 from workbench.execution.result_files import write_result
 from workbench.execution.task import Progress

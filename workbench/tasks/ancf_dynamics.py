@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.energy_account import EnergyAccount
-from ancf_reduced.explicit_dynamics import MotionState, integrate_explicit
-from ancf_reduced.implicit_dynamics import ImplicitSettings, integrate_implicit
-from ancf_reduced.plate_system import HubMass
-from ancf_reduced.spectrum import stable_step
-from ancf_reduced.wheel_rig import WheelRig, wheel_rig
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.motion.energy_account import EnergyAccount
+from ancf_reduced.motion.explicit import MotionState, integrate_explicit
+from ancf_reduced.motion.implicit import ImplicitSettings, integrate_implicit
+from ancf_reduced.motion.plate_system import HubMass
+from ancf_reduced.motion.spectrum import stable_step
+from ancf_reduced.tire.wheel_rig import WheelRig, wheel_rig
 from contracts.errors import ConvergenceError
 from contracts.series import TimeSeries, write_series
 from contracts.terrain import Plane, TerrainUnion

@@ -10,10 +10,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ancf_reduced.static_tire import TireEquilibria, solve_tire
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import TirePreset, refined_preset
-from ancf_reduced.tire_surfaces import outer_face_error
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import TirePreset, refined_preset
+from ancf_reduced.tire.static import TireEquilibria, solve_tire
+from ancf_reduced.tire.surfaces import outer_face_error
 from contracts.errors import ConvergenceError
 from workbench.execution.result_files import write_result
 from workbench.execution.task import Progress

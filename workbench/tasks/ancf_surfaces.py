@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.plate_mesh import PlateMesh
-from ancf_reduced.spline_plates import FACES, plate_surfaces
-from ancf_reduced.static_tire import solve_tire
-from ancf_reduced.tire_surfaces import surface_grid
+from ancf_reduced.plates.mesh import PlateMesh
+from ancf_reduced.plates.spline_plates import FACES, plate_surfaces
+from ancf_reduced.tire.static import solve_tire
+from ancf_reduced.tire.surfaces import surface_grid
 from geometry.surface_step import step_points, write_surfaces_step
 from workbench.execution.result_files import write_result
 from workbench.execution.task import Progress

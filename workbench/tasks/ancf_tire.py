@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from ancf_reduced.plate_mesh import PlateMesh
-    from ancf_reduced.tire_mesh import Tire
-    from ancf_reduced.tire_preset import TirePreset
+    from ancf_reduced.plates.mesh import PlateMesh
+    from ancf_reduced.tire.mesh import Tire
+    from ancf_reduced.tire.preset import TirePreset
 
 __all__ = ["preset_from", "tire_from", "tire_values"]
 
@@ -32,7 +32,7 @@ def tire_values(preset: TirePreset, mesh: PlateMesh | None) -> dict[str, Any]:
 
 def preset_from(values: Mapping[str, Any]) -> TirePreset:
     """The preset from a task's inputs, where tuples are lists."""
-    from ancf_reduced.tire_preset import TirePreset
+    from ancf_reduced.tire.preset import TirePreset
 
     changed: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in values.items()}
     return TirePreset(**changed)
@@ -40,8 +40,8 @@ def preset_from(values: Mapping[str, Any]) -> TirePreset:
 
 def tire_from(inputs: Mapping[str, Any]) -> Tire:
     """The tire of a task's inputs, see `tire_values`."""
-    from ancf_reduced.plate_mesh import PlateMesh
-    from ancf_reduced.tire_mesh import build_tire, tire_on_mesh
+    from ancf_reduced.plates.mesh import PlateMesh
+    from ancf_reduced.tire.mesh import build_tire, tire_on_mesh
 
     preset, plates = preset_from(inputs["preset"]), inputs.get("plates")
     if plates is None:

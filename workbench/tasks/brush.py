@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from contracts.curves import write_curve
-from rover_dynamics.brush_tire import BrushTireParameters, stiffness_curve
+from rover_dynamics.tires.brush_tire import BrushTireParameters, stiffness_curve
 from workbench.execution.task import Progress
 
 __all__ = ["solve"]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from reference_fe.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
+from reference_fe.contact.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
 
 __all__ = ["obstacle_of"]
 

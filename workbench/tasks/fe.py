@@ -16,10 +16,10 @@ from contracts.curves import write_curve
 from contracts.errors import ConvergenceError
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
-from reference_fe.contact_obstacle import ContactMethod
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.newton import NewtonSettings
-from reference_fe.wheel import FieldSnapshot, WheelLoadCase, WheelResult, solve_wheel
+from reference_fe.contact.obstacle import ContactMethod
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.solver.newton import NewtonSettings
+from reference_fe.wheel.pressed import FieldSnapshot, WheelLoadCase, WheelResult, solve_wheel
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.task import Progress
 from workbench.tasks.contact import obstacle_of

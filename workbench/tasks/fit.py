@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.curve_fit import CurveFit, LoadData, fit_curves
-from ancf_reduced.phase_search import fit_from_phases
-from ancf_reduced.plate_mass import flexible_mass
-from ancf_reduced.static_tire import solve_tire, tire_curve
-from ancf_reduced.tire_mesh import Tire, build_tire
-from ancf_reduced.tire_parameters import FreeParameter, Parameter, with_mass
+from ancf_reduced.fit.curve_fit import CurveFit, LoadData, fit_curves
+from ancf_reduced.fit.parameters import FreeParameter, Parameter, with_mass
+from ancf_reduced.fit.phase_search import fit_from_phases
+from ancf_reduced.plates.mass import flexible_mass
+from ancf_reduced.tire.mesh import Tire, build_tire
+from ancf_reduced.tire.static import solve_tire, tire_curve
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, InputError
 from workbench.comparison.ancf_fit import (

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.csv_table import CsvTable, table_text
 from contracts.errors import ConvergenceError
 from contracts.series import write_series

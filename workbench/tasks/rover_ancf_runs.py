@@ -10,9 +10,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import TirePreset, thesis_preset
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import TirePreset, thesis_preset
 from contracts.errors import InputError
 from rover_dynamics.multibody.motion_law import Hold
 from rover_dynamics.rover.rover_file import RoverDesign

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.tire_mesh import Tire, build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.tire_skin import tire_skin
-from ancf_reduced.wheel_set import wheel_set
+from ancf_reduced.tire.mesh import Tire, build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.skin import tire_skin
+from ancf_reduced.tire.wheel_set import wheel_set
 from contracts.csv_table import CsvTable, table_text
 from contracts.errors import ConvergenceError
 from contracts.series import TimeSeries, write_series

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.tire_mesh import build_tire
-from ancf_reduced.tire_preset import TirePreset
-from ancf_reduced.wheel_set import WheelSet, wheel_set
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import TirePreset
+from ancf_reduced.tire.wheel_set import WheelSet, wheel_set
 from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Plane
 from rover_dynamics.rover.rover_file import read_rover

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.tire_mesh import RIM
-from ancf_reduced.wheel_set import WheelSet
+from ancf_reduced.tire.mesh import RIM
+from ancf_reduced.tire.wheel_set import WheelSet
 from contracts.errors import ConvergenceError, IncrementRecord
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 

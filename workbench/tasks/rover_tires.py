@@ -12,25 +12,26 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.contact_law import ContactLaw
-from ancf_reduced.tire_mesh import Tire, build_tire
-from ancf_reduced.tire_preset import thesis_preset
-from ancf_reduced.wheel_set import THESIS_LAW, WheelSet, wheel_set
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.tire.mesh import Tire, build_tire
+from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.wheel_set import THESIS_LAW, WheelSet, wheel_set
 from contracts.errors import ConvergenceError, InputError
-from rover_dynamics.brush_tire import THESIS_BRUSH
 from rover_dynamics.flexible.even_steps import EvenSteps
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, FlexibleVehicle, on_flexible_tires
 from rover_dynamics.flexible.implicit_motion import drive_on_flexible_tires
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.scenario import Scenario
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion
 from workbench.tasks.rover_shapes import TireShapes, Watch
 
 __all__ = ["DAMPING_RATIO", "LAW", "START_HEIGHT", "AncfRide", "on_ancf_tires", "resuming", "watching"]
 
 DAMPING_RATIO = 0.05
-"""Of the first mode of a tire on a held hub, see `ancf_reduced.wheel_rig.damped_model`; the thesis gives none [-]."""
+"""Of the first mode of a tire on a held hub, see `ancf_reduced.tire.wheel_rig.damped_model`; the thesis gives none
+[-]."""
 LAW = replace(THESIS_LAW, damping_depth=1e-3)
 """The thesis' contact, its damping built up over a millimetre of penetration: at the speeds of traction points arrive
 so fast that the force of eq. 2.22, which is there at once, ends every Newton iteration."""

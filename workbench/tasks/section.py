@@ -12,7 +12,7 @@ from typing import Any
 
 from contracts.curves import write_curve
 from geometry.planar import build_planar_mesh
-from reference_fe.section import solve_section
+from reference_fe.wheel.section import solve_section
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.task import Progress
 from workbench.tasks.fe import converged_part, load_case

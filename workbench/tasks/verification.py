@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from reference_fe.hyperelastic import MaterialLaw
-from reference_fe.static_problem import Discretisation
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.problem.static_problem import Discretisation
 from reference_fe.verification import half_cylinder, hertz_line, patch, ring_between_plates, sliding_block
 from reference_fe.verification.cantilever import THICKNESS, EndLoad, cantilever_path, cantilever_table
 from reference_fe.verification.hemisphere import TWENTY_NODES, hemisphere_path, hemisphere_table

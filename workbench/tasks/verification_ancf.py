@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ancf_reduced.plate_model import PoissonLocking
+from ancf_reduced.plates.model import PoissonLocking
 from ancf_reduced.verification import arch, cantilever, frames, frequencies, self_weight
 from ancf_reduced.verification.cantilever import EndLoad, cantilever_path, cantilever_table
 from ancf_reduced.verification.narrow_cantilever import BentCantilever, bent_cantilever

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.tire_preset import thesis_preset
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.csv_table import TableRule, read_table
 from contracts.records import Check
 from contracts.series import TimeSeries, read_series

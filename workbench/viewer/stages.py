@@ -113,8 +113,8 @@ class RoverStage:
         """ANCF tires in all frames, coloured by strain; None on other tires."""
         if self.motion.vectors.shape[1] == 0:
             return None
-        from ancf_reduced.tire_mesh import build_tire
-        from ancf_reduced.tire_preset import thesis_preset
+        from ancf_reduced.tire.mesh import build_tire
+        from ancf_reduced.tire.preset import thesis_preset
 
         return strained_tires(build_tire(thesis_preset()), self.motion.vectors)
 

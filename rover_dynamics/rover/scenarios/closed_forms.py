@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from rover_dynamics.brush_settings import BrushSettings, DamperLaw
-from rover_dynamics.brush_tire import BrushTireParameters
 from rover_dynamics.rover.rover_file import RoverDesign
+from rover_dynamics.tires.brush_settings import BrushSettings, DamperLaw
+from rover_dynamics.tires.brush_tire import BrushTireParameters
 
 __all__ = ["drive_force", "single_wheel_drop"]
 

@@ -17,9 +17,9 @@ from contracts.errors import InputError
 from contracts.terrain import Terrain
 from contracts.terrain_cover import check_covered
 from contracts.terrain_rocks import RandomRocks
-from rover_dynamics.rigid_tire import rigid_parameters, rigid_settings
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.scenario import FloatArray, Scenario
+from rover_dynamics.tires.rigid import rigid_parameters, rigid_settings
 
 __all__ = ["on_rigid_tires", "on_terrain", "rocks_on_the_way", "touching_height"]
 
@@ -65,7 +65,7 @@ def rocks_on_the_way(scenario: Scenario, design: RoverDesign, seed: int) -> Terr
 
 
 def on_rigid_tires(scenario: Scenario) -> Scenario:
-    """The same on rigid wheels, once; see `rover_dynamics.rigid_tire`."""
+    """The same on rigid wheels, once; see `rover_dynamics.tires.rigid`."""
     if scenario.tire_model == "rigid":
         return scenario
     return replace(

@@ -13,8 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError
-from rover_dynamics.brush_settings import BrushSettings, DamperLaw
-from rover_dynamics.brush_tire import THESIS_BRUSH
 from rover_dynamics.multibody.motion_law import Hold, MotionLaw, SpeedTrapezoid
 from rover_dynamics.rover.rover import Actuators
 from rover_dynamics.rover.rover_file import RoverDesign
@@ -22,6 +20,8 @@ from rover_dynamics.rover.scenarios.closed_forms import drive_force, single_whee
 from rover_dynamics.rover.scenarios.offsets import loads_against_offset
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, mean_static_load, run_scenario, sampled
+from rover_dynamics.tires.brush_settings import BrushSettings, DamperLaw
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 
 __all__ = ["LEVEL_GROUND", "SPEED", "all_drives", "drive_forward", "straight_ahead", "sweep_of_gravity"]
 

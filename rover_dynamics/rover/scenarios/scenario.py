@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 from contracts.errors import ConvergenceError, InputError
 from contracts.series import TimeSeries
 from contracts.terrain import Plane, Terrain
-from rover_dynamics.brush_settings import BrushSettings
-from rover_dynamics.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.tires.brush_settings import BrushSettings
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 
 __all__ = [
@@ -41,7 +41,7 @@ __all__ = [
 
 FloatArray = NDArray[np.float64]
 _PENETRATION, _LOAD, _SLIP, _PATCH, _TRACTIVE, _LATERAL, _BESIDE = 0, 1, 2, 4, 7, 8, 9
-"""Columns of `rover_dynamics.brush_force.OUTPUT_SIZE`."""
+"""Columns of `rover_dynamics.tires.brush_force.OUTPUT_SIZE`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

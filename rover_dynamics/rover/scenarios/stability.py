@@ -17,12 +17,12 @@ from dataclasses import replace
 import numpy as np
 
 from contracts.errors import ConvergenceError
-from rover_dynamics.brush_tire import THESIS_BRUSH
 from rover_dynamics.multibody.motion_law import Hold
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.level_ground import all_drives
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, run_scenario
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 
 __all__ = ["DIRECTIONS", "STABILITY", "overturned", "smallest_tilt", "wheel_lifted"]
 

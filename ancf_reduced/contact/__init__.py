@@ -1,0 +1,1 @@
+"""Contact points on faces of plates, and terrain."""

@@ -1,0 +1,1 @@
+"""A tire's parameters from measured or computed curves."""

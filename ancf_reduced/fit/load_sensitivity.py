@@ -1,0 +1,127 @@
+r"""Gradient of a static curve with respect to the tire's parameters, by the implicit function theorem.
+
+In equilibrium R(x, theta) = 0 with the free coordinates x, and the load is F(x, theta). One adjoint solve a point,
+
+    K lambda = dF/dx,    dF/dtheta = partial F/partial theta - lambda . partial R/partial theta,
+
+with the exact tangent K = dR/dx of `plane_problem` (symmetric) gives the gradient for all parameters at once. R is
+linear in the modulus and in the contact stiffness: their derivatives are exact. Those of geometry are central
+differences of R and F at the same x, the tire rebuilt: two force evaluations and no solve, right to about 1e-9.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ancf_reduced.fit.parameters import FreeParameter, Parameter, preset_at, unknowns_of
+from ancf_reduced.plates.assembly import dense_matrix
+from ancf_reduced.tire.mesh import Tire, build_tire
+from ancf_reduced.tire.plane_problem import PlaneProblem
+from ancf_reduced.tire.static import TireEquilibria
+from contracts.frames import ground_direction_h
+
+__all__ = ["VariedTire", "load_gradient", "vary_tire"]
+
+FloatArray = NDArray[np.float64]
+_STEP = 1e-5
+"""Step of the central differences, in the unknowns: relative, or radians."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VariedTire:
+    """A tire, and the same tire with each geometric parameter a little smaller and larger.
+
+    Attributes
+    ----------
+    tire : at the parameters themselves
+    free : what is varied
+    pairs : smaller and larger tire for each of ``free``; None where the derivative is exact
+    """
+
+    tire: Tire
+    free: tuple[FreeParameter, ...]
+    pairs: tuple[tuple[Tire, Tire] | None, ...]
+
+
+def vary_tire(tire: Tire, free: Sequence[FreeParameter]) -> VariedTire:
+    """Build the neighbours of a tire that `load_gradient` needs, once for all orientations."""
+    at = unknowns_of(tire.preset, free)
+    pairs: list[tuple[Tire, Tire] | None] = []
+    for i, p in enumerate(free):
+        if p.parameter in (Parameter.YOUNG_MODULUS, Parameter.CONTACT_STIFFNESS):
+            pairs.append(None)
+            continue
+        step = _STEP * np.eye(len(free))[i]
+        smaller, larger = (build_tire(preset_at(tire.preset, free, at + sign * step)) for sign in (-1.0, 1.0))
+        pairs.append((smaller, larger))
+    return VariedTire(tire=tire, free=tuple(free), pairs=tuple(pairs))
+
+
+def load_gradient(varied: VariedTire, states: TireEquilibria) -> FloatArray:
+    """Derivative of the load at every solved deflection with respect to every free parameter's unknown.
+
+    Parameters
+    ----------
+    varied : from `vary_tire`
+    states : equilibria of ``varied.tire``
+
+    Returns
+    -------
+    gradient : (n, n_free) float [N], dF / d ln(theta), or [N/rad] for the phase. Zero where nothing touches. Contact
+        points that switch exactly there have one-sided derivatives; the one of the points found closed is given.
+
+    Verified by tests/unit/test_ancf_load_sensitivity.py (finite differences of whole solves).
+    """
+    problem = PlaneProblem(tire=varied.tire, direction=ground_direction_h(states.phi))
+    rows = zip(states.coordinates, states.deflection.tolist(), strict=True)
+    return np.array([_gradient_at(varied, problem, p, deflection) for p, deflection in rows])
+
+
+def _gradient_at(varied: VariedTire, problem: PlaneProblem, p: FloatArray, deflection: float) -> FloatArray:
+    """One row, (n_free,)."""
+    tire, free = varied.tire, varied.tire.tie.free
+    contact, elastic = problem.contact_force(p, deflection), tire.model.elastic_force(p)
+    at_rest = _load_of(contact, problem.direction)
+    if at_rest == 0.0:
+        return np.zeros(len(varied.free))
+    adjoint = _adjoint(problem, p, deflection)
+    gradient = np.empty(len(varied.free))
+    for i, (kind, pair) in enumerate(zip(varied.free, varied.pairs, strict=True)):
+        if pair is not None:
+            smaller, larger = (_load_and_residual(other, problem.direction, p[free], deflection) for other in pair)
+            load, residual = (larger[0] - smaller[0]) / (2.0 * _STEP), (larger[1] - smaller[1]) / (2.0 * _STEP)
+        elif kind.parameter is Parameter.YOUNG_MODULUS:
+            load, residual = 0.0, elastic[free].ravel()
+        else:
+            load, residual = at_rest, -contact[free].ravel()
+        gradient[i] = load - adjoint @ residual
+    return gradient
+
+
+def _load_of(contact: FloatArray, direction: FloatArray) -> float:
+    """Load [N] from the generalised contact force (n_nodes, 4, 3): its positions' rows sum to the resultant."""
+    return float(-(contact[:, 0] @ direction).sum())
+
+
+def _adjoint(problem: PlaneProblem, p: FloatArray, deflection: float) -> FloatArray:
+    """lambda = K^-1 dF/dx on the free coordinates, (12 n_free,); dF/dp: sum of the contact tangent along the normal."""
+    tire = problem.tire
+    rows = (12 * tire.tie.free[:, None] + np.arange(12)).ravel()
+    contacts = problem.contact(deflection).tangents(p, np.zeros_like(p))[0]
+    tangent = dense_matrix(tire.mesh, tire.model.elastic_tangents(p) + contacts)
+    along = np.zeros_like(p)
+    along[:, 0] = problem.direction
+    slope = dense_matrix(tire.mesh, contacts) @ along.ravel()
+    return np.asarray(np.linalg.solve(tangent[np.ix_(rows, rows)], slope[rows]))
+
+
+def _load_and_residual(tire: Tire, direction: FloatArray, x: FloatArray, deflection: float) -> tuple[float, FloatArray]:
+    """Contact load [N] and generalised residual on the free nodes (flat) of another tire at the same coordinates."""
+    problem = PlaneProblem(tire=tire, direction=direction)
+    p = problem.expand(x)
+    contact = problem.contact_force(p, deflection)
+    return _load_of(contact, direction), (tire.model.elastic_force(p) - contact)[tire.tie.free].ravel()

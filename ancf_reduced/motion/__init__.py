@@ -1,0 +1,1 @@
+"""Equations of motion of any network, their equilibrium and integration."""

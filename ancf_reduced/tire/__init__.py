@@ -1,0 +1,1 @@
+"""The airless tire, a client of the rest."""

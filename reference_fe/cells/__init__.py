@@ -1,0 +1,1 @@
+"""Hexahedra and quadrangles: shape functions, integration, residual and tangent."""

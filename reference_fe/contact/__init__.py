@@ -1,0 +1,1 @@
+"""Contact with rigid obstacles and between parts of the body."""

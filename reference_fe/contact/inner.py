@@ -1,0 +1,285 @@
+"""Frictionless contact between parts of the deforming body: springs against rim, hub and each other.
+
+Points on the slave faces are held off the master faces along the master's normal at the closest point (points to
+surface, Gauss points of the slave's undeformed facets). The penalty law is that of `contact.law` with the normal gap to
+the master, so that the contact has a potential and a symmetric stiffness. docs/theory.md 2.4 has the equations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from contracts.errors import InputError
+from reference_fe import dolfinx_api as api
+from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts, shape_values
+from reference_fe.contact.surface import ContactSurface, contact_surface, node_positions
+from reference_fe.contact.surface_term import SurfaceForces, TermState
+from reference_fe.problem.domain import Domain
+
+__all__ = ["ContactPair", "InnerContact", "InnerContactTerm"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactPair:
+    """Two face groups that may touch; they may be one and the same (self-contact).
+
+    Attributes
+    ----------
+    slave : face group whose points are held off
+    master : face group they are held off from
+    """
+
+    slave: str
+    master: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InnerContact:
+    """Penalty contact between face groups of one mesh.
+
+    Attributes
+    ----------
+    pairs : what may touch what
+    stiffness : penalty stiffness per undeformed area of the slave [N/m^3]
+    ramp : gap at which the pressure begins, and beyond which (negative) it is linear [m]
+    least_gap : points that start closer to the master than this are left out, e.g. beside a weld [m]
+    depth : how far behind the master's surface a point is still found [m]
+    reach : gap below which facets get room in the matrix before they touch [m]
+    gauss_points : slave points along each axis of a facet
+    """
+
+    pairs: tuple[ContactPair, ...]
+    stiffness: float
+    ramp: float = 5e-6
+    least_gap: float = 10e-6
+    depth: float = 5e-3
+    reach: float = 1.5e-3
+    gauss_points: int = 5
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.stiffness) and self.stiffness > 0.0):
+            raise InputError("inner contact stiffness", f"{self.stiffness:g} N/m^3", "must be > 0", "1e11 suits metal")
+        if not 0.0 < self.ramp <= self.least_gap < self.reach:
+            lengths = f"{self.ramp:g}, {self.least_gap:g}, {self.reach:g} m"
+            raise InputError("ramp, least gap and reach", lengths, "must be > 0 and not fall", "keep the defaults")
+
+    def build(self, domain: Domain, V: api.Expr) -> InnerContactTerm:
+        """The term on this mesh and displacement space."""
+        return InnerContactTerm(self, domain, V)
+
+
+class InnerContactTerm:
+    """Inner contact while it is being solved; its only history is which facets have room in the matrix.
+
+    Attributes
+    ----------
+    reference_positions : (n_nodes, 3) of the displacement space's nodes [m]
+    pattern_version : changes when facets meet that had no room in the matrix
+    largest_penetration : at the last evaluation [m]
+    whole_body : its nodes have the numbers over all processes; each process searches for its share of the slave facets,
+        and all hear of what was found
+
+    Verified by tests/unit/test_fe_inner_contact.py and tests/verification/test_fe_touching_parts.py.
+    """
+
+    def __init__(self, description: InnerContact, domain: Domain, V: api.Expr) -> None:
+        self._law, self._dim = description, int(V.dofmap.index_map_bs)
+        self._comm = domain.mesh.comm
+        self.whole_body = self._comm.size > 1
+        self.reference_positions = node_positions(domain, V)
+        names = {name for pair in description.pairs for name in (pair.slave, pair.master)}
+        made = {name: contact_surface(domain, V, name, description.gauss_points) for name in sorted(names)}
+        self._sides = [
+            _TwoSides(made[pair.slave], made[pair.master], self.reference_positions, description, self._share())
+            for pair in description.pairs
+        ]
+        self.pattern_version, self.largest_penetration = 0, 0.0
+        for side in self._sides:
+            side.note_near(self.reference_positions)
+
+    def couplings(self) -> Index:
+        """Nodes of every pair of facets that touches, or nearly did when the pattern was last laid out, (m, k)."""
+        own = [side.couplings() for side in self._sides]
+        groups = [group for share in self._of_all(own) for group in share]
+        width = max((g.shape[1] for g in groups), default=0)
+        out = np.full((sum(map(len, groups)), width), -1, dtype=np.int64)
+        row = 0
+        for group in groups:
+            out[row : row + len(group), : group.shape[1]] = group
+            row += len(group)
+        return out
+
+    def set_control(self, control: float) -> None:
+        """Nothing: both sides belong to the body."""
+
+    def evaluate(self, u: Array, lag: float) -> SurfaceForces:
+        """Forces of the contact at u; no lag, as both sides stand still between two increments."""
+        x = self.reference_positions.copy()
+        x[:, : self._dim] += u.reshape(-1, self._dim)
+        batches = [side.blocks(x, self._dim) for side in self._sides]
+        if any(self._of_all(any(side.has_new_pairs() for side in self._sides))):
+            for side in self._sides:
+                side.note_near(x)
+            self.pattern_version += 1
+        deepest = max((side.largest_penetration for side in self._sides), default=0.0)
+        self.largest_penetration = float(max(self._of_all(deepest)))
+        return _joined([batch for share in self._of_all(batches) for batch in share], self._dim)
+
+    def _share(self) -> slice:
+        """This process' slave facets."""
+        return slice(self._comm.rank, None, self._comm.size)
+
+    def _of_all[T](self, mine: T) -> list[T]:
+        """The value of every process."""
+        return [mine] if self._comm.size == 1 else self._comm.allgather(mine)
+
+    def resultant(self) -> Array:
+        """Zero: action is reaction."""
+        return np.zeros(self._dim)
+
+    def augment(self) -> bool:
+        """Penalty only."""
+        return False
+
+    def accept(self) -> None:
+        """Nothing to commit: a pair once in the pattern stays there."""
+
+    def state(self) -> TermState:
+        """Pairs of facets in the pattern, so that a resumed run eliminates and adds up in the same order."""
+        return {f"pairs_{k}": side.pairs().astype(np.float64) for k, side in enumerate(self._sides)}
+
+    def restore(self, state: TermState) -> None:
+        """Go back to a pattern."""
+        for k, side in enumerate(self._sides):
+            known = _as_set(state[f"pairs_{k}"].astype(np.int64))
+            if known != side.known:
+                side.known, self.pattern_version = known, self.pattern_version + 1
+
+
+class _TwoSides:
+    """One pair of surfaces: search, law, blocks, for a share of the slave's facets."""
+
+    def __init__(
+        self, slave: ContactSurface, master: ContactSurface, X: Array, law: InnerContact, share: slice
+    ) -> None:
+        self.shared = _share_nodes(master)[share] if slave is master else None
+        slave = replace(slave, facets=slave.facets[share], sides=slave.sides[share], widths=slave.widths[share])
+        self.slave, self.master, self.law = slave, master, law
+        _, _, areas = slave.frames(X)
+        self.areas = areas * slave.weights * slave.widths[:, None]
+        self.shape = shape_values(slave.lattice, slave.at)
+        self.known, self.touching = set[tuple[int, int]](), np.zeros((0, 2), dtype=np.int64)
+        self.largest_penetration = 0.0
+        gap = self._nearest(X, law.least_gap, 0.0)[2]
+        self.excluded = gap < law.least_gap
+
+    def pairs(self) -> Index:
+        """Pairs of facets in the pattern, (n, 2), ascending."""
+        return np.array(sorted(self.known), dtype=np.int64).reshape(-1, 2)
+
+    def couplings(self) -> Index:
+        pairs = self.pairs()
+        return np.hstack([self.slave.facets[pairs[:, 0]], self.master.facets[pairs[:, 1]]])
+
+    def has_new_pairs(self) -> bool:
+        return not _as_set(self.touching) <= self.known
+
+    def note_near(self, x: Array) -> None:
+        """Take the pairs that touch or nearly do into the pattern."""
+        facet, _, _ = self._nearest(x, self.law.reach, 0.2)
+        rows, points = np.nonzero(facet >= 0)
+        self.known |= _as_set(np.column_stack([rows, facet[rows, points]])) | _as_set(self.touching)
+
+    def blocks(self, x: Array, dim: int) -> SurfaceForces:
+        law = self.law
+        facet, xi, gap = self._nearest(x, law.ramp, 1e-3)
+        gap[self.excluded] = np.inf
+        f, q = np.nonzero(gap < law.ramp)
+        m, g = facet[f, q], gap[f, q]
+        self.touching = np.unique(np.column_stack([f, m]), axis=0)
+        self.largest_penetration = float(np.max(-g, initial=0.0))
+        nodes = np.hstack([self.slave.facets[f], self.master.facets[m]])
+        k = nodes.shape[1]
+        force, stiffness = np.empty((len(f), k, dim)), np.empty((len(f), k, dim, k, dim))
+        contact_blocks(
+            x,
+            (self.slave.facets[f], self.shape[q]),
+            (self.master.facets[m], self.master.sides[m], self.master.lattice),
+            np.ascontiguousarray(xi[f, q]),
+            np.column_stack([g, self.areas[f, q]]),
+            (law.stiffness, law.ramp),
+            (force, stiffness),
+        )
+        return SurfaceForces(nodes=nodes, force=force, stiffness=stiffness)
+
+    def _nearest(self, x: Array, above: float, margin: float) -> tuple[Index, Array, Array]:
+        """Contacts of every slave point; the search looks anew each time, around each slave facet's middle."""
+        slave, master = self.slave, self.master
+        facet, xi, gap = _no_contacts(self.areas.shape)
+        mid_s, radius_s = _balls(x, slave.facets)
+        mid_m, radius_m = _balls(x, master.facets)
+        far = max(self.law.depth, above) + radius_m.max(initial=0.0)
+        found = cKDTree(mid_m).query_ball_point(mid_s, radius_s + far, return_sorted=True)
+        kept = [c if self.shared is None else [m for m in c if m not in self.shared[f]] for f, c in enumerate(found)]
+        rows = np.array([f for f, c in enumerate(kept) if c], dtype=np.int64)
+        candidates = [kept[f] for f in rows]
+        if len(rows):
+            positions, normals, _ = slave.frames(x, rows)
+            facet[rows], xi[rows], gap[rows] = nearest_contacts(
+                x,
+                positions,
+                normals,
+                (np.cumsum([0, *map(len, candidates)]), np.array([m for c in candidates for m in c], dtype=np.int64)),
+                (master.facets, master.sides, master.lattice),
+                (mid_m, radius_m, master.middle_normals(x)),
+                (above, self.law.depth, margin),
+            )
+        return facet, xi, gap
+
+
+def _no_contacts(shape: tuple[int, ...]) -> tuple[Index, Array, Array]:
+    """What the search finds where there is nothing near."""
+    return np.full(shape, -1, dtype=np.int64), np.zeros((*shape, 2)), np.full(shape, np.inf)
+
+
+def _as_set(pairs: Index) -> set[tuple[int, int]]:
+    return {(int(f), int(m)) for f, m in pairs}
+
+
+def _balls(x: Array, facets: Index) -> tuple[Array, Array]:
+    """Middles (f, 3) and radii (f,) of balls around the facets' nodes [m]."""
+    nodes = x[facets]
+    middle = nodes.mean(axis=1)
+    return middle, np.linalg.norm(nodes - middle[:, None], axis=-1).max(axis=1)
+
+
+def _share_nodes(surface: ContactSurface) -> list[set[int]]:
+    """Facets that share a node with each facet of one surface."""
+    holders: dict[int, set[int]] = {}
+    for m, nodes in enumerate(surface.facets.tolist()):
+        for node in nodes:
+            holders.setdefault(node, set()).add(m)
+    return [set().union(*(holders[node] for node in nodes)) for nodes in surface.facets.tolist()]
+
+
+def _joined(batches: Sequence[SurfaceForces], dim: int) -> SurfaceForces:
+    """One batch of several; all facets of a mesh have the same number of nodes."""
+    if not batches:
+        return SurfaceForces(
+            nodes=np.zeros((0, 0), dtype=np.int64),
+            force=np.zeros((0, 0, dim)),
+            stiffness=np.zeros((0, 0, dim, 0, dim)),
+        )
+    return SurfaceForces(
+        nodes=np.concatenate([b.nodes for b in batches]),
+        force=np.concatenate([b.force for b in batches]),
+        stiffness=np.concatenate([b.stiffness for b in batches]),
+    )

@@ -1,0 +1,41 @@
+"""Which faces of a wheel may touch which, from the face groups that its mesh has."""
+
+from __future__ import annotations
+
+from itertools import combinations_with_replacement
+
+from contracts.mesh import TaggedMesh
+from reference_fe.contact.inner import ContactPair
+
+__all__ = ["wheel_contact_pairs"]
+
+
+def wheel_contact_pairs(mesh: TaggedMesh) -> tuple[ContactPair, ...]:
+    """Pairs of face groups between rim and outer hub, and between the hubs where the mesh has the impact springs.
+
+    A spring set is known by its face groups ``{set}_front`` (the broad side that faces both rings) and ``{set}_back``.
+    The strip is the slave, the ring the master; of two rings the rim, or the outer hub, is the slave. A strip's back
+    can meet the hub, and the back of a strip (a hoop's two welds, where it bottoms out), never its own ring. In a
+    planar mesh sets of different axial bands lie over each other: a set touches itself and the rings, no other set.
+
+    Verified by tests/unit/test_fe_inner_contact.py.
+    """
+    sets = [name.removesuffix("_front") for name in mesh.faces if name.endswith("_front")]
+    inner = [name for name in sets if name == "impact_springs"]
+    pairs = _gap_pairs([name for name in sets if name not in inner], "tire_inner", "outer_hub_outer", mesh.dim)
+    if inner:
+        pairs += _gap_pairs(inner, "outer_hub_bore", "inner_hub_outer", mesh.dim)
+    return tuple(pair for pair in pairs if pair.slave in mesh.faces and pair.master in mesh.faces)
+
+
+def _gap_pairs(sets: list[str], outer: str, inner: str, dim: int) -> list[ContactPair]:
+    """Pairs among the springs in the gap between two rings, and with the rings' faces."""
+    pairs = [ContactPair(slave=f"{name}_front", master=ring) for name in sets for ring in (outer, inner)]
+    pairs += [ContactPair(slave=f"{name}_back", master=inner) for name in sets]
+    pairs += [
+        ContactPair(slave=f"{a}_{side}", master=f"{b}_{side}")
+        for a, b in combinations_with_replacement(sets, 2)
+        if dim == 3 or a == b
+        for side in ("front", "back")
+    ]
+    return [*pairs, ContactPair(slave=outer, master=inner)]

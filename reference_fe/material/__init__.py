@@ -1,0 +1,1 @@
+"""Hyperelastic laws, plane states, temperature, stress and stored energy."""

@@ -1,0 +1,1 @@
+"""A tagged mesh with supports, loads and contact as one static problem."""

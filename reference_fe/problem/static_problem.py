@@ -1,0 +1,286 @@
+"""Nonlinear statics of a tagged mesh, solid or planar: total Lagrangian, hyperelastic, supports, loads, contact.
+
+Weak form (Bonet & Wood 2008, ch. 8): find u with
+    int S(E(u)) : DE(u)[v] dV - W(u)[v] - C(u)[v] = 0  for every v that vanishes on the supports,
+with W the work of the loads (see `reference_fe.problem.loads`) and C that of the surface terms, i.e. of contact.
+Tangent with mixed integration points (Magisano, Leonetti, Garcea 2017): the geometric stiffness uses the stress stored
+at the Gauss points, S_m = S(E(u)) + CC : DE(u)[du] of the last solve, in place of S(E(u)); the residual, and with it
+the solution, stay the same. docs/theory.md has the derivation. Verified by tests/verification/test_fe_*.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from contracts.materials import Material
+from reference_fe import dolfinx_api as api
+from reference_fe.cells.compiled_assembly import CompiledCells
+from reference_fe.cells.discretisation import Discretisation, ElementFamily
+from reference_fe.cells.form_assembly import FormCells
+from reference_fe.contact.obstacle import ObstacleContact, ObstacleTerm
+from reference_fe.contact.surface_assembly import SurfaceAssembly
+from reference_fe.contact.surface_term import SurfaceDescription, TermState
+from reference_fe.contact.touch import check_touch
+from reference_fe.dolfinx_api import fem, fem_petsc, ufl
+from reference_fe.material import hyperelastic as law_of
+from reference_fe.material.elastic_fields import cell_moduli, elastic_fields
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.material.point_evaluation import PointEvaluation
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.loads import edge_force, virtual_work
+from reference_fe.problem.support_dofs import build_supports
+from reference_fe.problem.supports import EdgeLoad, EndMoment, Load, Support
+from reference_fe.solver import process_sums
+
+__all__ = ["Discretisation", "ElementFamily", "ProblemState", "StaticProblem"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProblemState:
+    """What an increment starts from.
+
+    Attributes
+    ----------
+    displacement : (n_dofs,) [m]
+    surfaces : committed history of each surface term
+    """
+
+    displacement: NDArray[np.float64]
+    surfaces: tuple[TermState, ...]
+
+
+class StaticProblem:
+    """Forms, unknowns and operators of one static problem; the load is set by one control parameter.
+
+    Parameters
+    ----------
+    domain : mesh with tags
+    materials : part name -> material, for every part that deforms; parts left out are rigid and must be supported
+    supports, loads : boundary conditions
+    contact : an obstacle that just touches the undeformed body at control parameter 0
+    surfaces : further contacts, see `surface_term`
+    discretisation : law, degree, quadrature
+    transverse_constraint : planar mesh only, part -> how it is held across the plane, from `PLANE_STRESS` to
+        `PLANE_STRAIN`, see `plane_state`; parts left out are in plane strain
+
+    Attributes
+    ----------
+    u : displacement (DOLFINx function) [m]
+    du : last Newton step [m]
+    bcs : Dirichlet conditions of the supports (DOLFINx)
+    supported : unknowns held by a support, ascending
+    lame, stretch, transverse_strain : constants on each cell, see `elastic_fields.ElasticFields`
+    """
+
+    def __init__(
+        self,
+        domain: Domain,
+        materials: Mapping[str, Material],
+        supports: Sequence[Support],
+        *,
+        loads: Sequence[Load] = (),
+        contact: ObstacleContact | None = None,
+        surfaces: Sequence[SurfaceDescription] = (),
+        discretisation: Discretisation | None = None,
+        transverse_constraint: Mapping[str, float] | None = None,
+    ) -> None:
+        self.domain, self.contact = domain, contact
+        self.discretisation = discretisation or Discretisation(gauss_points=(2, 3, 3)[: domain.dim])
+        self.materials = dict(materials)
+        self._check_parts(supports)
+        mesh = domain.mesh
+        self.V = fem.functionspace(mesh, (str(self.discretisation.family), self.discretisation.degree, (domain.dim,)))
+        self.u, self.du = fem.Function(self.V, name="displacement"), fem.Function(self.V)
+        fields = elastic_fields(domain, materials, transverse_constraint or {}, self.discretisation.law)
+        self.lame, self.stretch, self.transverse_strain = fields.lame, fields.stretch, fields.transverse
+        self._flexible_cells = domain.cells_of(materials)
+        self.load_factor = fem.Constant(mesh, 0.0)
+        self._build_forms(loads)
+        self._edge_force = edge_force(domain, self.V, loads)
+        self.bcs, self._prescribed = build_supports(domain, self.V, supports)
+        marked = [bc.dof_indices()[0] for bc in self.bcs]
+        self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
+        terms = [surface.build(domain, self.V) for surface in surfaces]
+        self.surfaces = SurfaceAssembly([*self._obstacle_terms(), *terms], self.V)
+        self._pattern_version: tuple[int, ...] | None = None
+        self.set_control(0.0)
+
+    @property
+    def dofs(self) -> int:
+        """Number of displacement unknowns, supported ones included."""
+        return int(self.V.dofmap.index_map.size_global * self.V.dofmap.index_map_bs)
+
+    @property
+    def own_dofs(self) -> int:
+        """Number of displacement unknowns that belong to this process."""
+        return int(self.V.dofmap.index_map.size_local * self.V.dofmap.index_map_bs)
+
+    @property
+    def own_supported(self) -> NDArray[np.int32]:
+        """Unknowns held by a support that belong to this process, ascending."""
+        return self.supported[self.supported < self.own_dofs]
+
+    def set_control(self, control: float) -> None:
+        """Set the control parameter: load factor of supports and loads [-], or rise of the plane [m]."""
+        self.load_factor.value = control
+        for prescribed in self._prescribed:
+            prescribed.set_control(control)
+        self.surfaces.set_control(control)
+
+    def residual(self) -> NDArray[np.float64]:
+        """Internal minus external force at every unknown, supported ones included, (n_own_dofs,) [N]."""
+        return self.body_residual() - self.surfaces.force(self.u.x.array, 0.0)
+
+    def body_residual(self) -> NDArray[np.float64]:
+        """Internal force minus loads and tractions, without the surface terms, (n_own_dofs,) [N]."""
+        array = -float(self.load_factor.value) * self._edge_force
+        if self._residual_form is not None:
+            b = fem_petsc.assemble_vector(self._residual_form)
+            b.ghostUpdate(addv=api.PETSc.InsertMode.ADD, mode=api.PETSc.ScatterMode.REVERSE)
+            array += b.array
+            b.destroy()
+        if self._compiled is not None:
+            array += self._compiled.internal_force(self.u.x.array)
+        return array
+
+    def tangent(self, matrix: api.PETSc.Mat | None = None) -> api.PETSc.Mat:
+        """Tangent stiffness with unit rows at supported unknowns [N/m]; give the last one back to spare its set-up.
+
+        Surface terms enter with the stiffness of their last evaluation. Another matrix object than the one given means
+        another pattern.
+        """
+        if self._compiled is not None:
+            self._assemble_compiled()
+            return self._compiled.supported_matrix()
+        if matrix is None or self._pattern_version != self.surfaces.pattern_version:
+            self._pattern_version = self.surfaces.pattern_version
+            supported = np.unique(self.supported // self.domain.dim).astype(np.int32)
+            matrix = api.create_matrix(self._tangent_form, supported, self.surfaces.couplings())
+        else:
+            matrix.zeroEntries()
+        fem_petsc.assemble_matrix(matrix, self._tangent_form, bcs=self.bcs)
+        api.flush(matrix)
+        self.surfaces.add_to_matrix(matrix, self.supported)
+        matrix.assemble()
+        return matrix
+
+    def unsupported_tangent(self) -> api.PETSc.Mat:
+        """Tangent stiffness without regard to the supports [N/m]; a new matrix, to be destroyed by the caller."""
+        if self._compiled is not None:
+            self._assemble_compiled()
+            return self._compiled.copied_matrix()
+        matrix = api.create_matrix(self._tangent_form, np.zeros(0, dtype=np.int32), self.surfaces.couplings())
+        fem_petsc.assemble_matrix(matrix, self._tangent_form)
+        api.flush(matrix)
+        self.surfaces.add_to_matrix(matrix, np.zeros(0, dtype=np.int32))
+        matrix.assemble()
+        return matrix
+
+    def _assemble_compiled(self) -> None:
+        assert self._compiled is not None
+        if self._pattern_version != self.surfaces.pattern_version:
+            self._pattern_version = self.surfaces.pattern_version
+            self._compiled.prepare_matrix(self.supported, self.surfaces)
+        self._compiled.assemble(self.u.x.array, self._tangent_form, self.surfaces)
+
+    def state(self) -> ProblemState:
+        """Displacement and committed history of the surface terms, to come back to."""
+        return ProblemState(displacement=self.u.x.array.copy(), surfaces=self.surfaces.state())
+
+    def restore(self, state: ProblemState) -> None:
+        """Go back to a state; the control parameter is the caller's."""
+        self.u.x.array[:] = state.displacement
+        self.surfaces.restore(state.surfaces)
+
+    def contact_force(self) -> NDArray[np.float64]:
+        """Force of the obstacles on the body, integral of the contact tractions, (dim,) [N]."""
+        return self.surfaces.resultant()
+
+    def reaction(self, residual: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Sum of the support forces on the body, from the residual at supported unknowns, (dim,) [N]."""
+        rows, dim = self.own_supported, self.domain.dim
+        own = np.array([residual[rows[rows % dim == axis]].sum() for axis in range(dim)])
+        return np.asarray(self.domain.mesh.comm.allreduce(own))
+
+    def store_stress(self, *, extrapolate: bool) -> None:
+        """Store S(E(u)), with CC : DE(u)[du] added if ``extrapolate``, at the Gauss points; call before u changes."""
+        if self._compiled is not None:
+            step = self.du.x.array if extrapolate else np.zeros_like(self.du.x.array)
+            self._compiled.store_stress(self.u.x.array, step)
+            return
+        assert self._forms is not None
+        self._forms.store_stress(extrapolate=extrapolate)
+
+    def smallest_stretch(self) -> float:
+        """Smallest principal stretch at any Gauss point [-]; zero or less where a cell is turned inside out."""
+        F = self._deformation_gradient(self.domain.mesh, self._flexible_cells)
+        squared = np.linalg.eigvalsh(np.swapaxes(F, -1, -2) @ F)[..., 0]
+        stretch = np.sqrt(np.maximum(squared, 0.0)) * np.sign(np.linalg.det(F))
+        return -float(process_sums.largest_of_all(np.max(-stretch, keepdims=True, initial=-np.inf).ravel())[0])
+
+    def nodal_displacement(self) -> NDArray[np.float64]:
+        """Displacement at the nodes of the tagged mesh, (n_points, dim) [m]."""
+        mesh, order, dim = self.domain.mesh, self.domain.tagged.order, self.domain.dim
+        u = self.u
+        if (order, ElementFamily.LAGRANGE) != (self.discretisation.degree, self.discretisation.family):
+            u = fem.Function(fem.functionspace(mesh, ("Lagrange", order, (dim,))))
+            u.interpolate(self.u)
+        dofs, nodes = u.function_space.dofmap.list, api.cell_nodes(mesh)
+        local = np.zeros((len(mesh.geometry.x), dim))
+        local[nodes] = u.x.array.reshape(-1, dim)[dofs]
+        out = np.full_like(self.domain.tagged.points, -np.inf)
+        here = np.unique(nodes[: mesh.topology.index_map(mesh.topology.dim).size_local])
+        out[mesh.geometry.input_global_indices[here]] = local[here]
+        out = process_sums.largest_of_all(out)
+        return np.where(np.isneginf(out), 0.0, out)  # nodes without a cell
+
+    def _check_parts(self, supports: Sequence[Support]) -> None:
+        held = {part for support in supports for part in support.parts}
+        for part in self.domain.tagged.parts:
+            if part not in self.materials and part not in held:
+                raise InputError(f"part {part}", "no material", "every part needs a material or a support", "add one")
+        self.domain.part_tags(self.materials)
+
+    def _build_forms(self, loads: Sequence[Load]) -> None:
+        domain, choice, u = self.domain, self.discretisation, self.u
+        v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
+        residual, tangent = None, None
+        self._compiled, self._forms = None, None
+        suits = choice.law is MaterialLaw.ST_VENANT_KIRCHHOFF and choice.mixed_integration_points
+        if choice.compiled and suits and domain.dim == 3:
+            cells = self._flexible_cells
+            moduli = cell_moduli(domain, self.materials, cells)
+            self._compiled = CompiledCells(domain, self.V, cells, moduli, choice.gauss_points)
+        else:
+            self._forms = FormCells(domain, tuple(self.materials), (u, self.du), self.lame, choice, self.stretch)
+            residual, tangent = self._forms.residual, self._forms.tangent
+        for load in loads:
+            if isinstance(load, EdgeLoad):
+                continue  # see `loads.edge_force`
+            work = self.load_factor * virtual_work(domain, load, u, v)
+            residual = _sum(residual, -work)
+            if isinstance(load, EndMoment):
+                tangent = _sum(tangent, -ufl.derivative(work, u, w))
+        points, _ = api.gauss_rule(choice.gauss_points)
+        self._deformation_gradient = PointEvaluation(law_of.deformation_gradient(u), points)
+        self._residual_form = None if residual is None else api.compile_form(residual)
+        self._tangent_form = None if tangent is None else api.compile_form(tangent)
+
+    def _obstacle_terms(self) -> list[ObstacleTerm]:
+        """The obstacle's surface term, with the stiffness of the cells known to it; refused unless it just touches."""
+        if self.contact is None:
+            return []
+        check_touch(self.domain, self.contact, self.materials)
+        lam, mu = (field.x.array for field in self.lame)
+        young_modulus = np.divide(mu * (3.0 * lam + 2.0 * mu), lam + mu, out=np.zeros_like(mu), where=mu > 0.0)
+        return [self.contact.build(self.domain, self.V, young_modulus)]
+
+
+def _sum(form: api.Expr, term: api.Expr) -> api.Expr:
+    """A form plus a term, where the form may not exist yet."""
+    return term if form is None else form + term

@@ -1,0 +1,207 @@
+"""Newton iteration with mixed integration points and a symmetric MUMPS factorisation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.errors import InputError
+from reference_fe import dolfinx_api as api
+from reference_fe.contact.newton_step import settle_contact
+from reference_fe.material.hyperelastic import SMALLEST_STRETCH, MaterialLaw
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.solver import process_sums
+from reference_fe.solver.direct import direct_solver
+
+__all__ = ["NewtonOutcome", "NewtonSettings", "NewtonSolver"]
+
+AUGMENTATION_TOLERANCE = 1e-3
+"""Relative residual below which contact multipliers are improved: by then the contact set has settled."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewtonSettings:
+    """When an iteration ends.
+
+    Attributes
+    ----------
+    relative_tolerance : largest residual norm over free unknowns, relative to the norm of the support and contact
+        forces at the same state [-]
+    maximum_iterations : factorisations before the increment is given up
+    """
+
+    relative_tolerance: float = 1e-8
+    maximum_iterations: int = 25
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.relative_tolerance < 1.0:
+            raise InputError("relative tolerance", self.relative_tolerance, "must lie in (0, 1)", "1e-8 is usual")
+        if self.maximum_iterations < 1:
+            raise InputError("maximum iterations", self.maximum_iterations, "must be at least 1", "25 is usual")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewtonOutcome:
+    """How one iteration ended.
+
+    Attributes
+    ----------
+    converged : whether the tolerance was met, by a state the material law can mean
+    spurious : whether the tolerance was met by a state beyond the law's limit of compression, see
+        `hyperelastic.SMALLEST_STRETCH`; a large first increment can find one
+    stalled : whether the residual stopped falling near the tolerance: round-off, which no smaller increment cures
+    residuals : relative residual at each evaluation [-]: at the start, where 1 means that nothing balances yet, after
+        each iteration, and after each change of multipliers
+    augmentations : changes of the contact multipliers
+    residual : (n_own_dofs,) residual at the last state, supported unknowns included [N]
+    """
+
+    converged: bool
+    residuals: tuple[float, ...]
+    residual: NDArray[np.float64]
+    spurious: bool = False
+    stalled: bool = False
+    augmentations: int = 0
+
+    @property
+    def iterations(self) -> int:
+        """Number of linearisations of the body, with a factorisation each."""
+        return len(self.residuals) - 1 - self.augmentations
+
+
+class NewtonSolver:
+    """Solves a `StaticProblem` at its present control parameter; keeps matrix, pattern and symbolic analysis.
+
+    ``inner_force`` is added to the support and contact forces that residuals are held against [N]: free expansion has
+    neither.
+    """
+
+    def __init__(self, problem: StaticProblem, settings: NewtonSettings, inner_force: float = 0.0) -> None:
+        self.problem, self.settings, self._inner_force = problem, settings, inner_force
+        self._matrix: api.PETSc.Mat | None = None
+        self._ksp: api.PETSc.KSP | None = None
+        self._free = np.ones(problem.own_dofs, dtype=bool)
+        self._free[problem.own_supported] = False
+
+    def solve(self, rise: float = 0.0) -> NewtonOutcome:
+        """Iterate from the present displacement; leaves the last iterate in ``problem.u``.
+
+        ``rise`` is the obstacle's rise since the last converged state [m]: the first solve then uses that state's
+        contact set (see `contact.obstacle.ObstacleTerm.evaluate`). Every solve goes on to find the touching set, see
+        `contact.newton_step`.
+        """
+        problem, history = self.problem, list[float]()
+        offset = self._offset_at_supports()
+        problem.store_stress(extrapolate=False)
+        force = problem.surfaces.force(problem.u.x.array, rise)
+        if rise:
+            force = self._step(problem.body_residual() - force, force, offset)
+            offset = np.zeros(0)
+            history.append(1.0)
+        augmentations, goal = 0, self.settings.relative_tolerance
+        while True:
+            residual = problem.body_residual() - force
+            history.append(self._relative(residual, moved=not history and offset.size > 0))
+            augmented = history[-1] <= max(AUGMENTATION_TOLERANCE, goal) and problem.surfaces.augment()
+            reached = history[-1] <= goal and not augmented
+            stalled = not reached and self._is_stalled(history)
+            tired = len(history) - augmentations > self.settings.maximum_iterations
+            if reached or stalled or tired or not np.isfinite(history[-1]):
+                spurious = reached and self._is_spurious()
+                return NewtonOutcome(
+                    converged=reached and not spurious,
+                    residuals=tuple(history),
+                    residual=residual,
+                    spurious=spurious,
+                    stalled=stalled,
+                    augmentations=augmentations,
+                )
+            if augmented:
+                augmentations += 1
+                force = problem.surfaces.force(problem.u.x.array, 0.0)
+            else:
+                force = self._step(residual, force, offset)
+                offset = np.zeros(0)
+
+    def _is_stalled(self, history: list[float]) -> bool:
+        """Whether the last four residuals lie within a factor of three, at most 100 tolerances above the goal."""
+        last = history[-4:]
+        near = max(last) <= 100.0 * self.settings.relative_tolerance
+        return len(last) == 4 and near and max(last) < 3.0 * min(last)
+
+    def _is_spurious(self) -> bool:
+        """Whether some point is compressed beyond what St. Venant-Kirchhoff material can mean, or inside out."""
+        limit = SMALLEST_STRETCH if self.problem.discretisation.law is MaterialLaw.ST_VENANT_KIRCHHOFF else 0.0
+        return self.problem.smallest_stretch() <= limit
+
+    def _step(
+        self, residual: NDArray[np.float64], force: NDArray[np.float64], offset: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """One factorisation; stores the extrapolated stress, moves u and returns the contact forces there.
+
+        force : contact forces that ``residual`` holds
+        """
+        problem = self.problem
+        right_hand_side = np.where(self._free, -residual, 0.0)
+        if offset.size:
+            right_hand_side -= self._lifted(offset)
+            right_hand_side[problem.own_supported] = offset[problem.own_supported]
+        last, self._matrix = self._matrix, problem.tangent(self._matrix)
+        if self._ksp is None or self._matrix is not last:
+            self._ksp = direct_solver(self._matrix, symmetric=problem.surfaces.symmetric)
+        self._ksp.setOperators(self._matrix)
+        problem.du.x.array[: problem.own_dofs] = self._solved(right_hand_side)
+        problem.du.x.scatter_forward()
+        if problem.surfaces.terms:
+            force = settle_contact(problem, self._solved, force, self._free)
+        if problem.discretisation.mixed_integration_points:
+            problem.store_stress(extrapolate=True)
+        problem.u.x.array[:] += problem.du.x.array
+        return force
+
+    def _solved(self, right_hand_side: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Solution with the present factors, (n_own_dofs,)."""
+        assert self._matrix is not None
+        assert self._ksp is not None
+        x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
+        b.array[:] = right_hand_side
+        self._ksp.solve(b, x)
+        solution = np.array(x.array, dtype=np.float64)
+        b.destroy()
+        x.destroy()
+        return solution
+
+    def _offset_at_supports(self) -> NDArray[np.float64]:
+        """Prescribed minus present displacement at supported unknowns, else zero, (n_own_dofs,) [m]; empty if none.
+
+        Empty on one process means empty on all.
+        """
+        target = self.problem.u.x.array.copy()
+        for bc in self.problem.bcs:
+            bc.set(target)
+        offset = np.asarray(target - self.problem.u.x.array)[: self.problem.own_dofs]
+        return offset if process_sums.global_norm(offset) > 0.0 else np.zeros(0)
+
+    def _lifted(self, offset: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Tangent times the supports' offset, (n_own_dofs,) [N]."""
+        full = self.problem.unsupported_tangent()
+        x, y = full.createVecRight(), full.createVecLeft()
+        x.array[:] = offset
+        full.mult(x, y)
+        product = np.array(y.array, dtype=np.float64)
+        for item in (full, x, y):
+            item.destroy()
+        return product
+
+    def _relative(self, residual: NDArray[np.float64], *, moved: bool) -> float:
+        """Residual norm over free unknowns relative to that of the support and contact forces; inf before a move."""
+        if moved:
+            return 1.0 if np.isfinite(process_sums.global_norm(residual)) else float("inf")
+        out_of_balance = process_sums.global_norm(residual[self._free])
+        applied = process_sums.global_norm(residual[~self._free]) + float(np.linalg.norm(self.problem.contact_force()))
+        applied += self._inner_force
+        if applied == 0.0:
+            return 0.0 if out_of_balance == 0.0 else 1.0
+        return out_of_balance / applied

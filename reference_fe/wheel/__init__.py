@@ -1,0 +1,1 @@
+"""The wheel on the ground, a client of the rest."""

@@ -1,0 +1,113 @@
+"""The wheel's load case and what solving it gives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import IncrementRecord, InputError
+from reference_fe.contact.obstacle import ContactMethod
+from reference_fe.contact.obstacles import Obstacle, Plane
+from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.solver.newton import NewtonSettings
+
+__all__ = ["HUB_PARTS", "FieldSnapshot", "WheelLoadCase", "WheelResult"]
+
+HUB_PARTS = ("outer_hub", "cone", "impact_springs", "inner_hub")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelLoadCase:
+    """One orientation of the wheel pressed on a plane or another rigid obstacle.
+
+    Attributes
+    ----------
+    orientation_deg : circumferential position that faces the ground [deg]
+    deflections : wanted points of the curve, rise of the obstacle along its ground's normal from first touch [m]
+    maximum_load : the run ends at the first point with at least this load [N]
+    snapshot_loads : loads of the full wheel at which fields are kept [N]
+    rigid_parts : parts held rigid, of those the mesh has; if the inner hub is not among them, its bore is held instead
+    inner_contact : whether springs, rim and hubs hold each other off; else they pass through each other
+    law : stored energy
+    obstacle : what the wheel is pressed on; its s axis points forward, turned by its yaw about the ground's normal
+    camber_deg : angle by which the obstacle is turned about the forward direction [deg]; positive lifts its left side
+    contact_method : penalty or augmented Lagrangian, see `contact.obstacle.ContactMethod`
+    contact_stiffness : penalty stiffness per undeformed area [N/m^3]; None is `contact.facets.local_stiffness`
+    friction : Coulomb coefficient on the obstacle [-]
+    inner_contact_stiffness : the same between the wheel's own parts [N/m^3]
+    contact_ramp : gap at which the contact pressure begins [m], see `contact.law.ramped_pressure`
+    gauss_points : Gauss points along the curved axis and the others of a cell, see `Discretisation`; a planar mesh
+        takes the first two
+    transverse_constraint : planar mesh only, part -> how it is held across the plane, see `plane_state`
+    newton : tolerance and iteration limit
+    """
+
+    orientation_deg: float
+    deflections: tuple[float, ...]
+    maximum_load: float = float("inf")
+    snapshot_loads: tuple[float, ...] = ()
+    rigid_parts: tuple[str, ...] = HUB_PARTS
+    inner_contact: bool = True
+    law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
+    obstacle: Obstacle = field(default_factory=Plane)
+    camber_deg: float = 0.0
+    contact_method: ContactMethod = ContactMethod.PENALTY
+    contact_stiffness: float | None = 1e11
+    friction: float = 0.0
+    inner_contact_stiffness: float = 1e11
+    contact_ramp: float = 5e-6
+    gauss_points: tuple[int, ...] = (2, 3, 3)
+    transverse_constraint: Mapping[str, float] = field(default_factory=dict)
+    newton: NewtonSettings = field(default_factory=NewtonSettings)
+
+    def __post_init__(self) -> None:
+        if not np.isfinite(self.orientation_deg):
+            raise InputError("orientation", f"{self.orientation_deg} deg", "must be finite", "give degrees, e.g. 15")
+        if not abs(self.camber_deg) < 90.0:
+            raise InputError("camber", f"{self.camber_deg} deg", "must lie between -90 and 90 deg", "e.g. 10")
+        if not self.maximum_load > 0.0:
+            raise InputError("maximum load", f"{self.maximum_load:g} N", "must be > 0", "300 N covers the reference")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FieldSnapshot:
+    """Fields at one load.
+
+    Attributes
+    ----------
+    load : load of the full wheel [N]
+    deflection : rise of the plane from first touch [m]
+    displacement : (n_points, dim) at the mesh's nodes [m], wheel frame
+    von_mises : (n_points,) Cauchy von Mises stress averaged at the nodes [Pa]; 0 on rigid parts
+    """
+
+    load: float
+    deflection: float
+    displacement: NDArray[np.float64]
+    von_mises: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelResult:
+    """Curve, increments and fields of one orientation.
+
+    Attributes
+    ----------
+    curve : load of the full wheel against the plane's rise from first touch; columns as in `solve_wheel`
+    increments : every attempted increment, in order
+    snapshots : fields at the chosen loads that were reached
+    dofs : number of displacement unknowns
+    distance_at_touch : distance of hub and plane at first touch [m]
+    wall_s : wall time of the solve [s]
+    """
+
+    curve: StiffnessCurve
+    increments: tuple[IncrementRecord, ...]
+    snapshots: tuple[FieldSnapshot, ...]
+    dofs: int
+    distance_at_touch: float
+    wall_s: float

@@ -1,0 +1,232 @@
+"""The wheel on the ground, solid or as a planar section: hub held, ground raised, load and stress recorded.
+
+A client of `StaticProblem`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import ConvergenceError, IncrementRecord
+from contracts.materials import Material
+from contracts.mesh import TaggedMesh
+from reference_fe.contact.inner import InnerContactTerm
+from reference_fe.contact.obstacle import ObstacleTerm
+from reference_fe.contact.overlap import FaceOverlap
+from reference_fe.contact.patch import ContactPatch, measure_patch
+from reference_fe.material.stored_energy import StoredEnergy
+from reference_fe.material.stress import StressRecovery
+from reference_fe.problem.balance import support_moment
+from reference_fe.solver.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
+from reference_fe.solver.increments import ConvergedState, solve_increments
+from reference_fe.solver.newton import NewtonSolver
+from reference_fe.wheel.case import HUB_PARTS, FieldSnapshot, WheelLoadCase, WheelResult
+from reference_fe.wheel.problem import wheel_problem
+
+__all__ = ["FieldSnapshot", "WheelLoadCase", "WheelResult", "solve_wheel"]
+
+
+def solve_wheel(
+    mesh: TaggedMesh,
+    materials: Mapping[str, Material],
+    load_case: WheelLoadCase,
+    progress: Callable[[float, float], None] | None = None,
+    checkpoint: Path | None = None,
+) -> WheelResult:
+    """Stiffness curve of a wheel at one orientation.
+
+    Parameters
+    ----------
+    mesh : wheel in its frame, solid or planar (the curve's model is then "section"); contact faces ``tire_outer`` and
+        ``grouser_outer``; a face group ``symmetry`` marks a half width, whose loads and areas are doubled in the result
+    materials : part name -> material; parts in ``load_case.rigid_parts`` (by default the hubs and what links them) need
+        none, but if theirs has a thermal strain they expand by it. First touch is that of the expanded wheel
+    progress : called with the deflection reached [m] and the load [N] after each increment
+    checkpoint : file to keep each increment in and, if an earlier run of this very case left it, to go on from; removed
+        at the end
+
+    Returns
+    -------
+    result : the curve's columns are ``contact_length_m`` (extent along the ground), ``contact_area_m2``,
+        ``penetration_m`` (also between the points of contact), ``contact_point_penetration_m``,
+        ``force_imbalance`` (support plus contact force over contact force), ``moment_imbalance`` (support plus contact
+        moment about the hub's centre, over contact force times the distance of hub and plane at first touch),
+        ``relative_residual``, ``newton_iterations``, ``spring_rim_gap_m`` (smallest distance of the springs from the
+        rim's inside; negative is overlap: the contact's penetration, or more without inner contact),
+        ``stored_energy_J`` (elastic energy of the body), ``slip_energy_J`` (stored by elastic slip on a rough
+        obstacle), ``friction_dissipation_J`` (by sliding, so far), ``inner_penetration_m`` (largest at any point of
+        inner contact) and ``max_von_mises_{part}_Pa``
+
+    Raises
+    ------
+    ConvergenceError
+        With the partial `WheelResult` as ``last_good``: its curve is marked partial, and holds first touch alone if no
+        point converged.
+
+    Verified by tests/verification/test_fe_wheel.py.
+    """
+    run = _WheelRun(mesh, materials, load_case)
+    kept = None
+    if checkpoint is not None:
+        key = problem_key(mesh, sorted(materials.items()), load_case)
+        kept = Checkpoint(path=checkpoint, key=key, recorder=run)
+    try:
+        for state in solve_increments(run.solver, load_case.deflections, run.history, checkpoint=kept):
+            load = run.record(state)
+            if progress is not None:
+                progress(state.control, load)
+            if load >= load_case.maximum_load:
+                break
+    except ConvergenceError as error:
+        where = f"orientation {load_case.orientation_deg:g} deg, {run.reach()}: "
+        raise ConvergenceError(where + str(error), error.history, run.result(partial=True)) from error
+    if kept is not None:
+        kept.discard()
+    return run.result(partial=False)
+
+
+class _WheelRun:
+    """Problem, records and fields of one orientation while it is being solved."""
+
+    def __init__(self, mesh: TaggedMesh, materials: Mapping[str, Material], load_case: WheelLoadCase) -> None:
+        self.started, self.load_case = time.perf_counter(), load_case
+        self.wheel = wheel_problem(mesh, materials, load_case)
+        self.mesh, self.problem = self.wheel.mesh, self.wheel.problem
+        self.solver = NewtonSolver(self.problem, load_case.newton)
+        self.stress, self.energy = StressRecovery(self.problem), StoredEnergy(self.problem)
+        springs = tuple(part for part in self.wheel.flexible if part not in ("tire", "grousers", *HUB_PARTS))
+        followed = springs and "tire_inner" in mesh.faces
+        self.overlap = FaceOverlap(self.mesh, springs, "tire_inner") if followed else None
+        self.history: list[IncrementRecord] = []
+        self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
+        self.rows[0] |= self._energies()
+        self.snapshots: list[FieldSnapshot] = []
+
+    @property
+    def _inner_terms(self) -> list[InnerContactTerm]:
+        return [term for term in self.problem.surfaces.terms if isinstance(term, InnerContactTerm)]
+
+    @property
+    def _obstacle_term(self) -> ObstacleTerm:
+        return next(term for term in self.problem.surfaces.terms if isinstance(term, ObstacleTerm))
+
+    def record(self, state: ConvergedState) -> float:
+        """Add one converged state to the curve, with the snapshots passed on the way; returns its load [N]."""
+        load, depth = self._load(state.contact_force), self._obstacle_term.penetration()
+        moment = self._obstacle_term.moment() + support_moment(self.problem, state.outcome.residual)
+        turning = float(np.linalg.norm(moment)) / self.wheel.contact.distance_at_touch
+        for wanted in self.load_case.snapshot_loads:
+            if self.rows[-1]["load_N"] < wanted <= load:
+                self._keep_snapshot(wanted, state.control, load)
+        displacement = self.problem.nodal_displacement()
+        ramp = self.load_case.contact_ramp
+        gap = partial(self.wheel.contact.gap, control=state.control)
+        patch = measure_patch(self.mesh, self.wheel.facets, displacement, gap, self.wheel.tangent, ramp)
+        force = float(np.linalg.norm(state.contact_force))
+        imbalance = float(np.linalg.norm(state.reaction + state.contact_force)) / force if force else 0.0
+        row = self._row(state.control, load, patch)
+        row["force_imbalance"], row["relative_residual"] = imbalance, state.outcome.residuals[-1]
+        row["moment_imbalance"] = turning / force if force else 0.0
+        row["contact_point_penetration_m"] = depth
+        row["newton_iterations"] = float(state.outcome.iterations)
+        if self.overlap is not None:
+            row["spring_rim_gap_m"] = self.overlap.smallest_gap(displacement)
+        row["inner_penetration_m"] = max((t.largest_penetration for t in self._inner_terms), default=0.0)
+        row |= self._energies()
+        row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
+        self.rows.append(row)
+        return load
+
+    def _energies(self) -> dict[str, float]:
+        """Energies of the full wheel at the last accepted state [J]."""
+        dissipated, slip = self._obstacle_term.friction_energy()
+        energies = {"stored_energy_J": self.energy.value(), "slip_energy_J": slip, "friction_dissipation_J": dissipated}
+        return {name: self.wheel.sides * value for name, value in energies.items()}
+
+    def result(self, *, partial: bool) -> WheelResult:
+        """Everything recorded so far."""
+        names, kind = list(self.rows[-1]), "planar" if self.mesh.dim == 2 else "solid"
+        table = {name: np.array([row.get(name, 0.0) for row in self.rows]) for name in names}
+        curve = StiffnessCurve(
+            model="section" if kind == "planar" else "fe",
+            orientation_deg=self.load_case.orientation_deg,
+            deflection=table.pop("deflection_m"),
+            load=table.pop("load_N"),
+            columns=table,
+            source=f"{kind} finite elements, {self.problem.dofs} unknowns, deflection from first touch",
+            partial=partial,
+        )
+        return WheelResult(
+            curve=curve,
+            increments=tuple(self.history),
+            snapshots=tuple(self.snapshots),
+            dofs=self.problem.dofs,
+            distance_at_touch=self.wheel.contact.distance_at_touch,
+            wall_s=time.perf_counter() - self.started,
+        )
+
+    def reach(self) -> str:
+        """How far the curve came, in words."""
+        if len(self.rows) == 1:
+            return "no point of the curve reached"
+        return f"curve reached {self.rows[-1]['deflection_m'] * 1e3:.4g} mm at {self.rows[-1]['load_N']:.4g} N"
+
+    def recorded(self) -> Arrays:
+        """Rows, snapshots and time so far, for a checkpoint."""
+        arrays = {"rows": packed(self.rows), "wall_s": np.array(time.perf_counter() - self.started)}
+        for i, snapshot in enumerate(self.snapshots):
+            arrays |= {f"snapshot{i}/{name}": np.asarray(value) for name, value in asdict(snapshot).items()}
+        return arrays
+
+    def resume(self, arrays: Arrays) -> None:
+        """Take up the rows, snapshots and time of a run that was killed."""
+        self.rows = unpacked(arrays["rows"])
+        self.started -= float(arrays["wall_s"])
+        while part := below(f"snapshot{len(self.snapshots)}", arrays):
+            load, deflection = float(part["load"]), float(part["deflection"])
+            fields = {name: part[name] for name in ("displacement", "von_mises")}
+            self.snapshots.append(FieldSnapshot(load=load, deflection=deflection, **fields))
+
+    def _load(self, contact_force: NDArray[np.float64]) -> float:
+        return float(self.wheel.sides * contact_force @ self.wheel.normal)
+
+    def _row(self, deflection: float, load: float, patch: ContactPatch) -> dict[str, float]:
+        return {
+            "deflection_m": deflection,
+            "load_N": load,
+            "contact_length_m": patch.length,
+            "contact_area_m2": self.wheel.sides * patch.area,
+            "penetration_m": patch.penetration,
+            "contact_point_penetration_m": 0.0,
+            "force_imbalance": 0.0,
+            "moment_imbalance": 0.0,
+            "relative_residual": 0.0,
+            "newton_iterations": 0.0,
+        }
+
+    def _keep_snapshot(self, wanted: float, control: float, load: float) -> None:
+        """Solve at the deflection interpolated for the wanted load, keep the fields, and return to ``control``."""
+        problem, last = self.problem, self.rows[-1]
+        here = problem.state()
+        fraction = (wanted - last["load_N"]) / (load - last["load_N"])
+        deflection = last["deflection_m"] + fraction * (control - last["deflection_m"])
+        problem.set_control(deflection)
+        if self.solver.solve(rise=deflection - control).converged:
+            self.snapshots.append(
+                FieldSnapshot(
+                    load=self._load(problem.contact_force()),
+                    deflection=deflection,
+                    displacement=problem.nodal_displacement(),
+                    von_mises=self.stress.nodal_von_mises(),
+                )
+            )
+        problem.restore(here)
+        problem.set_control(control)
