@@ -35,11 +35,11 @@ class Run:
     Parameters
     ----------
     name : of the benchmark
-    further_versions : of programs that are no Python distributions
+    further_versions : of programs that are no Python distributions; more may be added before the rows are written
     """
 
     def __init__(self, name: str, further_versions: Mapping[str, str] | None = None) -> None:
-        self.name, self._versions = name, dict(further_versions or {})
+        self.name, self.further_versions = name, dict(further_versions or {})
         self._load, self._started = os.getloadavg()[0], datetime.datetime.now(datetime.UTC)
 
     def write(self, rows: Sequence[Mapping[str, object]], *, keep: bool) -> list[Path]:
@@ -61,8 +61,13 @@ class Run:
             "cores": os.cpu_count() or 1,
             "load": round(self._load, 2),
             "system": f"{platform.system()} {platform.machine()}, Python {platform.python_version()}",
-            "versions": {n: v for n, v in library_versions(LIBRARIES).items() if v != "missing"} | self._versions,
+            "versions": _present(LIBRARIES) | self.further_versions,
         }
+
+
+def _present(names: Sequence[str]) -> dict[str, str]:
+    """Versions of those libraries that are installed."""
+    return {name: version for name, version in library_versions(names).items() if version != "missing"}
 
 
 def _processor() -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import json
 import re
@@ -18,6 +17,7 @@ from contracts.curves import read_curve
 from contracts.series import read_series
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from tests.end_to_end.small_study import run, small_study_text
+from workbench.figures.packing import unpacked
 
 TASKS = {
     *("mesh", "mesh_whole", "fe_phi000"),
@@ -105,9 +105,9 @@ def test_time_series_are_csv_and_linked(first_report: Finished, workspace: Path)
         series = read_series(path, scenario, "ancf")
         assert np.all(np.diff(series.time) > 0.0)
         assert series.partial == (scenario == "wheel_drop_share"), "the tire folds under the rover's share"
-        link = re.search(rf'href="data:text/csv;base64,([^"]+)" download="{path.name}"', section)
+        link = re.search(rf'href="data:application/gzip;base64,([^"]+)" download="{path.name}.gz"', section)
         assert link, path.name
-        assert base64.b64decode(link[1]).decode("utf-8") == text
+        assert unpacked(link[1]).decode("utf-8") == text
 
 
 def test_the_rover_has_its_section_and_its_series(first_report: Finished, workspace: Path) -> None:
@@ -116,9 +116,9 @@ def test_the_rover_has_its_section_and_its_series(first_report: Finished, worksp
     for name in SCENARIOS:
         path = workspace / "report" / "series" / f"{name}_brush.csv"
         assert not read_series(path, name, "brush").partial
-        link = re.search(rf'href="data:text/csv;base64,([^"]+)" download="{path.name}"', section)
+        link = re.search(rf'href="data:application/gzip;base64,([^"]+)" download="{path.name}.gz"', section)
         assert link, name
-        assert base64.b64decode(link[1]).decode("utf-8") == path.read_text(encoding="utf-8")
+        assert unpacked(link[1]).decode("utf-8") == path.read_text(encoding="utf-8")
     for text in ("Figs 18, 19", "Fig. 25", "not met", "197.92"):
         assert text in section
 
@@ -153,9 +153,9 @@ def test_every_check_shows_its_evidence_and_every_link_leads_somewhere(first_rep
         assert all(f"{key[:12]}" in section for key in check["tasks"].values()), check["id"]
     assert any(check["files"] for check in checks)
     curve = workspace / "report" / "curves" / "fe_average.csv"
-    link = re.search(r'id="curves/fe_average.csv" href="data:text/csv;base64,([^"]+)"', section)
+    link = re.search(r'id="curves/fe_average.csv" href="data:application/gzip;base64,([^"]+)"', section)
     assert link
-    assert base64.b64decode(link[1]) == curve.read_bytes()
+    assert unpacked(link[1]) == curve.read_bytes()
 
 
 def test_a_second_run_reuses_everything_and_a_strict_study_exits_1(first_report: Finished, workspace: Path) -> None:

@@ -1,12 +1,14 @@
 """The report in a real browser, as a reader has it: everything drawn, nothing complained of, on any width.
 
 Claim: the page of the small study opens from disk without an error on its console, draws each figure and scene when
-the reader comes to it, turns its scenes under the mouse, keeps to the width of a phone, and prints whole. Control: a
-page whose figure is damaged is caught by the same reading of the console.
+the reader comes to it, turns its scenes under the mouse and by finger, keeps to the width of a phone, gives its files
+and prints whole. As large as the shipped study's page, it shows verdict and first figure within 3 s. Controls: a page
+whose figure is damaged is caught by the same reading of the console; a free scene keeps the swipe that else scrolls.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -17,11 +19,18 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
+from workbench.checks.benchmark_record import DATA
+
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 pytestmark = pytest.mark.skipif(CHROMIUM is None and os.environ.get("CI") != "true", reason="no Chromium on PATH")
 
-SHOWN_S = 10.0
-"""First figure at the latest, of a machine that has a core to spare."""
+SHOWN_S = 3.0
+"""Verdict and first figure at the latest (issue 7)."""
+LOADS = 4
+"""The page is opened so often; the fastest counts, since what else the machine does slows any of them."""
+FIRST_SCREEN = """Math.max(performance.getEntriesByName("first-contentful-paint")[0].startTime,
+                           performance.getEntriesByName("first-figure")[0].startTime)"""
+EYE = "JSON.stringify(document.querySelector('#scene-parts .view')._fullLayout.scene._scene.getCamera().eye)"
 type Finished = subprocess.CompletedProcess[str]
 
 
@@ -36,7 +45,11 @@ def browser() -> Iterator[Browser]:
 
 def opened(browser: Browser, path: Path, width: int = 1440, height: int = 900) -> tuple[Page, list[str]]:
     """The page with its first figure drawn, and a list that takes every error."""
-    page = browser.new_page(viewport={"width": width, "height": height})
+    return opened_in(browser.new_page(viewport={"width": width, "height": height}), path)
+
+
+def opened_in(page: Page, path: Path) -> tuple[Page, list[str]]:
+    """The same in a page made already."""
     errors: list[str] = []
     page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
     page.on("pageerror", lambda error: errors.append(str(error)))
@@ -53,15 +66,59 @@ def wide(browser: Browser, first_report: Finished, workspace: Path) -> tuple[Pag
     return opened(browser, workspace / "report" / "report.html")
 
 
+@pytest.fixture(scope="module")
+def phone(browser: Browser, first_report: Finished, workspace: Path) -> Iterator[tuple[Page, list[str]]]:
+    screen = {"width": 390, "height": 844}
+    context = browser.new_context(viewport=screen, has_touch=True, is_mobile=True)  # type: ignore[arg-type]
+    yield opened_in(context.new_page(), workspace / "report" / "report.html")
+    context.close()
+
+
 def test_the_verdict_is_first_and_soon_there(wide: tuple[Page, list[str]]) -> None:
     page, errors = wide
-    shown = page.evaluate("performance.getEntriesByName('first-figure')[0].startTime")
-    assert shown < 1e3 * SHOWN_S or os.getloadavg()[0] > (os.cpu_count() or 1)
     for words in ("gates passed", "Who agrees with the continuum?", "Does the continuum meet the reference?"):
         box = page.locator("#verdict").get_by_text(words).first.bounding_box()
         assert box, words
         assert box["y"] < 900, words
     assert page.locator("nav.contents a.here").inner_text() == "Verdict"
+    assert errors == []
+
+
+def test_a_page_of_full_size_shows_its_first_screen_in_time(
+    browser: Browser, first_report: Finished, workspace: Path
+) -> None:
+    """Sections repeated until the page is as large as the shipped study's, by the browser's own marks."""
+    text = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    start, end = text.index('<div class="part">'), text.index("</main>")
+    size = full_size()
+    repeats = 1 + -(-(size - len(text)) // (end - start))
+    (workspace / "full_size.html").write_text(text[:start] + repeats * text[start:end] + text[end:], encoding="utf-8")
+    shown = []
+    for _ in range(LOADS):
+        page, errors = opened(browser, workspace / "full_size.html")
+        shown.append(page.evaluate(FIRST_SCREEN))
+        assert errors == []
+        page.close()
+        if shown[-1] < 1e3 * SHOWN_S:
+            break
+    assert (workspace / "full_size.html").stat().st_size >= size
+    assert min(shown) < 1e3 * SHOWN_S, f"shown after {shown} ms"
+
+
+def full_size() -> int:
+    """Bytes of the shipped study's page, as last measured by ``make bench NAME=report_page``."""
+    rows = json.loads((DATA / "report_page.json").read_text(encoding="utf-8"))["rows"]
+    return int(next(row["ours"] for row in rows if row["metric"] == "size of the page"))
+
+
+def test_a_link_saves_the_file_of_the_folder(wide: tuple[Page, list[str]], tmp_path: Path, workspace: Path) -> None:
+    page, errors = wide
+    link = page.locator("a[href^='data:application/gzip']").first
+    with page.expect_download() as waiting:
+        link.click()
+    name = waiting.value.suggested_filename
+    waiting.value.save_as(tmp_path / name)
+    assert (tmp_path / name).read_bytes() == (workspace / "report" / "series" / name).read_bytes()
     assert errors == []
 
 
@@ -146,6 +203,66 @@ def test_a_phone_scrolls_down_only(browser: Browser, first_report: Finished, wor
     assert page.evaluate("document.documentElement.scrollWidth") == 390
     assert errors == []
     page.close()
+
+
+def test_wide_tables_scroll_in_their_own_frame(phone: tuple[Page, list[str]]) -> None:
+    page, _ = phone
+    page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
+    out = page.evaluate("""[...document.querySelectorAll('main table')].filter((t) => t.scrollWidth > 358
+        && !t.closest('.scroll')).map((t) => t.closest('section').id)""")
+    assert out == []
+    wider = page.evaluate("[...document.querySelectorAll('.scroll')].map((f) => f.scrollWidth - f.clientWidth)")
+    assert sum(more > 0 for more in wider) > 5
+
+
+@pytest.mark.parametrize("place", ["#scene-parts .stage", "#fe-curves"])
+def test_a_swipe_over_a_figure_scrolls_the_page(phone: tuple[Page, list[str]], place: str) -> None:
+    page, errors = phone
+    x, y = middle(page, place)
+    before = page.evaluate("scrollY")
+    swipe(page, (x, y + 100), (x, y - 150))
+    page.wait_for_function(f"scrollY > {before} + 100")
+    assert errors == []
+
+
+def test_a_finger_turns_a_scene_sideways_and_freely_after_a_tap(phone: tuple[Page, list[str]]) -> None:
+    page, errors = phone
+    x, y = middle(page, "#scene-parts .stage")
+    before, eye = page.evaluate("scrollY"), page.evaluate(EYE)
+    swipe(page, (x - 60, y), (x + 60, y))
+    page.wait_for_function(f"({EYE}) !== {eye!r}")
+    turned = page.evaluate(EYE)
+    assert json.loads(turned)["z"] == pytest.approx(json.loads(eye)["z"])
+    page.touchscreen.tap(x, y)
+    page.wait_for_selector("#scene-parts .stage.free")
+    swipe(page, (x, y + 80), (x, y - 80))
+    page.wait_for_function(f"({EYE}) !== {turned!r}")
+    assert json.loads(page.evaluate(EYE))["z"] != pytest.approx(json.loads(eye)["z"])
+    assert page.evaluate("scrollY") == before
+    page.touchscreen.tap(x, max(y - 260, 60))
+    assert page.locator(".stage.free").count() == 0
+    assert errors == []
+
+
+def middle(page: Page, place: str) -> tuple[float, float]:
+    """Of a figure, brought to the middle of the screen and drawn."""
+    page.evaluate(f"document.querySelector('{place}').scrollIntoView({{ block: 'center', behavior: 'instant' }})")
+    page.wait_for_selector(f"{place.split()[0]}[data-drawn='1']", state="attached")
+    page.evaluate(f"document.querySelector('{place}').scrollIntoView({{ block: 'center', behavior: 'instant' }})")
+    box = page.locator(place).bounding_box()
+    assert box
+    return box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
+
+
+def swipe(page: Page, start: tuple[float, float], end: tuple[float, float], steps: int = 12) -> None:
+    """One finger from here to there, as the browser gets it from a screen."""
+    screen = page.context.new_cdp_session(page)
+    for k in range(steps + 1):
+        x, y = (a + (b - a) * k / steps for a, b in zip(start, end, strict=True))
+        kind = "touchMove" if k else "touchStart"
+        screen.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y}]})
+    screen.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    screen.detach()
 
 
 def test_control_a_damaged_figure_is_noticed(browser: Browser, first_report: Finished, workspace: Path) -> None:

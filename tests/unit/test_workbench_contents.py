@@ -95,6 +95,7 @@ def test_scripts_and_styles_are_there() -> None:
     """What the page includes lies beside its templates, so that it is installed with them."""
     folder = Path(__file__).parents[2] / "workbench" / "report" / "templates"
     text = (folder / "report.html.j2").read_text(encoding="utf-8")
-    for name in ("style.css.j2", "print.css.j2", "unpack.js", "scenes.js", "legend.js", "page.js"):
+    styles, scripts = ("style.css.j2", "print.css.j2"), ("unpack", "scenes", "legend", "touch", "figures", "page")
+    for name in (*styles, *(f"{script}.js" for script in scripts)):
         assert f'include "{name}"' in text
         assert (folder / name).stat().st_size > 200

@@ -15,6 +15,7 @@ PAGE = """
 <script type="application/json" data-for="f">{"data": [], "layout": {}}</script></div>
 <figure><img src="data:,"></figure></div>
 <div class="scene" id="s"><div class="controls"></div><img src="data:x"></div><script type="text/plain">H4sI</script>
+<p>Seen. <span class="screen">no: drag <b>it</b>.</span></p><div class="screen"><h3>no</h3><br></div>
 <iframe srcdoc="<p>no</p>"></iframe><svg><text>no</text></svg>
 <table><thead><tr><th>A</th></tr></thead><tbody><tr><td class="n" colspan="2">1</td></tr></tbody></table>
 <span class="chip finding fail">△ outside</span></section>"""
@@ -33,6 +34,7 @@ def test_words_are_kept_and_what_moves_is_not() -> None:
     tree = read_html(PAGE)
     assert "Some bold words." in _words(tree.nodes)
     assert "Title & more" in _words(tree.nodes)
+    assert "Seen. " in _words(tree.nodes)
     assert "no" not in _words(tree.nodes).replace("not", "")
     assert "H4sI" not in _words(tree.nodes)
     assert tree.figures == {"f": {"data": [], "layout": {}}}

@@ -60,7 +60,7 @@ def test_every_check_leads_to_a_task_a_section_and_its_files() -> None:
     assert found["rover.drop"].files == ("series/drop_brush.csv",)
     assert found["fe.balance"].files == ("curves/fe_phi000.csv",)
     assert (found["fe.balance"].section, found["mesh.mass"].section, found["rover.drop"].section) == (
-        "fe",
         "numerics",
+        "wheel",
         "rover",
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -14,7 +15,7 @@ from contracts.errors import InputError
 from contracts.records import Check, Timing
 from contracts.series import TimeSeries
 from workbench.report.evidence import Evidence
-from workbench.report.number_format import displayed, displayed_reference
+from workbench.report.number_format import displayed, displayed_reference, largest_by_unit, power_of_ten
 from workbench.report.opening import verdict
 from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
 
@@ -196,3 +197,28 @@ def test_numbers_as_a_reader_wants_them(value: float | None, unit: str, quantity
 
 def test_reference_interval() -> None:
     assert displayed_reference(_check("a")) == "0.001 … 0.002 N/mm"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Torque:
+    value: float
+    unit: str
+
+
+def test_round_off_is_no_number_beside_the_values_of_its_table() -> None:
+    """A torque of 4.5e-14 N m among some of 30 N m; alone, or above round-off, it is shown as it is."""
+    scales = largest_by_unit([_Torque(value=v, unit="N m") for v in (-30.0, 4.5e-14)] + [_Torque(value=2.0, unit="m")])
+    assert scales == {"N m": 30.0, "m": 2.0}
+    assert displayed(4.5e-14, "N m", scale=scales["N m"]) == "≈ 0 N m"
+    assert displayed(-1e-10, "m", scale=scales["m"]) == "≈ 0 mm"
+    assert displayed(4.5e-14, "N m") == "4.50·10⁻¹⁴ N m"
+    assert displayed(1e-7, "N m", scale=scales["N m"]) == "1.00·10⁻⁷ N m"
+    assert displayed(0.0, "N m", scale=scales["N m"]) == "0 N m"
+
+
+def test_powers_of_ten_are_written_as_such() -> None:
+    assert [power_of_ten(2.9e-3, 2), power_of_ten(1e-4, 1), power_of_ten(-5.26e12)] == [
+        "2.9·10⁻³",
+        "10⁻⁴",
+        "-5.26·10¹²",
+    ]

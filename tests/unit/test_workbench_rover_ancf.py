@@ -6,11 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import jinja2
 import numpy as np
 import pytest
 
-import workbench.report.page
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
@@ -19,7 +17,7 @@ from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.comparison.rover_ancf_results import AncfRover, Drive, read_drive
 from workbench.execution.result_files import read_result
-from workbench.report.number_format import displayed
+from workbench.report.page import page_environment
 from workbench.report.series import series_links
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
@@ -155,9 +153,7 @@ def test_another_period_or_load_fails_the_gates(study: Study, results: AncfRover
 
 
 def test_the_section_shows_both_tires_and_what_stopped(study: Study, results: AncfRover) -> None:
-    loader = jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates")
-    environment = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, autoescape=True)
-    environment.filters["number"] = displayed
+    environment = page_environment()
     series, figures = series_links(ROVER_ANCF.series(study, results)), ROVER_ANCF.figures(study, results)
     template = environment.get_template("section_rover_ancf.html.j2")
     text = template.render(topic=results, series=series, figures=figures)
@@ -167,7 +163,7 @@ def test_the_section_shows_both_tires_and_what_stopped(study: Study, results: An
     )
     for words in (
         "takes 30 W, 60 %",
-        "1.0e-04",
+        "1.0·10⁻⁴",
         FOLDED,
         "a tire folds at t = -4.5 s",
         "report --full",
@@ -176,5 +172,5 @@ def test_the_section_shows_both_tires_and_what_stopped(study: Study, results: An
         "met</td>",
     ):
         assert words in text, words
-    assert 'download="straight_ancf.csv"' in text
+    assert 'download="straight_ancf.csv.gz"' in text
     assert "slope_up_ancf.csv" not in text

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import jinja2
 import numpy as np
 import pytest
 
-import workbench.report.page
 from ancf_reduced.tire.preset import thesis_preset
 from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.comparison.rover_ancf_results import Drive
 from workbench.execution.result_files import FAILURE, read_result, write_result
+from workbench.report.page import page_environment
 from workbench.report.series import series_links
 from workbench.study.reading import built_in_study, read_study
 from workbench.tasks.rover_ancf import drive_on_fitted_tires
@@ -78,12 +77,11 @@ def test_what_is_met_and_what_is_not(mission: Mission) -> None:
 
 
 def test_the_section_draws_each_run_and_says_where_it_ends(mission: Mission) -> None:
-    loader = jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates")
-    environment = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, autoescape=True)
+    environment = page_environment()
     figures, series = ROVER_MISSION.figures(STUDY, mission), series_links(list(ROVER_MISSION.series(STUDY, mission)))
     assert set(figures) == {f"mission_{n}_{what}" for n in ("slope_up", "step") for what in ("load", "place")}
     text = environment.get_template("section_rover_mission.html.j2").render(
         topic=mission, figures=figures, series=series
     )
-    for words in ("a tire folds at t = 20.3 s", "met</td><td>met", 'download="step_fitted_ancf.csv"', "not met"):
+    for words in ("a tire folds at t = 20.3 s", "met</td><td>met", 'download="step_fitted_ancf.csv.gz"', "not met"):
         assert words in text, words

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import base64
-
 import numpy as np
 import pytest
 
 from contracts.errors import InputError
 from contracts.series import TimeSeries, series_text
+from workbench.figures.packing import unpacked
 from workbench.report.series import is_ours, series_file, series_files, series_links
 
 
@@ -36,5 +35,5 @@ def test_two_of_one_name_are_refused() -> None:
 def test_a_link_holds_the_whole_file() -> None:
     series = _series("drop", "ancf")
     kind, _, text = series_links([series])["drop_ancf.csv"].partition("base64,")
-    assert kind == "data:text/csv;"
-    assert base64.b64decode(text).decode("utf-8") == series_text(series)
+    assert kind == "data:application/gzip;"
+    assert unpacked(text).decode("utf-8") == series_text(series)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from PIL import Image
 
-__all__ = ["packed", "picture_link", "quantised", "unpacked"]
+__all__ = ["file_link", "packed", "picture_link", "quantised", "unpacked"]
 
 _STEPS = 65535
 _QUALITY = 82
@@ -29,6 +29,11 @@ def packed(data: bytes | str) -> str:
 def unpacked(text: str) -> bytes:
     """What was given to `packed`."""
     return gzip.decompress(base64.b64decode(text))
+
+
+def file_link(content: bytes | str) -> str:
+    """A file as a ``data:`` link to its gzip; a click in the page unpacks it, without scripts the gzip is saved."""
+    return f"data:application/gzip;base64,{packed(content)}"
 
 
 def quantised(values: ArrayLike) -> dict[str, object]:

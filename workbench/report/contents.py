@@ -9,8 +9,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from contracts.records import Check
+from workbench.study.model import Study
+from workbench.topics.registry import topics_of
 
-__all__ = ["Group", "Section", "contents", "section_of"]
+__all__ = ["Group", "Section", "contents", "section_of", "section_titles"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +46,16 @@ _GROUPS: Mapping[str, Sequence[str]] = {
 }
 """Group -> names of its sections; a section named nowhere stands in the last one."""
 
+_FIRST = {"models": "Models compared", "wheel": "Wheel", "fe": "Finite elements", "ancf": "ANCF"}
+_REST = {
+    "numerics": "Mesh and solver",
+    "checks": "All checks",
+    "evidence": "Evidence",
+    "chosen": "Chosen and inferred",
+    "origin": "Timings, provenance",
+    "reading": "How to read this",
+}
+
 _SECTIONS = {
     "fe.mesh_uncertainty": "mesh_study",
     "fe.penalty_study": "contact",
@@ -68,6 +80,11 @@ _SECTIONS = {
     "verify": "verification",
 }
 """Whole id of a check, or what stands before its first point -> section, where that is not the section's name."""
+
+
+def section_titles(study: Study) -> dict[str, str]:
+    """Section -> its title in the contents, of every section a study's report has."""
+    return _FIRST | {topic.name: topic.title for topic in topics_of(study)} | _REST
 
 
 def contents(titles: Mapping[str, str]) -> list[Group]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from contracts.curves import StiffnessCurve, write_curve
+from workbench.figures.packing import file_link
 from workbench.report.outputs import curve_file
 
 __all__ = ["curve_links"]
@@ -20,5 +20,5 @@ def curve_links(curves: Sequence[StiffnessCurve]) -> dict[str, str]:
         for curve in curves:
             path = Path(folder) / curve_file(curve)
             write_curve(curve, path)
-            links[f"curves/{path.name}"] = f"data:text/csv;base64,{base64.b64encode(path.read_bytes()).decode('ascii')}"
+            links[f"curves/{path.name}"] = file_link(path.read_bytes())
     return links

@@ -60,7 +60,10 @@ class Tree:
 
 
 def read_html(text: str) -> Tree:
-    """Read a piece of the page; scripts with numbers become figures, what only a screen needs is dropped."""
+    """Read a piece of the page; scripts with numbers become figures, what only a screen needs is dropped.
+
+    That is, by tag or by the class ``screen``, what is done with a pointer.
+    """
     reader = _Reader()
     reader.feed(text)
     reader.close()
@@ -79,7 +82,7 @@ class _Reader(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         given = {name: value or "" for name, value in attrs}
-        if self.dropped or tag in _DROPPED:
+        if self.dropped or tag in _DROPPED or "screen" in given.get("class", "").split():
             self.dropped += tag not in _VOID
             return
         if tag == "script":

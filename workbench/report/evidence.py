@@ -13,13 +13,11 @@ from fnmatch import fnmatchcase
 from contracts.records import Check
 from workbench.checks.statements import Statement, statement_of
 from workbench.comparison.comparison import Comparison
+from workbench.report.contents import section_of, section_titles
 from workbench.study.model import Study
 from workbench.topics.registry import topics_of
 
 __all__ = ["Evidence", "evidence_of"]
-
-_SECTIONS = {"mesh": "numerics", "fe": "fe", "ancf": "ancf"}
-"""First part of the identifier of a check that no topic made -> section of the page; the models' section else."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,7 +27,7 @@ class Evidence:
     Attributes
     ----------
     check : the check
-    section : section of the page that shows it
+    section : section of the page that shows it, as `workbench.report.contents.section_of` says
     tasks : task -> key under which its result is stored: the hash of everything it depends on
     files : curves and series in the report's folder, e.g. ``"curves/fe_phi000.csv"``
     """
@@ -51,18 +49,21 @@ def evidence_of(study: Study, found: Comparison, keys: Mapping[str, str], files:
     files : what the report publishes
     """
     own = {topic.name: [task.name for task in topic.tasks(study)] for topic in topics_of(study)}
-    return tuple(_evidence(check, found.topic_of.get(check.id, ""), own, keys, files) for check in found.checks)
+    titles = section_titles(study)
+    return tuple(
+        _evidence(check, section_of(check, titles), own.get(found.topic_of.get(check.id, ""), ()), keys, files)
+        for check in found.checks
+    )
 
 
 def _evidence(
-    check: Check, topic: str, own: Mapping[str, Sequence[str]], keys: Mapping[str, str], files: Sequence[str]
+    check: Check, section: str, own: Sequence[str], keys: Mapping[str, str], files: Sequence[str]
 ) -> Evidence:
     words = statement_of(check.id, check.quantity, check.title)
-    tasks = _tasks(check.id, words, own.get(topic, ()), keys)
     return Evidence(
         check=check,
-        section=topic or _SECTIONS.get(check.id.split(".")[0], "models"),
-        tasks={name: keys[name] for name in tasks},
+        section=section,
+        tasks={name: keys[name] for name in _tasks(check.id, words, own, keys)},
         files=tuple(name for name in files if any(fnmatchcase(name, pattern) for pattern in words.files)),
     )
 

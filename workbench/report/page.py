@@ -21,16 +21,16 @@ from workbench.figures.interactive import plotly_source
 from workbench.figures.packing import packed
 from workbench.figures.palette import PART_COLOURS
 from workbench.report.chosen import chosen_groups
-from workbench.report.contents import Section, contents
+from workbench.report.contents import Section, contents, section_titles
 from workbench.report.evidence import Evidence
-from workbench.report.number_format import displayed, displayed_reference
+from workbench.report.number_format import displayed, displayed_reference, largest_by_unit, power_of_ten
 from workbench.report.opening import check_groups, opening
 from workbench.report.page_figures import page_figures
 from workbench.report.series import series_links
 from workbench.study.model import Study
 from workbench.topics.registry import topics_of
 
-__all__ = ["PageContent", "Rendered", "render", "rendered_sections"]
+__all__ = ["PageContent", "Rendered", "page_environment", "render", "rendered_sections"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,15 +59,23 @@ class PageContent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rendered:
-    """The sections as HTML by name, and the values templates are filled with; the page and the PDF are made of them."""
+    """What the page and the PDF are made of.
+
+    Attributes
+    ----------
+    sections : HTML by name
+    printed : sections that paper has instead of some of the page's, by name; empty where it has none
+    values : what templates are filled with
+    """
 
     sections: Mapping[str, str]
+    printed: Mapping[str, str]
     values: Mapping[str, Any]
 
 
 def rendered_sections(content: PageContent) -> Rendered:
     """Fill in every section's template."""
-    found, study, titles = content.found, content.study, _titles(content.study)
+    found, study, titles = content.found, content.study, section_titles(content.study)
     figures, lacking = page_figures(study, found, content.results, partial=bool(content.provenance["partial"]))
     values: dict[str, Any] = {
         "groups": contents(titles),
@@ -88,19 +96,21 @@ def rendered_sections(content: PageContent) -> Rendered:
         "series": series_links([s for t in topics_of(study) for s in t.series(study, found.topics[t.name])]),
         "colours": PART_COLOURS,
     }
-    environment = _environment()
+    environment = page_environment()
     sections = [section for group in values["groups"] for section in group.sections]
     texts = {section.name: _section_text(environment, section, values, lacking) for section in sections}
-    return Rendered(sections=texts, values=values)
+    printed = {"checks": "", "evidence": environment.get_template("printed_evidence.html.j2").render(values)}
+    return Rendered(sections=texts, printed=printed, values=values)
 
 
 def render(rendered: Rendered) -> str:
     """The page as text: figures, pictures and scripts inside, nothing loaded from elsewhere."""
-    template = _environment().get_template("report.html.j2")
+    template = page_environment().get_template("report.html.j2")
     return template.render(rendered.values, texts=rendered.sections, plotly=packed(plotly_source()))
 
 
-def _environment() -> jinja2.Environment:
+def page_environment() -> jinja2.Environment:
+    """The templates of the page with their filters."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
         autoescape=True,
@@ -109,6 +119,8 @@ def _environment() -> jinja2.Environment:
         lstrip_blocks=True,
     )
     environment.filters["number"] = displayed
+    environment.filters["power"] = power_of_ten
+    environment.filters["largest_by_unit"] = largest_by_unit
     environment.filters["reference"] = displayed_reference
     return environment
 
@@ -127,22 +139,6 @@ def _section_text(
             raise
         why = f"Not evaluated, because a curve is partial: {error}"
         return f'<section id="{section.name}"><h2>{section.title}</h2><p>{html.escape(why)}</p></section>'
-
-
-_FIRST = {"models": "Models compared", "wheel": "Wheel", "fe": "Finite elements", "ancf": "ANCF"}
-_LAST = {
-    "numerics": "Mesh and solver",
-    "checks": "All checks",
-    "evidence": "Evidence",
-    "chosen": "Chosen and inferred",
-    "origin": "Timings, provenance",
-    "reading": "How to read this",
-}
-
-
-def _titles(study: Study) -> dict[str, str]:
-    """Section -> its title in the contents."""
-    return _FIRST | {topic.name: topic.title for topic in topics_of(study)} | _LAST
 
 
 def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import base64
 import io
 import json
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,18 +24,16 @@ from workbench.report.number_format import displayed, displayed_reference
 from workbench.report.opening import Opening
 from workbench.report.page import Rendered
 
-__all__ = ["document_pdf", "with_pictures"]
+__all__ = ["document_pdf", "set_document", "with_pictures"]
 
 _TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
-_LEFT_OUT = ("evidence",)
-"""Sections that only make sense where they can be unfolded."""
 _LEAD = "model-curves"
 
 
 def document_pdf(rendered: Rendered) -> bytes:
     """The document; every figure as vectors, every scene as its still."""
     values = rendered.values
-    trees = {name: read_html(text) for name, text in rendered.sections.items() if name not in _LEFT_OUT}
+    trees = {name: read_html(text) for name, text in {**rendered.sections, **rendered.printed}.items()}
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
         lead = read_html(values["figures"]["models"])
@@ -51,12 +50,17 @@ def document_pdf(rendered: Rendered) -> bytes:
             "lead": "lead.svg",
             "groups": groups,
         }
-        (folder / "document.json").write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
-        (folder / "report.typ").write_text(_TEMPLATE.read_text(encoding="utf-8"), encoding="utf-8")
-        fonts = [str(font_folder())]
-        made_pdf = typst.compile(str(folder / "report.typ"), root=made, font_paths=fonts, ignore_system_fonts=True)
-        assert isinstance(made_pdf, bytes)
-        return made_pdf
+        return set_document(content, folder)
+
+
+def set_document(content: Mapping[str, Any], folder: Path) -> bytes:
+    """What `content` holds, set by the template; ``folder`` has the files of its figures and pictures."""
+    (folder / "document.json").write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
+    (folder / "report.typ").write_text(_TEMPLATE.read_text(encoding="utf-8"), encoding="utf-8")
+    fonts = [str(font_folder())]
+    made = typst.compile(str(folder / "report.typ"), root=str(folder), font_paths=fonts, ignore_system_fonts=True)
+    assert isinstance(made, bytes)
+    return made
 
 
 def with_pictures(tree: Tree, folder: Path) -> list[Node]:

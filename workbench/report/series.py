@@ -5,11 +5,11 @@ Verified by tests/unit/test_workbench_series.py.
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Sequence
 
 from contracts.errors import InputError
 from contracts.series import TimeSeries, series_text
+from workbench.figures.packing import file_link
 
 __all__ = ["MOTIONS_FOLDER", "SERIES_FOLDER", "is_ours", "series_file", "series_files", "series_links"]
 
@@ -41,5 +41,4 @@ def is_ours(name: str) -> bool:
 
 def series_links(found: Sequence[TimeSeries]) -> dict[str, str]:
     """File name -> a ``data:`` link with the file's whole text, so that the page needs no other file."""
-    texts = {name: series_text(series) for name, series in series_files(found).items()}
-    return {n: "data:text/csv;base64," + base64.b64encode(t.encode()).decode("ascii") for n, t in texts.items()}
+    return {name: file_link(series_text(series)) for name, series in series_files(found).items()}

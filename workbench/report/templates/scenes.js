@@ -110,5 +110,6 @@ async function drawScene(box) {
         intensity: [shape.intensity, undefined] }, [0, 1]);
     });
   }
+  fingersOn(stage, view);
   box.dataset.drawn = "1";
 }

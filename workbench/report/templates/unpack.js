@@ -1,6 +1,10 @@
 "use strict";
 // Packed parts of the page: gzip in base64, unpacked by the browser itself.
-const byteString = (text) => Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
+function byteString(text) {
+  const raw = atob(text.trim()), bytes = new Uint8Array(raw.length);
+  for (let k = 0; k < raw.length; k++) bytes[k] = raw.charCodeAt(k);
+  return bytes;
+}
 async function unpack(text) {
   const stream = new Blob([byteString(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).text();
@@ -19,4 +23,15 @@ function withPlotly() {
 const frame = () => new Promise((done) => {
   requestAnimationFrame(() => done());
   setTimeout(done, 100);
+});
+// Files in the page: a click saves the CSV; without scripts the link saves its gzip.
+document.addEventListener("click", async (event) => {
+  const link = event.target.closest?.('a[href^="data:application/gzip"]');
+  if (!link || !event.isTrusted) return;
+  event.preventDefault();
+  const saved = document.createElement("a");
+  saved.href = URL.createObjectURL(new Blob([await unpack(link.href.split(",")[1])], { type: "text/csv" }));
+  saved.download = link.download.replace(/[.]gz$/, "");
+  saved.click();
+  setTimeout(() => URL.revokeObjectURL(saved.href), 1e4);
 });
