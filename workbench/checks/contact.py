@@ -27,7 +27,7 @@ def penalty_check(loads: Callable[[], Mapping[str, float]], where: str) -> Check
         quantity="change of load",
         unit="-",
         role="gate",
-        source="project's own requirement",
+        source="augmented Lagrangian, Simo & Laursen 1992, Comput. Struct. 42, 97-116; the limit is ours",
     )
     return at_most(claim, lambda: largest_change(loads()), _LIMIT)
 
@@ -40,6 +40,6 @@ def penetration_check(depth: Callable[[], float], where: str) -> Check:
         quantity="penetration",
         unit="m",
         role="gate",
-        source="project's own requirement",
+        source="Signorini's condition (Wriggers 2006): no point below the ground; the limit is ours",
     )
     return at_most(claim, depth, _DEEPEST)

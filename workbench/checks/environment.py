@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_environment.py.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -134,10 +135,10 @@ def environment_checks(study: Study, found: object, results: tuple[Series, ...])
 
 def _similarity(series: Series, runs: list[EnvironmentRun]) -> Check:
     claim = _claim(
-        "environment.similarity",
-        "FE at other temperatures: largest distance from the similar wheel, over load",
+        "similarity",
+        "FE at other temperatures, {where}: largest distance from the similar wheel, over load",
         series,
-        "the project's own theory: one metal everywhere makes a similar wheel of another modulus",
+        "similarity of elastic bodies, docs/theory.md 2.6: one metal everywhere, another modulus; the limit is ours",
     )
     gate = Claim(id=claim.id, title=claim.title, quantity="difference", unit="-", role="gate", source=claim.source)
     return at_most(gate, lambda: max(series.similarity_error(run) for run in runs), _SIMILARITY)
@@ -146,8 +147,8 @@ def _similarity(series: Series, runs: list[EnvironmentRun]) -> Check:
 def _ratio(series: Series, run: EnvironmentRun) -> Check:
     assert run.modulus_ratio is not None
     claim = _claim(
-        f"environment.stiffness_{_celsius(run)}",
-        f"FE at {_celsius(run)}: mean load over that at 20 C, against what the modulus alone gives",
+        f"stiffness_{_celsius(run)}",
+        f"FE at {_celsius(run)}, {{where}}: mean load over that at 20 C, against what the modulus alone gives",
         series,
         "data of the metal against temperature, docs/theory.md 2.6",
     )
@@ -156,8 +157,8 @@ def _ratio(series: Series, run: EnvironmentRun) -> Check:
 
 def _yield(series: Series, run: EnvironmentRun) -> Check:
     claim = _claim(
-        f"environment.first_yield_{_celsius(run)}",
-        f"FE at {_celsius(run)}: load at which a part begins to yield (or where the curve ends)",
+        f"first_yield_{_celsius(run)}",
+        f"FE at {_celsius(run)}, {{where}}: load at which a part begins to yield (or where the curve ends)",
         series,
         "yield strength of the metal against temperature, docs/theory.md 2.6",
     )
@@ -169,9 +170,10 @@ def _celsius(run: EnvironmentRun) -> str:
     return f"{run.temperature - KELVIN_AT_ZERO_CELSIUS:.6g}C"
 
 
-def _claim(id: str, title: str, series: Series, source: str) -> Claim:
-    """A finding on a ratio, named after the series if it is not the design."""
-    own = series.label == "as designed"
-    name = id if own else f"{id}_{series.label.replace(' ', '_')}"
-    words = title if own else f"{title} ({series.label})"
-    return Claim(id=name, title=words, quantity="ratio", unit="-", role="finding", source=source)
+def _claim(name: str, title: str, series: Series, source: str) -> Claim:
+    """A finding on a ratio, named after the series if it is not the design; ``{where}`` in the title is said here."""
+    variant = "" if series.label == "as designed" else series.label
+    group = "_".join(["environment", *([re.sub(r"[^A-Za-z0-9]+", "_", variant)] if variant else [])])
+    where = f"{series.reference.curve.orientation_deg:g} deg{f', {variant}' if variant else ''}"
+    words = title.replace("{where}", where)
+    return Claim(id=f"{group}.{name}", title=words, quantity="ratio", unit="-", role="finding", source=source)

@@ -28,7 +28,7 @@ REAL_TIME = "faster than real time"
 DAMPING_RATIOS = (0.0, 0.02, 0.05)
 """Of the first mode."""
 CHRONO = {"force [us]": 2.3, "force with tangent [us]": 94.0, "a step of 1 ms of an 8-plate tire [ms]": 2.6}
-"""Project Chrono's plate of the same kind, built from source on another machine; numbers of the text of our issue."""
+"""Project Chrono's plate of the same kind, built from source and measured once, on another machine."""
 
 
 def wheel_case(ratio: float) -> str:

@@ -57,7 +57,8 @@ class Family:
     words : what ``*`` matched -> how a sentence says it
     statement : the words, in which ``{0}`` stands for the match in words, ``{id}`` for the match itself, ``{key}`` for
         the key of its words; of the check's title ``{what}`` for what stands behind its first colon, ``{said}`` for
-        what stands before it and ``{where}`` for what of that stands behind the first comma
+        what stands before it and ``{where}`` for what of that stands behind the first comma, ``{phi}`` for the
+        degrees it names, as file names write them
     """
 
     ids: tuple[str, ...]
@@ -81,9 +82,10 @@ class Family:
         key = self._key(matched)
         names = {"0": self.words.get(key, _plain(matched)), "id": matched, "key": key, "said": said}
         names |= {"what": (what or said).removeprefix("negative control, "), "where": said.partition(", ")[2] or said}
+        names["phi"] = _phi(title)
 
         def filled(text: str) -> str:
-            return re.sub(r"\{(0|id|key|said|what|where)\}", lambda found: names[found[1]], text)
+            return re.sub(r"\{(0|id|key|said|what|where|phi)\}", lambda found: names[found[1]], text)
 
         def each(texts: tuple[str, ...]) -> tuple[str, ...]:
             return tuple(filled(text) for text in texts)
@@ -104,6 +106,12 @@ class Family:
         """The key of the words of what was matched: itself, or the longest that it begins with."""
         begun = [key for key in self.words if f"{matched}_".startswith(f"{key}_")]
         return max(begun, key=len, default=matched)
+
+
+def _phi(title: str) -> str:
+    """``015`` where a title says 15 deg; ``*``, any, where it names no orientation."""
+    found = re.search(r"(\d+)(\.\d+)? deg\b", title)
+    return "*" if found is None else f"{int(found[1]):03d}{found[2] or ''}"
 
 
 def _plain(matched: str) -> str:

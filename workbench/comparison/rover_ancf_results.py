@@ -19,6 +19,7 @@ from contracts.errors import InputError
 from contracts.series import TimeSeries, read_series
 from rover_dynamics.flexible.account import COLUMNS
 from rover_dynamics.rover.scenarios.outcome import Outcome
+from workbench.comparison.mission_row import MissionRow
 from workbench.comparison.oscillation import period, ripple, spectrum
 from workbench.execution.result_files import read_result
 from workbench.execution.store import MANIFEST
@@ -170,17 +171,21 @@ class AncfRover:
         return rows
 
     @property
-    def requirements(self) -> list[tuple[str, str, Outcome | None, Outcome | None, str | None]]:
-        """Title, quantity, outcome on ANCF and on brush tires, why the run on ANCF tires stopped."""
-        rows: list[tuple[str, str, Outcome | None, Outcome | None, str | None]] = []
+    def requirements(self) -> list[MissionRow]:
+        """The mission's, those of a run that stopped behind one that says why."""
+        rows: list[MissionRow] = []
         for name, title in TITLES.items():
             if name not in self.runs:
                 continue
             ours = [one for one in self[name].outcomes if one.limit is not None]
             theirs = {one.quantity: one for one in self.brush[name].outcomes} if name in self.brush else {}
             if self[name].stopped or not ours:
-                rows.append((title, "whole run", None, None, self[name].stopped))
-            rows += [(title, one.quantity, one, theirs.get(one.quantity), None) for one in ours]
+                stopped = self[name].stopped
+                rows.append(MissionRow(name=name, title=title, quantity="the run reaches its end", stopped=stopped))
+            rows += [
+                MissionRow(name=name, title=title, quantity=one.quantity, ours=one, theirs=theirs.get(one.quantity))
+                for one in ours
+            ]
         return rows
 
 

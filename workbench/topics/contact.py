@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -123,4 +123,10 @@ def _checks(study: Study, found: Comparison, results: PenaltyStudy) -> Sequence[
     ]
 
 
-CONTACT = Topic(name="contact", title="Contact", tasks=_tasks, read=_read, checks=_checks, applies=_applies)
+def _curves(study: Study, results: PenaltyStudy) -> list[StiffnessCurve]:
+    return [replace(run.curve, model=_task_name(run.name)) for run in results.runs]
+
+
+CONTACT = Topic(
+    name="contact", title="Contact", tasks=_tasks, read=_read, checks=_checks, curves=_curves, applies=_applies
+)

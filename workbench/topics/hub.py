@@ -6,7 +6,7 @@ Verified by tests/unit/test_workbench_hub.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -121,4 +121,11 @@ def _checks(study: Study, found: Comparison, results: HubStudy) -> Sequence[Chec
     return [at_most(claim, lambda: abs(results.change(last, end)), study.tolerances.hub_compliance)]
 
 
-HUB = Topic(name="hub", title="Hub compliance", tasks=_tasks, read=_read, checks=_checks, applies=_applies)
+def _curves(study: Study, results: HubStudy) -> list[StiffnessCurve]:
+    names = map(_run_name, held_parts(study))
+    return [replace(run.curve, model=name) for name, run in zip(names, results.runs, strict=True)]
+
+
+HUB = Topic(
+    name="hub", title="Hub compliance", tasks=_tasks, read=_read, checks=_checks, curves=_curves, applies=_applies
+)

@@ -6,10 +6,11 @@ Verified by tests/unit/test_workbench_mesh_study.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from contracts.curves import read_curve
+from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
 from workbench.comparison.mesh_study import MeshRun, MeshStudy, sorted_runs
@@ -105,6 +106,12 @@ def _checks(study: Study, found: Comparison, results: MeshStudy) -> Sequence[Che
     ]
 
 
+def _curves(study: Study, results: MeshStudy) -> list[StiffnessCurve]:
+    """Those of the other meshes."""
+    runs = [run for run in results.runs if run.factor != results.curves_factor]
+    return [replace(run.curve, model=f"fe_x{run.factor:g}") for run in runs]
+
+
 def _figures(study: Study, results: MeshStudy) -> Mapping[str, str]:
     from workbench.figures.interactive import mesh_study_figure
 
@@ -112,5 +119,11 @@ def _figures(study: Study, results: MeshStudy) -> Mapping[str, str]:
 
 
 MESH_STUDY = Topic(
-    name="mesh_study", title="Mesh uncertainty", tasks=_tasks, read=_read, checks=_checks, figures=_figures
+    name="mesh_study",
+    title="Mesh uncertainty",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    figures=_figures,
+    curves=_curves,
 )

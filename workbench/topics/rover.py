@@ -15,6 +15,7 @@ from contracts.errors import InputError
 from contracts.records import Check, Role
 from contracts.series import TimeSeries, read_series
 from rover_dynamics.rover.scenarios.outcome import Outcome
+from workbench.checks.mission import MISSION_SOURCE
 from workbench.checks.rules import Claim, at_least, at_most, near
 from workbench.execution.result_files import FAILURE, read_result
 from workbench.execution.task import Task
@@ -46,6 +47,8 @@ MISSION = {
 }
 """Scenario -> what it is called; names as in `rover_dynamics.rover.scenarios.catalogue`."""
 
+THESIS_TORQUE = 3.5
+"""Moment on each drive in the thesis' section 3.5 [N m]."""
 _DRAWN = ("rover_scene", "rover_animation", "rover_solids", "solids", "stills", "palette")
 
 
@@ -179,9 +182,17 @@ def _checks(study: Study, found: Comparison, results: RoverResults) -> Sequence[
         table = _claim(f"table_{model}", title, "largest difference", "N", source, gate=gate)
         checks.append(at_most(table, partial(_largest_miss, results["static"], model), largest))
     speed = "mean speed between 15 and 35 s"
-    path = _claim("speed", "straight path: speed between 15 and 35 s", "speed", "m/s", "Samarini 2020, section 3.3")
+    path = _claim("speed", "straight path: speed between 15 and 35 s", "speed", "m/s", "Samarini 2020, section 3.4")
     checks.append(near(path, lambda: results["straight"].value(speed), 70.0 / 3600.0, 0.01))
+    checks += [_torque_check(name, results[name]) for name in ("slope_up", "step")]
     return [*checks, *(check for name in MISSION for check in _requirements(name, results[name]))]
+
+
+def _torque_check(name: str, result: RoverResult) -> Check:
+    """Largest torque of a drive against the only one that is published; no part of what the mission requires."""
+    quantity, source = "largest torque of a drive", "Samarini 2020, section 3.5: the moment on each drive"
+    claim = _claim(f"torque_{name}", f"{MISSION[name]}: {quantity}", quantity, "N m", source)
+    return at_most(claim, partial(result.value, quantity), THESIS_TORQUE)
 
 
 def _largest_miss(static: RoverResult, model: str) -> float:
@@ -193,15 +204,15 @@ def _largest_miss(static: RoverResult, model: str) -> float:
 
 def _requirements(name: str, result: RoverResult) -> list[Check]:
     """One check for each number the scenario has a limit for; without any, one that could not be evaluated."""
-    source = "mission requirements, Samarini 2020, section 1"
     limited = [outcome for outcome in result.outcomes if outcome.limit is not None]
     if not limited:
-        claim = _claim(f"mission_{name}", MISSION[name], "requirement", "-", source)
+        claim = _claim(f"mission_{name}", MISSION[name], "requirement", "-", MISSION_SOURCE)
         return [at_least(claim, lambda: result.value("requirement"), 0.0)]
     checks = []
     for k, one in enumerate(limited):
         end = f"_{k + 1}" if k else ""
-        claim = _claim(f"mission_{name}{end}", f"{MISSION[name]}: {one.quantity}", one.quantity, one.unit, source)
+        title = f"{MISSION[name]}: {one.quantity}"
+        claim = _claim(f"mission_{name}{end}", title, one.quantity, one.unit, MISSION_SOURCE)
         rule = at_least if one.at_least else at_most
         checks.append(rule(claim, partial(float, one.value), one.limit or 0.0))
     return checks

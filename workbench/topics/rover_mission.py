@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contracts.records import Check
 from contracts.series import TimeSeries
-from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.checks.rules import Claim, at_least, at_most
+from workbench.checks.mission import mission_checks
+from workbench.comparison.mission_row import MissionRow
 from workbench.comparison.rover_ancf_results import TITLES, Drive, read_drive
 from workbench.execution.task import Task
 from workbench.graph.fe import FILES
@@ -43,15 +42,19 @@ class Mission:
     tire: str
 
     @property
-    def rows(self) -> list[tuple[str, str, Outcome | None, Outcome | None, str | None]]:
-        """Title, quantity, outcome on fitted and on brush tires, why the run on fitted tires stopped."""
-        found: list[tuple[str, str, Outcome | None, Outcome | None, str | None]] = []
+    def rows(self) -> list[MissionRow]:
+        """What is required of each run on fitted tires; of one that stopped before it had a number, why."""
+        found: list[MissionRow] = []
         for name, drive in self.fitted.items():
             theirs = {one.quantity: one for one in self.brush[name].outcomes} if name in self.brush else {}
-            ours = [one for one in drive.outcomes if one.limit is not None]
+            ours, title = [one for one in drive.outcomes if one.limit is not None], TITLES[name]
             if not ours:
-                found.append((TITLES[name], "the run reaches its end", None, None, drive.stopped))
-            found += [(TITLES[name], one.quantity, one, theirs.get(one.quantity), None) for one in ours]
+                end = "the run reaches its end"
+                found.append(MissionRow(name=name, title=title, quantity=end, stopped=drive.stopped))
+            found += [
+                MissionRow(name=name, title=title, quantity=one.quantity, ours=one, theirs=theirs.get(one.quantity))
+                for one in ours
+            ]
         return found
 
 
@@ -100,22 +103,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> Mission:
 
 def _checks(study: Study, found: Comparison, results: Mission) -> Sequence[Check]:
     """Findings: what the mission asks for, met or not."""
-    checks = []
-    for k, (title, quantity, ours, _, _) in enumerate(results.rows):
-        claim = Claim(
-            id=f"rover_mission.{k + 1}",
-            title=f"Rover on fitted ANCF tires, {title}: {quantity}",
-            quantity=quantity if ours else "run",
-            unit=ours.unit if ours else "-",
-            role="finding",
-            source="mission requirements, Samarini 2020, section 1",
-        )
-        if ours is None:
-            checks.append(at_least(claim, lambda: 0.0, 1.0))
-            continue
-        rule = at_least if ours.at_least else at_most
-        checks.append(rule(claim, partial(float, ours.value), ours.limit or 0.0))
-    return checks
+    return mission_checks(results.rows, "rover_mission.", "fitted ANCF tires")
 
 
 def _figures(study: Study, results: Mission) -> Mapping[str, str]:
