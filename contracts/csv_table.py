@@ -30,12 +30,14 @@ class CsvTable:
     values : (n, n_columns) float
     source : where the numbers come from, one line; empty if not said
     partial : whether the run ended before its target
+    lines : (n,) place of each row in the file it was read from, counted from 1; empty for a table that was not read
     """
 
     names: tuple[str, ...]
     values: NDArray[np.float64]
     source: str
     partial: bool
+    lines: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,34 +68,47 @@ def read_table(path: Path, rule: TableRule) -> CsvTable:
     Raises
     ------
     InputError
-        If the file is missing, empty, without the first names, holds text where a number belongs, or has rows that do
-        not match its header. Two rows or more; one is enough for a partial run.
+        If the file is missing, empty, no UTF-8, without the first names, holds text where a number belongs, or has rows
+        that do not match its header, with the number of the line. Two rows or more; one is enough for a partial run.
     """
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError as error:
+        raise InputError(rule.what, path, "is no text in UTF-8", "save it as CSV in UTF-8") from error
+    except OSError as error:
         raise InputError(rule.what, path, f"cannot be read ({type(error).__name__})", "check the path") from error
     comments = [line[1:].strip() for line in lines if line.startswith("#")]
     partial = "partial: True" in comments
-    names, values = _numbers([line for line in lines if line.strip() and not line.startswith("#")], path, rule, partial)
+    numbered = [(n, line) for n, line in enumerate(lines, start=1) if line.strip() and not line.startswith("#")]
+    names, values = _numbers(numbered, path, rule, partial)
     source = next((c.removeprefix("source:").strip() for c in comments if c.startswith("source:")), "")
-    return CsvTable(names=names, values=values, source=source, partial=partial)
+    places = tuple(n for n, _ in numbered[1:])
+    return CsvTable(names=names, values=values, source=source, partial=partial, lines=places)
 
 
 def _numbers(
-    lines: Sequence[str], path: Path, rule: TableRule, partial: bool
+    numbered: Sequence[tuple[int, str]], path: Path, rule: TableRule, partial: bool
 ) -> tuple[tuple[str, ...], NDArray[np.float64]]:
     """Header names and the (n, n_columns) numbers below them; raises InputError where they do not fit together."""
     try:
-        rows = list(csv.reader(lines))
-        names = tuple(name.strip() for name in rows[0]) if rows else ()
-        values = np.array([[float(value) for value in row] for row in rows[1:]], dtype=np.float64)
-    except (ValueError, csv.Error) as error:
+        rows = list(csv.reader(line for _, line in numbered))
+    except csv.Error as error:
         raise InputError(rule.what, path, f"has a bad row ({error})", "every cell must be a number") from error
+    names = tuple(name.strip() for name in rows[0]) if rows else ()
     if len(rows) < 3 - partial or names[: len(rule.first)] != rule.first:
         wanted = f"must have a header {','.join(rule.first)} and two or more rows"
         raise InputError(rule.what, path, wanted, rule.units)
-    if values.shape[1] != len(names):
-        wrong = f"has {values.shape[1]} values a row under {len(names)} headers"
-        raise InputError(rule.what, path, wrong, "give every column a header and every row all columns")
-    return names, values
+    if len(rows) != len(numbered):
+        raise InputError(rule.what, path, "has a quotation mark that no other closes in its line", "take it out")
+    values = []
+    for (place, _), cells in zip(numbered[1:], rows[1:], strict=True):
+        if len(cells) != len(names):
+            wrong = f"has {len(cells)} value{'s' * (len(cells) != 1)} in line {place} under {len(names)} headers"
+            hint = "give every column a header and every row all columns; decimals have a point, no comma"
+            raise InputError(rule.what, path, wrong, hint)
+        try:
+            values.append([float(cell) for cell in cells])
+        except ValueError as error:
+            wrong = f"has a bad row, line {place} ({error})"
+            raise InputError(rule.what, path, wrong, "every cell must be a number, with a decimal point") from error
+    return names, np.array(values, dtype=np.float64)

@@ -69,11 +69,11 @@ def test_a_file_made_by_hand_is_read(tmp_path: Path) -> None:
         ("0,0\n0.01,80\n0.02,160\n", "must have a header"),
         ("deflection_mm,load_N\n0,0\n10,80\n", "must have a header"),
         ("load_N,deflection_m\n0,0\n80,0.01\n", "must have a header"),
-        ("deflection_m,load_N\n0,0\n0.01,many\n", "has a bad row"),
-        ("deflection_m,load_N\n0,0\n0.01\n", "has a bad row"),
-        ("deflection_m,load_N,more\n0,0\n0.01,80\n", "has 2 values a row under 3 headers"),
-        ("deflection_m,load_N\n0,0,5\n0.01,80,6\n", "has 3 values a row under 2 headers"),
-        ("deflection_m,load_N\n0\n0.01\n", "has 1 values a row under 2 headers"),
+        ("# c\n\ndeflection_m,load_N\n0,0\n0.01,many\n", "has a bad row, line 5 .*'many'"),
+        ("deflection_m,load_N\n0,0\n0.01\n", "has 1 value in line 3 under 2 headers"),
+        ("deflection_m,load_N,more\n0,0\n0.01,80\n", "has 2 values in line 2 under 3 headers"),
+        ("deflection_m,load_N\n0,0,5\n0.01,80,6\n", "has 3 values in line 2 under 2 headers"),
+        ("deflection_m,load_N\n0\n0.01\n", "has 1 value in line 2 under 2 headers"),
         ("deflection_m,load_N\n0,0\n0.02,160\n0.01,80\n", "must increase strictly"),
         ("deflection_m,load_N\n0,0\n0.01,nan\n", "not finite"),
     ],
@@ -90,6 +90,6 @@ def test_a_missing_file_a_folder_and_a_binary_file_are_refused(tmp_path: Path) -
     binary = tmp_path / "binary.csv"
     binary.write_bytes(b"\xff\xfe\x00\x01")
     for path in (tmp_path / "missing.csv", tmp_path, binary):
-        with pytest.raises(InputError, match="cannot be read") as caught:
+        with pytest.raises(InputError, match=r"cannot be read|no text in UTF-8") as caught:
             read_curve(path)
         assert str(path) in str(caught.value)

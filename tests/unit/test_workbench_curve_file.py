@@ -100,9 +100,9 @@ def test_stated_uncertainty(tmp_path: Path, text: str, wanted: list[float]) -> N
         ("# uncertainty: some\ndeflection_m,load_N\n0,0\n0.01,80\n", "must be a force"),
         ("deflection_m,load_N,load_uncertainty_N\n0,0,1\n0.01,80,-2\n", "negative or missing value"),
         ("deflection_m,load_N,load_uncertainty_m\n0,0,1\n0.01,80,2\n", "unit must be a force"),
-        ("deflection_mm,load_N\n0,0\n20,80\n10,160\n", "must increase strictly"),
-        ("deflection_mm,load_kN\n0,0\n10,1e308\n", "not finite"),
-        ("deflection_mm,load_N\n0,0\n10\n", "bad row"),
+        ("deflection_mm,load_N\n0,0\n20,80\n10,160\n", r"must increase strictly \(line 4\)"),
+        ("deflection_mm,load_kN\n0,0\n10,1e308\n", r"not finite \(line 3\)"),
+        ("deflection_mm,load_N\n0,0\n10\n", "1 value in line 3"),
         ("deflection_mm,load_N\n", "two or more rows"),
     ],
 )

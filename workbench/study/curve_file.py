@@ -90,10 +90,23 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
             partial=table.partial,
         )
     except InputError as error:
-        raise InputError(_WHAT, path, f"{error.what} {error.rule}", error.hint) from error
+        where = _bad_line(table, columns["deformation"].place, load, falls=deformation.unloaded is not None)
+        raise InputError(_WHAT, path, f"{error.what} {error.rule}{where}", error.hint) from error
     return MeasuredCurve(
         curve=curve, kind=deformation.kind, uncertainty=_stated(path, load, columns.get("uncertainty"), table, remarks)
     )
+
+
+def _bad_line(table: CsvTable, place: int, load: NDArray[np.float64], *, falls: bool) -> str:
+    """Where a curve first has a value that is not finite, or a deformation that does not grow; empty if nowhere.
+
+    falls : whether the column of deformation lists what is left, which falls as the wheel deforms
+    """
+    values = table.values[:, place]
+    finite = np.isfinite(values) & np.isfinite(load)
+    grows = np.diff(-values if falls else values) > 0.0
+    bad = np.flatnonzero(~finite) if not finite.all() else 1 + np.flatnonzero(~grows)
+    return f" (line {table.lines[int(bad[0])]})" if len(bad) else ""
 
 
 def in_si(path: Path) -> str:
@@ -171,7 +184,7 @@ def _columns(path: Path, names: Sequence[str], *, own: bool) -> dict[str, _Colum
         found[role] = _Column(place=place, quantity=quantity, factor=factor, relative=relative)
     for role in ("deformation", "load"):
         if role not in found:
-            rule = f"has no column of {role} among {', '.join(names)}"
+            rule = f"has no column of {role} among {', '.join(names[:8])}{', ...' * (len(names) > 8)}"
             raise InputError(_WHAT, path, rule, "name two columns such as deflection_mm,load_kN, parted by commas")
     return found
 
