@@ -15,7 +15,8 @@ from workbench.study.reading import built_in_study, read_study
 
 STUDY = read_study(built_in_study())
 KEYS = task_keys(report_tasks(STUDY, built_in_study().parent))
-FILES = ["curves/fe_phi000.csv", "curves/fe_average.csv", "curves/section_phi015.csv", "series/drop_brush.csv"]
+FILES = ["curves/fe_-40C_phi015.csv", "curves/fe_AISI_301_20C_phi015.csv", "series/step_fitted_ancf.csv"]
+FILES += ["curves/fe_phi000.csv", "curves/fe_average.csv", "curves/section_phi015.csv", "series/drop_brush.csv"]
 MADE_BY = {
     "fe.balance": "",
     "mesh.mass": "",
@@ -26,12 +27,16 @@ MADE_BY = {
     "fe.hub_compliance": "hub",
     "rover.drop": "rover",
     "fe.first_yield_load": "strength",
+    "environment.stiffness_-40C": "environment",
+    "environment_AISI_301.similarity": "environment",
+    "rover_mission.step_2": "rover_mission",
+    "rover_ancf.mission_slope_up": "rover_ancf",
 }
 
 
 def _evidence(study: Study, made_by: dict[str, str]) -> dict[str, Evidence]:
     def check(id: str) -> Any:
-        claim = Claim(id=id, title="Mesh: mass", quantity="q", unit="-", role="gate", source="s")
+        claim = Claim(id=id, title="Mesh, 15 deg: mass", quantity="run", unit="-", role="gate", source="s")
         return at_most(claim, lambda: 1.0, 2.0)
 
     found = SimpleNamespace(checks=[check(id) for id in made_by], topic_of={k: v for k, v in made_by.items() if v})
@@ -52,6 +57,17 @@ def test_without_words_the_identifier_or_the_topic_decides() -> None:
     assert list(found["verify.end_shear_path"].tasks) == ["verify_end_shear"]
     assert {"mesh_hub", "fe_hub_0_rigid"} <= set(found["fe.hub_compliance"].tasks)
     assert {"fe_x1.5", "fe_x2"} <= set(found["fe.mesh_uncertainty"].tasks)
+
+
+def test_a_temperature_and_a_scenario_lead_to_their_own_tasks_and_files() -> None:
+    found = _evidence(STUDY, MADE_BY)
+    cold, other = found["environment.stiffness_-40C"], found["environment_AISI_301.similarity"]
+    assert (list(cold.tasks), cold.files) == (["fe_phi015", "environment_-40C"], ("curves/fe_-40C_phi015.csv",))
+    assert list(other.tasks) == ["environment_AISI_301_20C", "environment_AISI_301_-143C"]
+    assert other.files == ("curves/fe_AISI_301_20C_phi015.csv",)
+    step = found["rover_mission.step_2"]
+    assert (list(step.tasks), step.files) == (["rover_fitted_step"], ("series/step_fitted_ancf.csv",))
+    assert list(found["rover_ancf.mission_slope_up"].tasks) == ["rover_ancf_slope_up"]
 
 
 def test_every_check_leads_to_a_task_a_section_and_its_files() -> None:

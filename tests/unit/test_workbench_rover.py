@@ -80,6 +80,15 @@ def test_a_requirement_that_is_missed_is_said_so(results: RoverResults) -> None:
     assert _checks(damaged)["rover.load"].status == "fail"
 
 
+def test_the_torque_of_the_drives_is_held_against_the_only_published_one(results: RoverResults) -> None:
+    check = _checks(results)["rover.torque_step"]
+    assert (check.status, check.role, check.reference) == ("fail", "finding", 3.5)
+    step = results["step"]
+    weak = tuple(replace(o, value=3.0) if o.quantity == "largest torque of a drive" else o for o in step.outcomes)
+    mild = replace(results, by_name={**results.by_name, "step": replace(step, outcomes=weak)})
+    assert _checks(mild)["rover.torque_step"].status == "pass"
+
+
 def test_series_and_figures_of_the_section_exist(results: RoverResults) -> None:
     study = read_study(built_in_study())
     published = series_files(ROVER.series(study, results))

@@ -73,6 +73,7 @@ def test_without_a_fit_there_is_no_motion_and_it_says_why(tmp_path: Path) -> Non
 def test_what_is_met_and_what_is_not(mission: Mission) -> None:
     checks = ROVER_MISSION.checks(STUDY, None, mission)  # type: ignore[arg-type]
     assert [check.status for check in checks] == ["pass", "fail"]
+    assert [check.id for check in checks] == ["rover_mission.slope_up", "rover_mission.step"]
     assert {check.role for check in checks} == {"finding"}
 
 
