@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+import os
+
 __all__ = ["main"]
 
 
 def main() -> None:
-    """Run the command line."""
+    """Run the command line; until it is loaded, Ctrl-C ends the process at once."""
     try:
-        from workbench.cli import main as run
-    except KeyboardInterrupt:
-        import sys
+        import signal
 
-        sys.stderr.write("workbench: error: interrupted; nothing was begun\n")
-        sys.exit(2)
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, _end)
+        from workbench.cli import main as run
+    except KeyboardInterrupt:  # before the handler was there
+        _end()
     run()
+
+
+def _end(*_: object) -> None:
+    os.write(2, b"workbench: error: interrupted; nothing was begun\n")
+    os._exit(130)
 
 
 if __name__ == "__main__":

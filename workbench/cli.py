@@ -1,13 +1,12 @@
 """The command line ``workbench``. Heavy libraries are imported by the command that needs them, never on ``--help``.
 
-Exit status: 0 every gate passed, 1 a gate failed, 2 bad input or a failed run. Verified by
-tests/end_to_end/test_commands.py.
+Exit status: 0 every gate passed, 1 a gate failed, 2 bad input or a failed run, 130 interrupted (Ctrl-C). Verified by
+tests/end_to_end/test_commands.py and tests/end_to_end/test_interrupt.py.
 """
 
 from __future__ import annotations
 
 import os
-import signal
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -17,7 +16,6 @@ from typer.exceptions import TyperException
 
 from contracts.errors import WorkbenchError
 from workbench.commands.calibrate_app import calibrate_app
-from workbench.commands.interrupts import interrupt_safely
 from workbench.commands.options import (
     DEFAULT_STORE,
     Ranks,
@@ -29,13 +27,12 @@ from workbench.commands.options import (
     computing,
 )
 from workbench.commands.results_app import results_app
+from workbench.execution.interrupts import INTERRUPTED, came, hear_no_more, interrupt_safely
 
 __all__ = ["app", "main"]
 
 _INTERRUPTED = "interrupted; finished results are kept, start again to go on"
 _LONGEST_MESSAGE = 1600
-_TYPER_INTERRUPTED = 130
-"""What Typer makes of Ctrl-C within a command."""
 app = typer.Typer(
     name="workbench",
     no_args_is_help=True,
@@ -226,11 +223,7 @@ def doctor() -> None:
 def main() -> None:
     """Entry point: turns every error into one message on stderr and an exit status."""
     interrupt_safely()
-    try:
-        status = _run(sys.argv[1:])
-    except KeyboardInterrupt:  # while the message of an earlier error was on its way
-        status = _complain(_INTERRUPTED)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the end is near, and must not speak twice
+    status = _run(sys.argv[1:])
     exec(
         ""
     )  # Python forgets that Ctrl-C came while a library ran text as code, and ends with our status, not by signal
@@ -255,26 +248,41 @@ def _drop_output() -> None:
 
 
 def _run(arguments: list[str]) -> int:
+    """Exit status of one command; says in one line what went wrong: Ctrl-C, if an error is what that left behind."""
     try:
-        status = app(arguments, standalone_mode=False)
+        status, message = _ended(arguments)
+        hear_no_more()
+    except KeyboardInterrupt:  # here, a second one is on its way already and not raised
+        hear_no_more()
+        status, message = INTERRUPTED, _INTERRUPTED
+    if status == INTERRUPTED or (status == 2 and came()):
+        status, message = INTERRUPTED, _INTERRUPTED
+    if message:
+        _complain(message)
+    return status
+
+
+def _ended(arguments: list[str]) -> tuple[int, str]:
+    """Exit status of one command, and what is to be said of it."""
+    try:
+        return int(app(arguments, standalone_mode=False) or 0), ""
     except TyperException as error:  # wrong usage of the command line
         show = getattr(error, "show", None)
         if show is None:
-            return _complain(error.format_message())
+            return 2, error.format_message()
         show()
-        return 2
-    except (KeyboardInterrupt, typer.Abort):
-        return _complain(_INTERRUPTED)
+        return 2, ""
+    except typer.Abort:
+        return INTERRUPTED, _INTERRUPTED
     except WorkbenchError as error:
-        return _complain(str(error))
+        return 2, str(error)
     except OSError as error:
-        return _complain(f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights")
+        return 2, f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights"
     except Exception as error:
         if os.environ.get("WORKBENCH_TRACEBACK"):
             raise
         text = f"{type(error).__name__}: {error}; this is a defect of the workbench, please report it"
-        return _complain(f"{text} (set WORKBENCH_TRACEBACK=1 to see where)")
-    return _complain(_INTERRUPTED) if status == _TYPER_INTERRUPTED else int(status or 0)
+        return 2, f"{text} (set WORKBENCH_TRACEBACK=1 to see where)"
 
 
 def _complain(message: str) -> int:
