@@ -35,6 +35,15 @@ def test_a_long_motion_keeps_its_ends_and_no_more_than_181_times(tmp_path: Path)
     assert (tmp_path / "m.npz").stat().st_size < 200_000
 
 
+def test_a_replayed_motion_moves_as_the_recorded_one(tmp_path: Path) -> None:
+    run = rolling_run(frames=100)
+    write_motion(run, tmp_path / "m.npz")
+    found = read_motion(tmp_path / "m.npz").replayed()
+    np.testing.assert_allclose(found.positions, run.motion.positions, atol=1e-6)
+    way = np.trapezoid(found.velocities[:, 0, :3], found.times, axis=0)
+    np.testing.assert_allclose(way, found.positions[-1, 0] - found.positions[0, 0], atol=1e-5)
+
+
 def test_a_slope_is_seen_by_what_is_up(tmp_path: Path) -> None:
     run = rolling_run()
     tilt = type(run.scenario.tilt)(angle=0.3, heading=0.0)

@@ -15,7 +15,8 @@ from contracts.records import Check
 from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.comparison.rover_ancf_results import AncfRover, Drive, read_drive
+from workbench.comparison.rover_ancf_results import AncfRover
+from workbench.comparison.rover_drive import Drive, read_drive
 from workbench.execution.result_files import read_result
 from workbench.report.page import page_environment
 from workbench.report.series import series_links

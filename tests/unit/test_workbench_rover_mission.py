@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from ancf_reduced.tire.preset import thesis_preset
 from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.comparison.rover_ancf_results import Drive
+from workbench.comparison.rover_drive import Drive
 from workbench.execution.result_files import FAILURE, read_result, write_result
 from workbench.report.page import page_environment
 from workbench.report.series import series_links
@@ -44,7 +45,7 @@ def mission() -> Mission:
 def test_tasks_need_the_fit_that_is_kept() -> None:
     tasks = ROVER_MISSION.tasks(STUDY)
     assert [task.name for task in tasks] == [
-        f"rover_fitted_{n}" for n in ("slope_up", "slope_down", "slope_across", "step")
+        f"rover_fitted_{n}" for n in ("slope_up", "slope_down", "slope_across", "step", "point_turn")
     ]
     assert STUDY.ancf_fit is not None
     assert {task.needs for task in tasks} == {(f"ancf_fit_{STUDY.ancf_fit.kept.name}",)}
@@ -75,6 +76,14 @@ def test_what_is_met_and_what_is_not(mission: Mission) -> None:
     assert [check.status for check in checks] == ["pass", "fail"]
     assert [check.id for check in checks] == ["rover_mission.slope_up", "rover_mission.step"]
     assert {check.role for check in checks} == {"finding"}
+
+
+def test_a_run_of_which_nothing_is_required_is_held_to_its_end(mission: Mission) -> None:
+    driven = replace(drive("rocks", "ancf"), outcomes=())
+    for stopped, status in ((None, "pass"), ("a tire folds at t = 3 s", "fail")):
+        rocks = replace(mission, fitted={"rocks": replace(driven, stopped=stopped)})
+        (check,) = ROVER_MISSION.checks(STUDY, None, rocks)  # type: ignore[arg-type]
+        assert (check.quantity, check.status) == ("run", status)
 
 
 def test_the_section_draws_each_run_and_says_where_it_ends(mission: Mission) -> None:

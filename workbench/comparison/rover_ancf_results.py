@@ -5,89 +5,28 @@ Verified by tests/unit/test_workbench_rover_ancf.py.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.csv_table import TableRule, read_table
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from contracts.series import TimeSeries, read_series
-from rover_dynamics.flexible.account import COLUMNS
-from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.comparison.mission_row import MissionRow
+from workbench.comparison.mission_row import MissionRow, mission_rows
 from workbench.comparison.oscillation import period, ripple, spectrum
-from workbench.execution.result_files import read_result
-from workbench.execution.store import MANIFEST
+from workbench.comparison.rover_drive import Drive
 
-__all__ = ["OBSERVED", "AncfRover", "Drive", "read_drive"]
+__all__ = ["OBSERVED", "AncfRover"]
 
 FloatArray = NDArray[np.float64]
-TITLES = {
-    "slope_up": "slope of 25 degrees, upwards",
-    "slope_down": "slope of 25 degrees, downwards",
-    "slope_across": "slope of 25 degrees, across",
-    "step": "step of 0.25 m",
-    "crevasse": "crevasse of 0.15 m",
-    "point_turn": "quarter turn on the spot",
-    "rocks": "straight path over random rocks",
-}
 OBSERVED = "front_right"
 ROLLING = (5.0, 35.0)
 """Time at the speed of the straight path [s]."""
-_ACCOUNT = TableRule(what="energy account", first=("time_s",), units="give SI units")
 DRIVEN = 1.5
 """From here to its end at 2 s the run of traction says where the power goes [s]."""
 QUARTER = 0.5 * np.pi
 """A spoke follows on the next one after this angle [rad]."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Drive:
-    """One run: outcomes, series or None, why it stopped or None, mean spins [rad/s], wall time [s] or None.
-
-    ``account`` are time and energies, columns of `rover_dynamics.flexible.account.COLUMNS` behind the time, or None;
-    ``closures`` how far energy and momentum are not accounted for [-].
-    """
-
-    outcomes: tuple[Outcome, ...]
-    series: TimeSeries | None
-    stopped: str | None
-    spins: tuple[float, ...]
-    wall_s: float | None
-    account: FloatArray | None = None
-    closures: Mapping[str, float] = field(default_factory=dict)
-
-    def closure(self, what: str) -> float:
-        """Of energy or momentum [-]; raises InputError if it was not accounted for."""
-        if what not in self.closures:
-            raise InputError(f"account of {what}", "none", "was not kept", self.stopped or "look at the run")
-        return self.closures[what]
-
-    def spent(self, since: float) -> dict[str, float]:
-        """Mean power of each column of the account from a time on to the end [W], stored energies as they grow."""
-        if self.account is None:
-            raise InputError("energy account", "none", "was not kept", self.stopped or "look at the run")
-        first = min(int(np.searchsorted(self.account[:, 0], since)), len(self.account) - 2)
-        changes = self.account[-1] - self.account[first]
-        return dict(zip(COLUMNS, (changes[1:] / changes[0]).tolist(), strict=True))
-
-    def value(self, quantity: str) -> float:
-        """Of the first outcome that begins so; raises InputError if there is none."""
-        for outcome in self.outcomes:
-            if outcome.quantity.startswith(quantity):
-                return outcome.value
-        raise InputError("outcome", quantity, "was not computed", self.stopped or "look at the run")
-
-    def column(self, name: str) -> FloatArray:
-        """Column of the series; raises InputError if the motion never began."""
-        if self.series is None:
-            raise InputError("series", name, "was not computed", self.stopped or "look at the run")
-        return self.series[name]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -172,33 +111,5 @@ class AncfRover:
 
     @property
     def requirements(self) -> list[MissionRow]:
-        """The mission's, those of a run that stopped behind one that says why."""
-        rows: list[MissionRow] = []
-        for name, title in TITLES.items():
-            if name not in self.runs:
-                continue
-            ours = [one for one in self[name].outcomes if one.limit is not None]
-            theirs = {one.quantity: one for one in self.brush[name].outcomes} if name in self.brush else {}
-            if self[name].stopped or not ours:
-                stopped = self[name].stopped
-                rows.append(MissionRow(name=name, title=title, quantity="the run reaches its end", stopped=stopped))
-            rows += [
-                MissionRow(name=name, title=title, quantity=one.quantity, ours=one, theirs=theirs.get(one.quantity))
-                for one in ours
-            ]
-        return rows
-
-
-def read_drive(folder: Path, name: str, tire: str) -> Drive:
-    """A run from its task's folder."""
-    result, series, manifest = read_result(folder), folder / "series.csv", folder / MANIFEST
-    account, closures = folder / "account.csv", result.get("closures") or [{}]
-    return Drive(
-        outcomes=tuple(Outcome(**row) for row in result["outcomes"]),
-        series=read_series(series, name, tire) if series.exists() else None,
-        stopped=result.get("stopped") or result.get("failure"),
-        spins=tuple(result.get("spins", ())),
-        wall_s=float(json.loads(manifest.read_text(encoding="utf-8"))["wall_s"]) if manifest.exists() else None,
-        account=read_table(account, _ACCOUNT).values if account.exists() else None,
-        closures=closures[0],
-    )
+        """The mission's, as far as driven."""
+        return mission_rows(self.runs, self.brush)

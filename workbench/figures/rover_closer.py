@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from workbench.comparison.rover_closer_results import GROUNDS, CloserLook
 from workbench.figures.interactive import empty_figure, figure_html
 from workbench.figures.palette import MODEL_COLOURS, ORIENTATION_COLOURS
-from workbench.topics.rover_closer import GROUNDS, CloserLook
 
 __all__ = ["closer_figures"]
 

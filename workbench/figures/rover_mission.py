@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from workbench.comparison.rover_ancf_results import TITLES
+from workbench.comparison.mission_row import TITLES
 from workbench.figures.interactive import empty_figure, figure_html
 from workbench.figures.palette import MODEL_COLOURS
 

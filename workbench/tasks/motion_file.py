@@ -52,6 +52,25 @@ class RecordedMotion:
     up: FloatArray
     solids: tuple[Solid, ...]
 
+    def replayed(self) -> FlexibleMotion:
+        """The motion as it is drawn: velocities from the places by differences, no spin, and no forces."""
+        n, n_b = self.positions.shape[:2]
+        speeds = np.gradient(self.positions, self.times, axis=0)
+        return FlexibleMotion(
+            times=self.times,
+            positions=self.positions,
+            rotations=self.rotations,
+            velocities=np.concatenate([speeds, np.zeros((n, n_b, 3))], axis=-1),
+            tires=np.zeros((n, 0, 0)),
+            wrenches=np.zeros((n, 0, 6)),
+            efforts=np.zeros((n, 0)),
+            steps=0,
+            iterations=0,
+            rejected=0,
+            vectors=self.vectors,
+            rates=np.zeros_like(self.vectors),
+        )
+
 
 def write_motion(run: ScenarioRun, path: Path, hub_radius: float | None = None) -> None:
     """Write a run; of wheels on ANCF tires only the hubs are solid, of the tires' hub radius [m]."""

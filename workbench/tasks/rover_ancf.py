@@ -6,16 +6,17 @@ Verified by tests/unit/test_workbench_rover_ancf.py.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ancf_reduced.tire.mesh import build_tire
 from ancf_reduced.tire.preset import thesis_preset
 from contracts.csv_table import CsvTable, table_text
 from contracts.errors import ConvergenceError
-from contracts.series import write_series
+from contracts.series import TimeSeries, write_series
 from rover_dynamics.flexible.account import COLUMNS, FlexibleAccount
 from rover_dynamics.flexible.flexible_system import FlexibleSystem
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
@@ -25,6 +26,7 @@ from workbench.execution.task import Progress
 from workbench.tasks.ancf_tire import preset_from
 from workbench.tasks.motion_file import MOTION, write_motion
 from workbench.tasks.rover_ancf_runs import ancf_run, fitted_run
+from workbench.tasks.rover_close_look import write_close_look
 from workbench.tasks.rover_shapes import Watch
 from workbench.tasks.rover_tires import resuming, watching
 
@@ -33,6 +35,8 @@ __all__ = ["ACCOUNT", "SERIES", "drive_on_ancf_tires", "drive_on_fitted_tires"]
 SERIES, ACCOUNT = "series.csv", "account.csv"
 _ROWS = 400
 """Of the account's file, about."""
+_EACH = 5
+"""Sample of a closely sampled motion that its series keeps: a tenth of a second apart."""
 _DOFS = 3 * 6 * 36
 
 
@@ -43,12 +47,23 @@ def drive_on_ancf_tires(
 
     A motion that stops early keeps its series and has no outcomes; one that stops before time zero has neither.
     Goes on from the motion in ``checkpoint``, if there is one. With ``account`` in the inputs also ``account.csv`` and
-    in the result how far energy and momentum close, from time zero or where the motion went on from.
+    in the result how far energy and momentum close, from time zero or where the motion went on from; with
+    ``pressed_at``, times [s], what `write_close_look` keeps, and the series has every fifth sample only.
     """
     design = read_rover()
-    run = _drive(ancf_run(inputs["run"], design), design, out, checkpoint, bool(inputs.get("account")))
+    closely = "pressed_at" in inputs
+    run = _drive(
+        ancf_run(inputs["run"], design),
+        design,
+        out,
+        checkpoint,
+        accounted=bool(inputs.get("account")),
+        every=_EACH if closely else 1,
+    )
     if run is not None:
         write_motion(run, out / MOTION, thesis_preset().hub_radius)
+        if closely:
+            write_close_look(run, inputs["run"], build_tire(thesis_preset()), inputs["pressed_at"], out)
     return _DOFS
 
 
@@ -64,14 +79,20 @@ def drive_on_fitted_tires(
         write_result(out, {"outcomes": [], "spins": [], "stopped": f"there is no tire: {fit[FAILURE]}", "steps": 0})
         return 0
     design = read_rover()
-    _drive(fitted_run(inputs["run"], preset_from(fit["preset"]), design), design, out, checkpoint, False)
+    _drive(fitted_run(inputs["run"], preset_from(fit["preset"]), design), design, out, checkpoint)
     return _DOFS
 
 
 def _drive(
-    scenario: Scenario, design: RoverDesign, out: Path, checkpoint: Path | None, accounted: bool
+    scenario: Scenario,
+    design: RoverDesign,
+    out: Path,
+    checkpoint: Path | None,
+    *,
+    accounted: bool = False,
+    every: int = 1,
 ) -> ScenarioRun | None:
-    """The run, its files written; None if it ended before time zero."""
+    """The run, its files written, the series with one of so many samples; None if it ended before time zero."""
     accounts: list[FlexibleAccount] = []
 
     def account(system: FlexibleSystem) -> Watch:
@@ -84,12 +105,19 @@ def _drive(
     except ConvergenceError as error:
         write_result(out, {"outcomes": [], "spins": [], "stopped": str(error), "steps": 0})
         return None
-    write_series(scenario_series(run), out / SERIES)
+    write_series(_thinned(scenario_series(run), every), out / SERIES)
     outcomes = () if run.stopped else scenario.judge(run)
     numbers = {"outcomes": [asdict(outcome) for outcome in outcomes], "spins": _spins(run), "stopped": run.stopped}
     numbers |= {"steps": run.motion.steps, "closures": [_write_account(one, out / ACCOUNT) for one in accounts]}
     write_result(out, numbers)
     return run
+
+
+def _thinned(series: TimeSeries, every: int) -> TimeSeries:
+    """One of so many samples, from the first on, and the last."""
+    kept = np.unique(np.append(np.arange(0, len(series.time), every), len(series.time) - 1))
+    columns = {name: values[kept] for name, values in series.columns.items()}
+    return replace(series, time=series.time[kept], columns=columns)
 
 
 def _write_account(account: FlexibleAccount, path: Path) -> dict[str, float]:

@@ -20,6 +20,7 @@ from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.level_ground import all_drives, sweep_of_gravity
 from rover_dynamics.rover.scenarios.scenario import Scenario
+from workbench.tasks.rover_close_look import EVERY
 from workbench.tasks.rover_tires import LAW, STEPS, on_ancf_tires
 
 __all__ = ["ancf_run", "fitted_run"]
@@ -82,10 +83,16 @@ def _rocks(design: RoverDesign) -> Scenario:
     return on_terrain(straight, design, rocks, f"random rocks, seed {ROCK_SEED}")
 
 
+def _straight(_: RoverDesign) -> Scenario:
+    """Sampled as closely as the body's vibration asks for."""
+    return on_ancf_tires(replace(SCENARIOS["straight"], every=EVERY))
+
+
 _VARIANTS: dict[str, Callable[[RoverDesign], Scenario]] = {
     "drop": _drop,
     "load_sweep": _sweep(0.0),
     "load_sweep_between": _sweep(0.25 * math.pi),
+    "straight": _straight,
     "traction": lambda _: _traction(),
     "traction_half_step": lambda _: _traction(half_step=True),
     "traction_fine_grid": lambda _: _traction(fine_grid=True),

@@ -1,8 +1,6 @@
-"""Task: the rover on ANCF and on brush tires along a straight path and over rocks, looked at closely.
+"""Tasks beside the straight path on ANCF tires: rocks, the brush tire, the tires at rest; the path as an animation.
 
-Files: ``{ground}_{tire}.csv``, series of the body's motion and of each tire's largest strain; ``pressure.csv``, contact
-points of the front right wheel, standing and rolling; ``animation.html``. Verified by
-tests/unit/test_workbench_rover_closer.py.
+Verified by tests/unit/test_workbench_rover_closer.py.
 """
 
 from __future__ import annotations
@@ -13,69 +11,95 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ancf_reduced.tire.mesh import Tire, build_tire
 from ancf_reduced.tire.preset import thesis_preset
-from ancf_reduced.tire.skin import tire_skin
 from ancf_reduced.tire.wheel_set import wheel_set
-from contracts.csv_table import CsvTable, table_text
 from contracts.errors import ConvergenceError
-from contracts.series import TimeSeries, write_series
+from contracts.series import write_series
 from contracts.terrain import Plane
 from contracts.terrain_rocks import RandomRocks
-from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.ground import on_terrain
-from rover_dynamics.rover.scenarios.level_ground import OBSERVED, SPEED, drive_forward, straight_ahead
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward, straight_ahead
+from rover_dynamics.rover.scenarios.scenario import Scenario, mean_static_load, run_scenario
+from rover_dynamics.rover.standing import stand_under_loads
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.task import Progress
-from workbench.figures.rover_animation import write_animation
+from workbench.tasks.motion_file import MOTION, read_motion
+from workbench.tasks.rover_close_look import EVERY, body_series, coarse_skin
 from workbench.tasks.rover_tires import DAMPING_RATIO, LAW, START_HEIGHT, on_ancf_tires
 
-__all__ = ["PRESSURE", "body_series", "drive_closely"]
+__all__ = ["ANIMATION", "animate", "drive_closely", "stands"]
 
-FloatArray = NDArray[np.float64]
-PRESSURE = ("time_s", "ahead_m", "aside_m", "pressure_Pa", "normal_force_N")
-"""Columns of the contact points: place from the point below the hub, forwards and to the left."""
+ANIMATION = "animation.html"
 _BEYOND = 0.6
 """Rocks beyond the wheels' places [m]."""
+_ASIDE = 0.05
+"""Of the wheel load, to either side, over which the stiffness is taken [-]."""
 
 
 def drive_closely(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """Both grounds on both tires; a ground that a tire does not bear is left out and said so."""
+    """``straight_brush.csv``, ``rocks_{brush,ancf}.csv``, and in the result what `stands` finds; why a drive ended."""
     design, tire, stopped = read_rover(), build_tire(thesis_preset()), dict[str, str]()
-    path = _path(inputs["lasts"], inputs["every"])
-    grounds = {"straight": path, "rocks": _on_rocks(path, design, inputs["rocks"])}
-    for k, (ground, scenario) in enumerate(grounds.items()):
+    path = _path(inputs["lasts"])
+    rocks = _on_rocks(path, design, inputs["rocks"])
+    for ground, scenario in (("straight", path), ("rocks", rocks)):
         write_series(body_series(run_scenario(scenario, design), ground, None), out / f"{ground}_brush.csv")
-        try:
-            run = run_scenario(on_ancf_tires(scenario, tire), design)
-        except ConvergenceError as error:
-            stopped[ground] = str(error)
-            continue
+    progress(0.2)
+    try:
+        run = run_scenario(on_ancf_tires(rocks, tire), design)
+    except ConvergenceError as error:
+        stopped["rocks"] = str(error)
+    else:
+        write_series(body_series(run, "rocks", tire), out / "rocks_ancf.csv")
         if run.stopped:
-            stopped[ground] = run.stopped
-        write_series(body_series(run, ground, tire), out / f"{ground}_ancf.csv")
-        if ground == "straight":
-            _write_pressure(run, tire, inputs["pressure_at"], out / "pressure.csv")
-            title = "Straight path at 70 m/h on ANCF tires"
-            write_animation(
-                run.motion, design, Plane(), out / "animation.html", title=title, tire=tire, most=inputs["frames"]
-            )
-        progress(0.5 * (k + 1.0))
-    write_result(out, {"stopped": stopped, FAILURE: None})
+            stopped["rocks"] = run.stopped
+    progress(0.8)
+    write_result(out, {"stopped": stopped, "stands": stands(tire, design), FAILURE: None})
     return 0
 
 
-def _path(lasts: float, every: float) -> Scenario:
+def stands(tire: Tire, design: RoverDesign) -> dict[str, Any]:
+    """The rover at rest on the tires by `rover_dynamics.rover.standing`, in twelve orientations of a quarter turn.
+
+    ``strain`` and ``stiffness`` [N/m] at the wheel load, a list over the orientations; ``strain_alike``, of a rover
+    whose six wheels all stand on a spoke, as it sets out.
+    """
+    load, skin = mean_static_load(design), coarse_skin(tire)
+    tires = wheel_set(tire, Plane(), len(design.legs), law=replace(LAW, friction=0.0), damping_ratio=DAMPING_RATIO)
+    (alike,) = stand_under_loads(design, tires, np.zeros(len(design.legs)), [load])
+    strains, stiffness = list[float](), list[float]()
+    for first in (0.0, 7.5):
+        turned = np.radians(first + 15.0 * np.arange(len(design.legs)))
+        loads = [load, (1.0 - _ASIDE) * load, (1.0 + _ASIDE) * load]
+        at, below, above = stand_under_loads(design, tires, turned, loads)
+        strains += [float(skin.largest_strain(z).max()) for z in at.vectors]
+        stiffness += ((above.load - below.load) / (above.deflection - below.deflection)).tolist()
+    same = max(float(skin.largest_strain(z).max()) for z in alike.vectors)
+    return {"strain": strains, "stiffness": stiffness, "strain_alike": same}
+
+
+def animate(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """``animation.html`` of the motion a need recorded on the thesis' tires; none if it never began."""
+    from workbench.figures.rover_animation import write_animation
+
+    recorded = needs[inputs["motion"]] / MOTION
+    if recorded.exists():
+        motion, tire = read_motion(recorded).replayed(), build_tire(thesis_preset())
+        title, most = inputs["title"], inputs["frames"]
+        write_animation(motion, read_rover(), Plane(), out / ANIMATION, title=title, tire=tire, most=most)
+    write_result(out, {FAILURE: None})
+    return 0
+
+
+def _path(lasts: float) -> Scenario:
     """The thesis' straight path without its end."""
     return replace(
         scenario_named("straight"),
         lasts=lasts,
-        every=every,
+        every=EVERY,
         actuators=lambda design: drive_forward(design),
         path=straight_ahead(lasts * SPEED),
         study=None,
@@ -100,44 +124,3 @@ def _on_rocks(path: Scenario, design: RoverDesign, seed: int) -> Scenario:
     )
     rough = on_terrain(path, design, rocks.terrain(), f"random rocks up to 22 mm high, seed {seed}")
     return replace(rough, height=float(rough.height or 0.0) + START_HEIGHT)
-
-
-def body_series(run: ScenarioRun, ground: str, tire: Tire | None) -> TimeSeries:
-    """Vertical acceleration and pitch acceleration of the first body, central differences; strains with a tire."""
-    t, u = run.motion.times, run.motion.velocities[:, 0]
-    columns = {
-        "body_az_m_s2": np.gradient(u[:, 2], t),
-        "body_pitch_rate_rad_s": u[:, 4],
-    }
-    if tire is not None and isinstance(run.motion, FlexibleMotion):
-        skin = tire_skin(tire, 5, 3)
-        strains = np.array([[skin.largest_strain(z).max() for z in frame] for frame in run.motion.vectors])
-        columns |= {f"{leg.name}_strain_1": strains[:, k] for k, leg in enumerate(run.design.legs)}
-    return TimeSeries(
-        scenario=f"{ground}_closely",
-        tire=run.scenario.tire_model,
-        time=t,
-        columns=columns,
-        source=f"{run.scenario.title}; first body's centre, world; largest principal strain of each tire",
-        partial=run.stopped is not None,
-    )
-
-
-def _write_pressure(run: ScenarioRun, tire: Tire, times: list[float], path: Path) -> None:
-    """Contact points of the wheel the thesis observes, at some times [s]."""
-    motion = run.motion
-    assert isinstance(motion, FlexibleMotion)
-    tires = wheel_set(tire, Plane(), len(run.design.legs), law=LAW, damping_ratio=DAMPING_RATIO)
-    wheel, rows = [leg.name for leg in run.design.legs].index(OBSERVED), []
-    for time in times:
-        k = min(int(np.searchsorted(motion.times, time - 1e-9)), len(motion.times) - 1)
-        z, v = motion.vectors[k], motion.rates[k]
-        patch = tires.contact.patch(tires.node_coordinates(z), tires.node_rates(v))
-        own = patch.plates * tires.n_wheels // tires.contact.grid.n_plates == wheel
-        place = patch.position[own] - z[wheel, -4]
-        rows.append(
-            np.column_stack([np.full(own.sum(), time), place[:, :2], patch.pressure[own], patch.normal_force[own]])
-        )
-    source = f"contact points of the {OBSERVED.replace('_', ' ')} wheel from below its hub, forwards and to the left"
-    table = CsvTable(names=PRESSURE, values=np.concatenate(rows), source=source, partial=False)
-    path.write_text(table_text(table), encoding="utf-8", newline="")

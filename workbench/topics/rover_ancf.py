@@ -18,7 +18,8 @@ from contracts.series import TimeSeries
 from workbench.checks.mission import mission_checks
 from workbench.checks.rules import Claim, at_least, at_most, near
 from workbench.comparison.results import model_curves
-from workbench.comparison.rover_ancf_results import OBSERVED, AncfRover, Drive, read_drive
+from workbench.comparison.rover_ancf_results import OBSERVED, AncfRover
+from workbench.comparison.rover_drive import Drive, read_drive
 from workbench.execution.task import Task
 from workbench.graph.fe import FILES
 from workbench.study.model import Study
@@ -35,7 +36,7 @@ SHORT = {
     "drop": 1.0,
     "load_sweep": 5.0,
     "load_sweep_between": 5.0,
-    "straight": 9.0,
+    "straight": 13.0,
     "traction": 10.0,
     "traction_half_step": 10.0,
     "traction_fine_grid": 9.0,
@@ -46,8 +47,13 @@ SHORT = {
 }
 LONG = {"traction_undamped": 15.0, "traction_whole": 120.0, "crevasse": 40.0, "point_turn": 16.0, "rocks": 11.0}
 """Run -> processor time it takes about [s]; names as in `workbench.tasks.rover_ancf_runs`."""
-ACCOUNTED = ("straight", "traction", "traction_undamped")
-"""Runs whose energy and momentum are accounted for."""
+_ACCOUNT = {"account": True}
+_KEPT: Mapping[str, Mapping[str, object]] = {
+    "straight": {**_ACCOUNT, "pressed_at": [0.0, 15.0]},
+    "traction": _ACCOUNT,
+    "traction_undamped": _ACCOUNT,
+}
+"""What is kept beside the series, see `workbench.tasks.rover_ancf`: energy and momentum accounted for, close looks."""
 
 
 def runs_of(study: Study) -> Sequence[str]:
@@ -60,7 +66,7 @@ def _tasks(study: Study) -> Sequence[Task]:
         Task(
             name=f"rover_ancf_{name}",
             function="workbench.tasks.rover_ancf:drive_on_ancf_tires",
-            inputs={"run": name, "account": True} if name in ACCOUNTED else {"run": name},
+            inputs={"run": name, **_KEPT.get(name, {})},
             sources=(
                 *FILES,
                 *DRAWN,
@@ -69,6 +75,7 @@ def _tasks(study: Study) -> Sequence[Task]:
                 "workbench.tasks.rover_tires",
                 "workbench.tasks.rover_shapes",
                 "workbench.tasks.rover_ancf_runs",
+                "workbench.tasks.rover_close_look",
             ),
             libraries=("numpy", "numba", "scipy"),
             cost=(SHORT | LONG)[name],

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 from contracts.records import Check
 from contracts.series import TimeSeries
 from workbench.checks.mission import mission_checks
-from workbench.comparison.mission_row import MissionRow
-from workbench.comparison.rover_ancf_results import TITLES, Drive, read_drive
+from workbench.comparison.mission_row import MissionRow, mission_rows
+from workbench.comparison.rover_drive import Drive, read_drive
 from workbench.execution.task import Task
 from workbench.graph.fe import FILES
 from workbench.graph.fit import fit_name
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ROVER_MISSION", "Mission"]
 
-SHORT = {"slope_up": 9.0, "slope_down": 12.0, "slope_across": 9.0, "step": 14.0}
-LONG = {"crevasse": 55.0, "point_turn": 25.0, "rocks": 15.0}
+SHORT = {"slope_up": 9.0, "slope_down": 12.0, "slope_across": 9.0, "step": 14.0, "point_turn": 20.0}
+LONG = {"crevasse": 120.0, "rocks": 110.0}
 """Run -> processor time it takes about [s]."""
 
 
@@ -43,19 +43,8 @@ class Mission:
 
     @property
     def rows(self) -> list[MissionRow]:
-        """What is required of each run on fitted tires; of one that stopped before it had a number, why."""
-        found: list[MissionRow] = []
-        for name, drive in self.fitted.items():
-            theirs = {one.quantity: one for one in self.brush[name].outcomes} if name in self.brush else {}
-            ours, title = [one for one in drive.outcomes if one.limit is not None], TITLES[name]
-            if not ours:
-                end = "the run reaches its end"
-                found.append(MissionRow(name=name, title=title, quantity=end, stopped=drive.stopped))
-            found += [
-                MissionRow(name=name, title=title, quantity=one.quantity, ours=one, theirs=theirs.get(one.quantity))
-                for one in ours
-            ]
-        return found
+        """What is required of each run on fitted tires."""
+        return mission_rows(self.fitted, self.brush)
 
 
 def _runs(study: Study) -> Sequence[str]:
@@ -82,6 +71,7 @@ def _tasks(study: Study) -> Sequence[Task]:
                 "workbench.tasks.rover_tires",
                 "workbench.tasks.rover_shapes",
                 "workbench.tasks.rover_ancf_runs",
+                "workbench.tasks.rover_close_look",
                 "workbench.tasks.ancf_tire",
             ),
             libraries=("numpy", "numba", "scipy"),
