@@ -12,15 +12,18 @@ import numpy as np
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.mesh import TaggedMesh
 from contracts.series import TimeSeries, write_series
+from reference_fe.wheel.case import FieldSnapshot
 from rover_dynamics.rover.rover import build_rover
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
 from rover_dynamics.vehicle.vehicle import VehicleMotion
-from workbench.tasks.field_file import write_fields
+from workbench.tasks.field_file import write_fields, write_points
 from workbench.tasks.motion_file import write_motion
 
 LOADS = (100.0, 200.0)
+POINTS = (25.0, 50.0, 75.0, 100.0, 125.0, 150.0, 175.0, 200.0)
+"""Loads of the curve at 0 degrees, whose fields are kept."""
 ORIENTATIONS = (0, 30)
 
 
@@ -87,12 +90,23 @@ def write_small_report(folder: Path) -> None:
             model="fe", orientation_deg=float(orientation), deflection=deflection, load=load, columns=largest
         )
         write_curve(curve, folder / "curves" / f"fe_phi{orientation:03d}.csv")
-        share = np.clip(mesh.points @ np.array([np.sin(phi), 0.0, -np.cos(phi)]) / 0.14, 0.0, 1.0)
-        for newtons in LOADS:
-            moved = -1e-4 * newtons * share[:, None] * np.array([np.sin(phi), 0.0, -np.cos(phi)])
-            write_fields(
-                mesh, moved, 2e6 * newtons * share, folder / "fields" / f"fe_phi{orientation:03d}_{newtons:.0f}N.vtu"
+        ground = np.array([np.sin(phi), 0.0, -np.cos(phi)])
+        share = np.clip(mesh.points @ ground / 0.14, 0.0, 1.0)
+        fields = {
+            newtons: FieldSnapshot(
+                load=newtons,
+                deflection=newtons / 8000.0,
+                displacement=-1e-4 * newtons * share[:, None] * ground,
+                von_mises=2e6 * newtons * share,
             )
+            for newtons in {*LOADS, *POINTS}
+        }
+        stem = f"fe_phi{orientation:03d}"
+        for newtons in LOADS:
+            one = fields[newtons]
+            write_fields(mesh, one.displacement, one.von_mises, folder / "fields" / f"{stem}_{newtons:.0f}N.vtu")
+        if orientation == 0:
+            write_points([fields[newtons] for newtons in POINTS], folder / "fields" / f"{stem}_points.npz")
     average = StiffnessCurve(
         model="fe", orientation_deg=None, deflection=deflection, load=8300.0 * deflection, columns={}
     )

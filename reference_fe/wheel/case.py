@@ -30,6 +30,7 @@ class WheelLoadCase:
     deflections : wanted points of the curve, rise of the obstacle along its ground's normal from first touch [m]
     maximum_load : the run ends at the first point with at least this load [N]
     snapshot_loads : loads of the full wheel at which fields are kept [N]
+    keep_points : whether fields are kept at every point of the curve too
     rigid_parts : parts held rigid, of those the mesh has; if the inner hub is not among them, its bore is held instead
     inner_contact : whether springs, rim and hubs hold each other off; else they pass through each other
     law : stored energy
@@ -50,6 +51,7 @@ class WheelLoadCase:
     deflections: tuple[float, ...]
     maximum_load: float = float("inf")
     snapshot_loads: tuple[float, ...] = ()
+    keep_points: bool = False
     rigid_parts: tuple[str, ...] = HUB_PARTS
     inner_contact: bool = True
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF
@@ -100,6 +102,7 @@ class WheelResult:
     curve : load of the full wheel against the plane's rise from first touch; columns as in `solve_wheel`
     increments : every attempted increment, in order
     snapshots : fields at the chosen loads that were reached
+    points : fields at the points of the curve behind first touch, if the load case keeps them
     dofs : number of displacement unknowns
     distance_at_touch : distance of hub and plane at first touch [m]
     wall_s : wall time of the solve [s]
@@ -108,6 +111,7 @@ class WheelResult:
     curve: StiffnessCurve
     increments: tuple[IncrementRecord, ...]
     snapshots: tuple[FieldSnapshot, ...]
+    points: tuple[FieldSnapshot, ...]
     dofs: int
     distance_at_touch: float
     wall_s: float

@@ -108,7 +108,7 @@ class _WheelRun:
         self.history: list[IncrementRecord] = []
         self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
         self.rows[0] |= self._energies()
-        self.snapshots: list[FieldSnapshot] = []
+        self.fields: dict[str, list[FieldSnapshot]] = {"snapshot": [], "point": []}
 
     @property
     def _inner_terms(self) -> list[InnerContactTerm]:
@@ -123,9 +123,6 @@ class _WheelRun:
         load, depth = self._load(state.contact_force), self._obstacle_term.penetration()
         moment = self._obstacle_term.moment() + support_moment(self.problem, state.outcome.residual)
         turning = float(np.linalg.norm(moment)) / self.wheel.contact.distance_at_touch
-        for wanted in self.load_case.snapshot_loads:
-            if self.rows[-1]["load_N"] < wanted <= load:
-                self._keep_snapshot(wanted, state.control, load)
         displacement = self.problem.nodal_displacement()
         ramp = self.load_case.contact_ramp
         gap = partial(self.wheel.contact.gap, control=state.control)
@@ -143,6 +140,11 @@ class _WheelRun:
         row |= self._energies()
         row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
         self.rows.append(row)
+        if self.load_case.keep_points:
+            self._keep("point", state.control, load)
+        for wanted in self.load_case.snapshot_loads:  # last: terms of contact keep what they found there
+            if self.rows[-2]["load_N"] < wanted <= load:
+                self._keep_snapshot(wanted)
         return load
 
     def _energies(self) -> dict[str, float]:
@@ -167,7 +169,8 @@ class _WheelRun:
         return WheelResult(
             curve=curve,
             increments=tuple(self.history),
-            snapshots=tuple(self.snapshots),
+            snapshots=tuple(self.fields["snapshot"]),
+            points=tuple(self.fields["point"]),
             dofs=self.problem.dofs,
             distance_at_touch=self.wheel.contact.distance_at_touch,
             wall_s=time.perf_counter() - self.started,
@@ -180,20 +183,22 @@ class _WheelRun:
         return f"curve reached {self.rows[-1]['deflection_m'] * 1e3:.4g} mm at {self.rows[-1]['load_N']:.4g} N"
 
     def recorded(self) -> Arrays:
-        """Rows, snapshots and time so far, for a checkpoint."""
+        """Rows, fields and time so far, for a checkpoint."""
         arrays = {"rows": packed(self.rows), "wall_s": np.array(time.perf_counter() - self.started)}
-        for i, snapshot in enumerate(self.snapshots):
-            arrays |= {f"snapshot{i}/{name}": np.asarray(value) for name, value in asdict(snapshot).items()}
+        for kind, kept in self.fields.items():
+            for i, one in enumerate(kept):
+                arrays |= {f"{kind}{i}/{name}": np.asarray(value) for name, value in asdict(one).items()}
         return arrays
 
     def resume(self, arrays: Arrays) -> None:
-        """Take up the rows, snapshots and time of a run that was killed."""
+        """Take up the rows, fields and time of a run that was killed."""
         self.rows = unpacked(arrays["rows"])
         self.started -= float(arrays["wall_s"])
-        while part := below(f"snapshot{len(self.snapshots)}", arrays):
-            load, deflection = float(part["load"]), float(part["deflection"])
-            fields = {name: part[name] for name in ("displacement", "von_mises")}
-            self.snapshots.append(FieldSnapshot(load=load, deflection=deflection, **fields))
+        for kind, kept in self.fields.items():
+            while part := below(f"{kind}{len(kept)}", arrays):
+                load, deflection = float(part["load"]), float(part["deflection"])
+                fields = {name: part[name] for name in ("displacement", "von_mises")}
+                kept.append(FieldSnapshot(load=load, deflection=deflection, **fields))
 
     def _load(self, contact_force: NDArray[np.float64]) -> float:
         return float(self.wheel.sides * contact_force @ self.wheel.normal)
@@ -212,21 +217,25 @@ class _WheelRun:
             "newton_iterations": 0.0,
         }
 
-    def _keep_snapshot(self, wanted: float, control: float, load: float) -> None:
-        """Solve at the deflection interpolated for the wanted load, keep the fields, and return to ``control``."""
-        problem, last = self.problem, self.rows[-1]
-        here = problem.state()
-        fraction = (wanted - last["load_N"]) / (load - last["load_N"])
+    def _keep_snapshot(self, wanted: float) -> None:
+        """Solve at the deflection interpolated for the wanted load, keep the fields, and return to the last point."""
+        problem, last, now = self.problem, self.rows[-2], self.rows[-1]
+        here, control = problem.state(), now["deflection_m"]
+        fraction = (wanted - last["load_N"]) / (now["load_N"] - last["load_N"])
         deflection = last["deflection_m"] + fraction * (control - last["deflection_m"])
         problem.set_control(deflection)
         if self.solver.solve(rise=deflection - control).converged:
-            self.snapshots.append(
-                FieldSnapshot(
-                    load=self._load(problem.contact_force()),
-                    deflection=deflection,
-                    displacement=problem.nodal_displacement(),
-                    von_mises=self.stress.nodal_von_mises(),
-                )
-            )
+            self._keep("snapshot", deflection, self._load(problem.contact_force()))
         problem.restore(here)
         problem.set_control(control)
+
+    def _keep(self, kind: str, deflection: float, load: float) -> None:
+        """Keep the fields of the last accepted state."""
+        self.fields[kind].append(
+            FieldSnapshot(
+                load=load,
+                deflection=deflection,
+                displacement=self.problem.nodal_displacement(),
+                von_mises=self.stress.nodal_von_mises(),
+            )
+        )

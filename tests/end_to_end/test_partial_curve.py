@@ -51,6 +51,7 @@ def _inputs(end: float) -> dict[str, Any]:
         "deflections": [0.004, end],
         "max_load": 1e12,
         "snapshot_loads": [],
+        "keep_points": False,
         "material_law": "st_venant_kirchhoff",
         "contact_stiffness": 1e15,
         "contact_method": "penalty",

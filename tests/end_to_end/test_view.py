@@ -131,6 +131,13 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         page.wait_for_selector("#chart .main-svg")
         shown = pixels(page)
 
+        page.locator("#frame").fill("3")  # a point of the curve
+        caption(page, "75 N")
+        lighter = until_changed(page, shown)
+        page.click("#play")
+        caption(page, "FE, 0° down, 200 N")
+        shown = until_changed(page, lighter)
+
         page.click("#orientations button:has-text('30°')")
         caption(page, "30° down")
         turned = until_changed(page, shown)

@@ -16,6 +16,7 @@ def test_everything_is_found(tmp_path: Path) -> None:
     found = read_folder(tmp_path)
     assert (found.study, found.status) == ("small", "pass")
     assert [(one.orientation, one.load) for one in found.fields] == [(0, 100), (0, 200), (30, 100), (30, 200)]
+    assert list(found.points) == [("fe", 0.0)]
     assert set(found.curves) == {"fe_phi000", "fe_phi030", "fe_average"}
     assert set(found.series) == set(found.motions) == {("straight", "brush")}
     assert found.parts_of("fe", 30.0) == ("hub", "tire")

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.small_report_folder import ring_mesh, write_small_report
+from contracts.errors import InputError
+from tests.small_report_folder import POINTS, ring_mesh, write_small_report
 from workbench.viewer.folder import read_folder
 from workbench.viewer.scene import Scene
 from workbench.viewer.stages import RoverStage, wheel_stage
@@ -24,9 +25,26 @@ def test_a_wheel_is_shown_unloaded_and_at_the_loads_that_are_there(tmp_path: Pat
     np.testing.assert_allclose(stage.values(2, "stress"), 4e8 * share, rtol=1e-6)
     np.testing.assert_allclose(stage.down, [0.5, 0.0, -np.sqrt(0.75)])
     assert stage.bar("stress").end == pytest.approx(4e8)
-    corners, _ = stage._ground(stage.places(2))
-    lowest = float((stage.places(2) @ stage.down).max())
-    np.testing.assert_allclose(corners @ stage.down, lowest, atol=1e-3)
+    places = stage.places(2)
+    corners, _ = stage._ground(places)
+    moved = stage.surface.places + stage.surface.displacement(stage.fields[2])
+    np.testing.assert_allclose(-places[:, 2], moved @ stage.down, atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(places, axis=1), np.linalg.norm(moved, axis=1))
+    np.testing.assert_allclose(corners[:, 2], places[:, 2].min(), atol=1e-3)
+
+
+def test_a_wheel_is_shown_at_every_point_of_its_curve(tmp_path: Path) -> None:
+    write_small_report(tmp_path)
+    found = read_folder(tmp_path)
+    files = [(one.load, one.path) for one in found.fields if one.orientation == 0.0]
+    stage, path = wheel_stage(0.0, files, found.points["fe", 0.0]), found.points["fe", 0.0]
+    assert stage.loads == (0.0, *POINTS)
+    np.testing.assert_allclose(stage.values(8, "stress"), 8.0 * stage.values(1, "stress"), rtol=1e-6)
+    whole = wheel_stage(0.0, files)
+    np.testing.assert_allclose(stage.places(8), whole.places(2), atol=1e-8)
+    np.savez(path, allow_pickle=False, load=[1.0], displacement=np.zeros((1, 8, 3)), von_mises=np.zeros((1, 8)))
+    with pytest.raises(InputError, match=r"must hold the \d+ nodes of the mesh"):
+        wheel_stage(0.0, files, path)
 
 
 def test_scene_and_motion_move_what_is_drawn(tmp_path: Path) -> None:

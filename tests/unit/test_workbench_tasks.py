@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import meshio
@@ -14,10 +14,11 @@ from ancf_reduced.tire.preset import thesis_preset
 from contracts.curves import StiffnessCurve, read_curve, write_curve
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
+from reference_fe.wheel.case import FieldSnapshot
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from workbench.execution.result_files import read_result, write_result
 from workbench.tasks import ancf, brush, metrics
-from workbench.tasks.field_file import write_fields
+from workbench.tasks.field_file import read_points, write_fields, write_points
 from workbench.tasks.mesh_file import read_mesh, write_mesh
 
 
@@ -92,6 +93,24 @@ def test_fields_open_in_other_programs(tmp_path: Path) -> None:
     assert np.array_equal(found.point_data["displacement_m"], displacement)
     assert np.array_equal(found.point_data["von_mises_Pa"].ravel(), stress)
     assert [(block.type, len(block.data)) for block in found.cells] == [("hexahedron", 1)]
+
+
+def test_fields_along_a_curve_survive_the_file(tmp_path: Path) -> None:
+    field = FieldSnapshot(load=12.5, deflection=0.01, displacement=0.1 * _cube().points, von_mises=np.arange(8.0))
+    path = tmp_path / "points.npz"
+    write_points([field, replace(field, load=25.0)], path)
+    first, second = read_points(path)
+    assert (first[0], second[0]) == (12.5, 25.0)
+    np.testing.assert_allclose(first[1], field.displacement, rtol=1e-6)
+    np.testing.assert_array_equal(first[2], field.von_mises)
+    whole = path.read_bytes()
+    for damaged in (b"", whole[: len(whole) // 2], b"text"):
+        path.write_bytes(damaged)
+        with pytest.raises(InputError, match=r"points\.npz: cannot be read"):
+            list(read_points(path))
+    np.savez(path, allow_pickle=False, load=[1.0], displacement=np.zeros((2, 8, 3)), von_mises=np.zeros((1, 8)))
+    with pytest.raises(InputError, match="must hold finite fields of nodes at each load"):
+        list(read_points(path))
 
 
 def test_a_mesh_survives_the_file(tmp_path: Path) -> None:

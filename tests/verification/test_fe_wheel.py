@@ -26,7 +26,9 @@ DEFLECTIONS = (0.002, 0.005)
 @functools.cache
 def coarse_wheel(orientation_deg: float, *, half_width: bool = True) -> WheelResult:
     mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=half_width)
-    case = WheelLoadCase(orientation_deg=orientation_deg, deflections=DEFLECTIONS, snapshot_loads=(20.0,))
+    case = WheelLoadCase(
+        orientation_deg=orientation_deg, deflections=DEFLECTIONS, snapshot_loads=(20.0,), keep_points=True
+    )
     return solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
 
 
@@ -111,6 +113,19 @@ def test_a_snapshot_is_taken_at_its_load() -> None:
     curve = coarse_wheel(0.0).curve
     largest = np.max([curve.columns[f"max_von_mises_{part}_Pa"] for part in ("tire", "springs_outer")], axis=0)
     assert snapshot.von_mises.max() == pytest.approx(np.interp(20.0, curve.load, largest), rel=0.15)
+
+
+def test_fields_are_kept_at_every_point_of_the_curve() -> None:
+    result = coarse_wheel(0.0)
+    curve, points = result.curve, result.points
+    np.testing.assert_array_equal([one.load for one in points], curve.load[1:])
+    np.testing.assert_array_equal([one.deflection for one in points], curve.deflection[1:])
+    lowest = [one.displacement[:, 2].min() for one in points]
+    np.testing.assert_array_less(-np.array(DEFLECTIONS) * 1.5, lowest)
+    assert lowest[1] < lowest[0] < 0.0
+    (snapshot,) = result.snapshots
+    assert points[0].load < snapshot.load < points[1].load
+    assert points[0].von_mises.max() < snapshot.von_mises.max() < points[1].von_mises.max()
 
 
 def test_a_run_that_does_not_converge_keeps_its_partial_curve(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -24,12 +24,13 @@ DEFLECTIONS = (0.003, 0.007, 0.011, 0.015)
 def solve(checkpoint: Path, factor: float) -> dict[str, np.ndarray]:
     """Curve, columns and fields of a coarse half wheel at one orientation."""
     mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
-    case = WheelLoadCase(orientation_deg=15.0, deflections=DEFLECTIONS, snapshot_loads=(20.0,))
+    case = WheelLoadCase(orientation_deg=15.0, deflections=DEFLECTIONS, snapshot_loads=(20.0,), keep_points=True)
     material = replace(TI_6AL_4V, young_modulus=factor * TI_6AL_4V.young_modulus)
     result = solve_wheel(mesh, dict.fromkeys(mesh.parts, material), case, checkpoint=checkpoint)
     (fields,) = result.snapshots
     table = {"deflection_m": result.curve.deflection, "load_N": result.curve.load, **result.curve.columns}
-    return table | {"displacement_m": fields.displacement, "von_mises_Pa": fields.von_mises}
+    points = np.array([one.displacement for one in result.points])
+    return table | {"displacement_m": fields.displacement, "von_mises_Pa": fields.von_mises, "points_m": points}
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
-from workbench.graph.fe import degrees
+from workbench.graph.fe import degrees, without_fields
 from workbench.graph.section import without_planar_model
 from workbench.graph.study_graph import stiffness_tasks
 from workbench.report.outputs import check_folder, check_targets, publish, to_json
@@ -99,7 +99,7 @@ class _Runs:
             return task
         up_to, points = self.study.tolerances.initial_tangent_up_to, list(task.inputs["deflections"])
         last = next((i for i, d in enumerate(points) if d >= up_to - 1e-12), len(points) - 1)
-        return replace(task, inputs={**task.inputs, "deflections": points[: last + 1], "snapshot_loads": []})
+        return replace(task, inputs=without_fields(task.inputs) | {"deflections": points[: last + 1]})
 
     def _solve(self, model: str, tasks: Sequence[Task]) -> float:
         with RunDisplay(console, tasks) as display:

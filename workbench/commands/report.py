@@ -22,6 +22,7 @@ from workbench.report.gate_summary import gate_markdown, gate_rows
 from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
 from workbench.study.full import full_study
 from workbench.study.reading import built_in_study, read_study
+from workbench.tasks.field_file import POINTS_FILE
 
 __all__ = ["ReportChoices", "run_report"]
 
@@ -98,8 +99,9 @@ def run_report(
 
 
 def _field_files(entries: dict[str, Entry]) -> dict[str, Path]:
-    """``fe_phi000_200N.vtu`` -> the file in the store."""
-    found = [(name, path) for name, entry in entries.items() for path in sorted(entry.path.glob("fields_*N.vtu"))]
+    """``fe_phi000_200N.vtu``, ``fe_phi000_points.npz`` -> the file in the store."""
+    patterns = ("fields_*N.vtu", POINTS_FILE)
+    found = [(n, path) for n, entry in entries.items() for one in patterns for path in sorted(entry.path.glob(one))]
     return {f"{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
 
 

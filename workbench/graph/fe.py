@@ -29,6 +29,7 @@ __all__ = [
     "fe_task",
     "mesh_task",
     "orientation_name",
+    "without_fields",
 ]
 
 
@@ -91,6 +92,7 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "deflections": list(deflections),
         "max_load": fe.max_load,
         "snapshot_loads": list(fe.snapshot_loads),
+        "keep_points": fe.keep_points,
         "material_law": fe.material_law,
         "contact_stiffness": fe.contact_stiffness,
         "contact_method": fe.contact_method,
@@ -103,6 +105,11 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
         "materials": {part: asdict(m) for part, m in wheel_design(study).materials.items()},
     }
+
+
+def without_fields(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """The same run, its curve alone."""
+    return {**inputs, "snapshot_loads": [], "keep_points": False}
 
 
 def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh", *, cost: float = 100.0) -> Task:

@@ -7,7 +7,7 @@ from typing import Any
 
 from contracts.errors import InputError
 from workbench.execution.task import Task
-from workbench.graph.fe import FE, MESH, Origin, curve_deflections, degrees, fe_inputs, orientation_name
+from workbench.graph.fe import FE, MESH, Origin, curve_deflections, degrees, fe_inputs, orientation_name, without_fields
 from workbench.study.model import Study
 
 __all__ = ["section_task", "section_tasks", "without_planar_model"]
@@ -55,10 +55,9 @@ def section_task(study: Study, name: str, orientation_deg: float, deflections: S
         "refinement": dict(mesh.refinement),
         "factor": mesh.factor,
     }
-    inputs = fe_inputs(study, orientation_deg, deflections) | {
+    inputs = without_fields(fe_inputs(study, orientation_deg, deflections)) | {
         "wheel": study.model_dump(mode="json", include={"name", "wheel", "materials"}),
         "options": options,
-        "snapshot_loads": [],
         "rigid_parts": ["outer_hub"],
     }
     return Task(name=name, function="workbench.tasks.section:solve_orientation", inputs=inputs, cost=8.0, **_SECTION)

@@ -130,6 +130,8 @@ class FeSection(Section):
     points: Annotated[StrictInt, Field(ge=2, le=500)]
     max_load: Annotated[Force, Positive]
     snapshot_loads: tuple[Annotated[Force, Positive], ...] = ()
+    keep_points: StrictBool = False
+    """Whether fields are kept at every point of the curves too, for the viewer to play."""
     material_law: Literal["st_venant_kirchhoff", "neo_hookean"] = "st_venant_kirchhoff"
     contact_stiffness: (
         Annotated[Bedding, Positive, _between(1e6, 1e15, "1e6 N/m^3 and 1e15 N/m^3", "1e11 N/m^3 is usual")] | None

@@ -23,7 +23,7 @@ from reference_fe.wheel.pressed import FieldSnapshot, WheelLoadCase, WheelResult
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.task import Progress
 from workbench.tasks.contact import obstacle_of
-from workbench.tasks.field_file import write_fields
+from workbench.tasks.field_file import POINTS_FILE, write_fields, write_points
 from workbench.tasks.mesh_file import MESH, read_mesh
 
 __all__ = ["converged_part", "load_case", "solve_orientation"]
@@ -32,7 +32,7 @@ __all__ = ["converged_part", "load_case", "solve_orientation"]
 def solve_orientation(
     inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
 ) -> int:
-    """Solve one orientation: ``curve.csv``, ``result.json`` (increments, timings) and fields at chosen loads.
+    """Solve one orientation: ``curve.csv``, ``result.json`` (increments, timings), fields at chosen loads and points.
 
     A solve that does not converge leaves its partial curve, first touch at the least, and the reason in the result.
     Needs one task that holds the mesh. Goes on behind the last increment in ``checkpoint``, if there is one.
@@ -50,6 +50,8 @@ def solve_orientation(
     for snapshot in result.snapshots:
         _, wanted = min((abs(load - snapshot.load), load) for load in inputs["snapshot_loads"])
         _write_fields(mesh, snapshot, out / f"fields_{wanted:.0f}N")
+    if result.points:
+        write_points(result.points, out / POINTS_FILE)
     numbers = {
         "dofs": result.dofs,
         "solve_s": result.wall_s,
@@ -79,6 +81,7 @@ def load_case(inputs: Mapping[str, Any]) -> WheelLoadCase:
         deflections=tuple(inputs["deflections"]),
         maximum_load=inputs["max_load"],
         snapshot_loads=tuple(inputs["snapshot_loads"]),
+        keep_points=inputs["keep_points"],
         rigid_parts=tuple(inputs["rigid_parts"]),
         law=MaterialLaw(inputs["material_law"]),
         contact_stiffness=inputs["contact_stiffness"],

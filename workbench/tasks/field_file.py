@@ -1,19 +1,41 @@
-"""Fields at one load as VTU, for ParaView and PyVista. The one module of the workbench that imports meshio.
+"""Fields of the wheel: at one load as VTU, for ParaView and PyVista; along a curve as one archive, for the viewer.
+
+The one module of the workbench that imports meshio.
 
 Verified by tests/unit/test_workbench_tasks.py.
 """
 
 from __future__ import annotations
 
+import zipfile
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry.hexahedra import VTK_FROM_GMSH
 
-__all__ = ["write_fields"]
+__all__ = ["POINTS_FILE", "Fields", "read_points", "write_fields", "write_points"]
+
+POINTS_FILE = "points.npz"
+"""Fields at the points of a curve, in a task's folder."""
+_HINT = "run the report again, or take the file out of the folder"
+_NAMES = ("load", "displacement", "von_mises")
+
+
+class Fields(Protocol):
+    """Load [N], displacement (n_points, 3) [m] and von Mises stress (n_points,) [Pa] at the nodes."""
+
+    @property
+    def load(self) -> float: ...
+    @property
+    def displacement(self) -> NDArray[np.float64]: ...
+    @property
+    def von_mises(self) -> NDArray[np.float64]: ...
 
 
 def write_fields(
@@ -38,3 +60,30 @@ def write_fields(
         point_data={"displacement_m": displacement, "von_mises_Pa": von_mises},
         cell_data={"part": [mesh.cell_tags]},
     )
+
+
+def write_points(points: Sequence[Fields], path: Path) -> None:
+    """One archive of arrays over the points of a curve, single precision: ``load``, ``displacement``, ``von_mises``."""
+    columns = {name: np.array([getattr(one, name) for one in points], dtype=np.float32) for name in _NAMES}
+    np.savez_compressed(path, allow_pickle=False, **columns)
+
+
+def read_points(path: Path) -> Iterator[tuple[float, NDArray[np.float64], NDArray[np.float64]]]:
+    """Load, displacement and stress of each point, as `Fields` has them.
+
+    Raises
+    ------
+    InputError
+        If the file is not what `write_points` writes.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            load, moved, stress = (np.asarray(archive[name], dtype=np.float64) for name in _NAMES)
+        fits = moved.ndim == 3 and moved.shape[:2] == stress.shape and load.shape == stress.shape[:1]
+        sound = fits and moved.shape[2] == 3 and all(np.isfinite(a).all() for a in (load, moved, stress))
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        reason = f"cannot be read ({type(error).__name__})"
+        raise InputError("field file", path, reason, _HINT) from error
+    if not sound:
+        raise InputError("field file", path, "must hold finite fields of nodes at each load", _HINT)
+    yield from zip(load.tolist(), moved, stress, strict=True)

@@ -13,7 +13,7 @@ from contracts.records import Check
 from workbench.checks.contact import AUGMENTED, penalty_check, penetration_check
 from workbench.comparison.results import CURVE
 from workbench.execution.task import Task
-from workbench.graph.fe import INNER_STIFFNESS, degrees, fe_inputs, fe_task, mesh_task
+from workbench.graph.fe import INNER_STIFFNESS, degrees, fe_inputs, fe_task, mesh_task, without_fields
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
 
@@ -91,7 +91,7 @@ def _tasks(study: Study) -> Sequence[Task]:
     mesh = mesh_task(study, "mesh_penalty", {"axial_size": 2.0 * study.mesh.axial_size}, cost=500.0)
     end = round(section.deflection, 12)
     inputs = fe_inputs(study, degrees(section.orientation), (0.5 * end, end))
-    inputs |= {"snapshot_loads": [], "max_load": _NO_LIMIT}
+    inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
     changes: dict[str, dict[str, Any]] = {f: _scaled(float(f), stiffness) for f in _FACTORS}
     changes[AUGMENTED] = {"contact_stiffness": stiffness, "contact_method": AUGMENTED}
     return [mesh, *(fe_task(_task_name(name), inputs | change, mesh.name) for name, change in changes.items())]

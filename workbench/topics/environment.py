@@ -19,7 +19,7 @@ from contracts.materials_temperature import REFERENCE_TEMPERATURE
 from workbench.checks.environment import EnvironmentRun, Series, environment_checks
 from workbench.comparison.results import CURVE
 from workbench.execution.task import Task
-from workbench.graph.fe import curve_deflections, degrees, fe_inputs, fe_task, orientation_name
+from workbench.graph.fe import curve_deflections, degrees, fe_inputs, fe_task, orientation_name, without_fields
 from workbench.study.environment import EnvironmentSection
 from workbench.study.model import Study
 from workbench.study.model_parameters import materials, wheel_design
@@ -36,7 +36,7 @@ def environment_tasks(study: Study) -> list[Task]:
     section = _section(study)
     end = section.max_deflection or study.fe.max_deflection
     deflections = chosen_points([d for d in curve_deflections(study) if d <= end * (1.0 + 1e-9)], section.points)
-    inputs = fe_inputs(study, degrees(section.orientation), deflections) | {"snapshot_loads": []}
+    inputs = without_fields(fe_inputs(study, degrees(section.orientation), deflections))
     return [
         fe_task(
             _name(variant, temperature),

@@ -18,7 +18,7 @@ from workbench.checks.rules import Claim, at_most
 from workbench.comparison.results import CURVE
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import HUB_PARTS, degrees, fe_inputs, fe_task, mesh_task
+from workbench.graph.fe import HUB_PARTS, degrees, fe_inputs, fe_task, mesh_task, without_fields
 from workbench.study.model import Study
 from workbench.study.model_parameters import wheel_design
 from workbench.topics.topic import Topic
@@ -89,7 +89,7 @@ def _tasks(study: Study) -> Sequence[Task]:
     changes = {"parts": "all", "axial_size": 2.0 * study.mesh.axial_size}
     mesh = mesh_task(study, "mesh_hub", changes, cost=1000.0)
     inputs = fe_inputs(study, degrees(section.orientation), np.round(section.deflections, 12).tolist())
-    inputs |= {"snapshot_loads": [], "max_load": _NO_LIMIT}
+    inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
     runs = [(_run_name(held), inputs | {"rigid_parts": list(held)}) for held in held_parts(study)]
     return [mesh, *(fe_task(name, changed, mesh.name) for name, changed in runs)]
 

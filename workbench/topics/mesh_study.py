@@ -17,7 +17,7 @@ from workbench.comparison.mesh_study import MeshRun, MeshStudy, sorted_runs
 from workbench.comparison.results import CURVE
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import degrees, fe_inputs, fe_task, mesh_task, orientation_name
+from workbench.graph.fe import degrees, fe_inputs, fe_task, mesh_task, orientation_name, without_fields
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
 
@@ -38,7 +38,7 @@ def _tasks(study: Study) -> Sequence[Task]:
         if factor != study.mesh.factor:
             mesh = mesh_task(study, f"mesh_x{factor:g}", cost=1000.0, factor=factor)
             inputs = fe_inputs(study, degrees(section.orientation), section.deflections)
-            inputs |= {"snapshot_loads": [], "max_load": _NO_LIMIT}
+            inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
             tasks += [mesh, fe_task(f"fe_x{factor:g}", inputs, mesh.name, cost=100.0 * factor**3)]
     return tasks
 

@@ -19,6 +19,7 @@ from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours
 __all__ = ["FieldFile", "ReportFolder", "read_folder", "spoken"]
 
 _FIELDS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_(?P<load>\d+)N\.vtu")
+_POINTS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_points\.npz")
 _MODELS = {"fe": "FE", "ancf": "ANCF", "brush": "brush", "section": "section"}
 _HINT = "give the folder that `workbench report --out` wrote, such as build/report"
 
@@ -42,6 +43,7 @@ class ReportFolder:
     path : the folder
     study, status : as in ``summary.json``; empty without one
     fields : in the order of model, orientation and load
+    points : fields at the points of a curve, by (model, orientation)
     curves : by file name without its ending, such as ``fe_phi015``
     series : time series by (scenario, tire)
     motions : files of recorded motions by (scenario, tire)
@@ -51,6 +53,7 @@ class ReportFolder:
     study: str
     status: str
     fields: tuple[FieldFile, ...]
+    points: Mapping[tuple[str, float], Path]
     curves: Mapping[str, StiffnessCurve]
     series: Mapping[tuple[str, str], TimeSeries]
     motions: Mapping[tuple[str, str], Path]
@@ -85,6 +88,7 @@ def read_folder(path: Path) -> ReportFolder:
         study=study,
         status=status,
         fields=_field_files(path / "fields"),
+        points={(m["model"], float(m["orientation"])): one for one, m in _matches(path / "fields", _POINTS)},
         curves={one.stem: read_curve(one) for one in sorted((path / "curves").glob("*.csv"))},
         series=series,
         motions={_named(one): one for one in sorted((path / MOTIONS_FOLDER).glob("*_*.npz"))},
@@ -103,13 +107,16 @@ def spoken(name: str) -> str:
 
 
 def _field_files(folder: Path) -> tuple[FieldFile, ...]:
-    matches = [(path, _FIELDS.fullmatch(path.name)) for path in folder.glob("*.vtu")]
     found = [
         FieldFile(model=m["model"], orientation=float(m["orientation"]), load=float(m["load"]), path=path)
-        for path, m in matches
-        if m
+        for path, m in _matches(folder, _FIELDS)
     ]
     return tuple(sorted(found, key=lambda one: (one.model, one.orientation, one.load)))
+
+
+def _matches(folder: Path, pattern: re.Pattern[str]) -> list[tuple[Path, re.Match[str]]]:
+    matches = [(path, pattern.fullmatch(path.name)) for path in sorted(folder.glob("*"))]
+    return [(path, m) for path, m in matches if m]
 
 
 def _named(path: Path) -> tuple[str, str]:

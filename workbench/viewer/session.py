@@ -25,7 +25,9 @@ from workbench.viewer.stages import QUANTITIES, RoverStage, WheelStage, wheel_st
 __all__ = ["Session", "initial_state"]
 
 _LOAD_SHOWN = 0.9
-"""Time each load is shown while they are played [s]."""
+"""Longest time a load is shown while they are played [s]."""
+_PLAYED = 4.0
+"""Time in which many loads are played [s]."""
 _PATIENCE = 1.0
 """Longest wait for the browser to have drawn a frame [s]."""
 
@@ -97,7 +99,7 @@ class Session:
         key = (model, orientation)
         if key not in self._wheels:
             files = [(one.load, one.path) for one in self.folder.fields if (one.model, one.orientation) == key]
-            self._wheels[key] = wheel_stage(orientation, files)
+            self._wheels[key] = wheel_stage(orientation, files, self.folder.points.get(key))
         return self._wheels[key]
 
     def open(self) -> None:
@@ -121,7 +123,7 @@ class Session:
         if state.orientation not in state.orientations:
             state.orientation = state.orientations[0]
         self.wheel = self.wheel_at(state.model, float(state.orientation))
-        state.loads = [round(load, 3) for load in self.wheel.loads]
+        state.loads = [float(f"{load:.4g}") for load in self.wheel.loads]
         state.load = state.frame = state.last_frame = len(state.loads) - 1
         state.probe = None
         self.scene.mark(None, 0.0)
@@ -142,7 +144,7 @@ class Session:
         self.wheel.show(self.scene, number, state.quantity)
         values = self.wheel.values(number, state.quantity)
         state.bar = self.wheel.bar(state.quantity).shown(float(values.max()))
-        state.moment = f"{self.wheel.loads[number]:g} N"
+        state.moment = f"{self.wheel.loads[number]:.4g} N"
         state.caption = f"{spoken(state.model)}, {state.orientation:g}° down, {state.moment}"
         if number == 0:
             state.caption += " (unloaded)"
@@ -236,7 +238,7 @@ class Session:
         if self.wheel is not None and name in self.curves:
             curve, load = self.curves[name], self.wheel.loads[int(state.load)]
             chosen.setdefault(name, curve)
-            shown = (f"{load:g} N", float(np.interp(load, curve.load, curve.deflection)), load)
+            shown = (f"{load:.4g} N", float(np.interp(load, curve.load, curve.deflection)), load)
         state.figure = curves_chart(chosen, self.own, shown)
 
     def add_curve(self, name: str, text: str) -> None:
@@ -263,13 +265,14 @@ class Session:
         if state.frame >= state.last_frame:
             state.frame = -1 if state.tab == "wheel" else 0
         begun, first = time.monotonic(), max(int(state.frame), 0)
+        pause = min(_LOAD_SHOWN, _PLAYED / (state.last_frame + 1))
         while state.playing and state.frame < state.last_frame:
             self.drawn.clear()
             with state:
                 state.frame = self._due(first, time.monotonic() - begun)
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self.drawn.wait(), _PATIENCE)
-            await asyncio.sleep(_LOAD_SHOWN if state.tab == "wheel" else 0.03)
+            await asyncio.sleep(pause if state.tab == "wheel" else 0.03)
         with state:
             state.playing = False
 

@@ -13,9 +13,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.errors import InputError
 from workbench.figures.palette import STRAIN_COLOURS
 from workbench.figures.solids import Quads
 from workbench.figures.tire_animation import StrainedTires, strained_tires
+from workbench.tasks.field_file import read_points
 from workbench.tasks.motion_file import RecordedMotion, read_motion
 from workbench.viewer.colours import ColourBar, colour_bar
 from workbench.viewer.scene import Camera, Scene, read_fields
@@ -32,7 +34,9 @@ _ROVER_EYE = (-0.55, -1.0, 0.45)
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class WheelStage:
-    """A wheel at one orientation: unloaded, and at the loads at which fields were kept.
+    """A wheel at one orientation on the ground: unloaded, and at the loads at which fields were kept.
+
+    It is looked at with the ground below; its own frame (x forward, z up where 0 degrees face the ground) turns.
 
     Attributes
     ----------
@@ -58,8 +62,11 @@ class WheelStage:
         return colour_bar(title, unit, factor, [self.values(k, quantity) for k in range(len(self.loads))])
 
     def places(self, number: int) -> FloatArray:
-        """Of the surface's points (n, 3) [m], in true scale."""
-        return self.surface.places + self.surface.displacement(self.fields[number])
+        """Of the surface's points (n, 3) [m], in true scale, the ground below."""
+        x, z = self.down[0], self.down[2]
+        upright = np.array([[-z, 0.0, x], [0.0, 1.0, 0.0], [-x, 0.0, -z]])
+        places: FloatArray = (self.surface.places + self.surface.displacement(self.fields[number])) @ upright.T
+        return places
 
     def show(self, scene: Scene, number: int, quantity: str) -> None:
         """Put it into the scene, or only move what stands there."""
@@ -77,22 +84,39 @@ class WheelStage:
 
     def _ground(self, places: FloatArray) -> Quads:
         """A square under the lowest point of the wheel."""
-        depth, half = float((places @ self.down).max()), 0.85 * float(np.abs(places).max())
-        aside = np.cross(self.down, (0.0, 1.0, 0.0))
-        corners = [a * aside + np.array([0.0, b, 0.0]) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-        return (depth + 3e-4) * self.down + half * np.array(corners), np.array([[0, 1, 2, 3]])
+        below, half = float(places[:, 2].min()) - 3e-4, 0.85 * float(np.abs(places).max())
+        corners = [(a * half, b * half, below) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        return np.array(corners), np.array([[0, 1, 2, 3]])
 
 
-def wheel_stage(orientation: float, files: Sequence[tuple[float, Path]]) -> WheelStage:
-    """Read the fields of one orientation [deg] at loads [N] in increasing order; raises InputError for a bad file."""
+def wheel_stage(orientation: float, files: Sequence[tuple[float, Path]], points: Path | None = None) -> WheelStage:
+    """Read the fields of one orientation [deg] at loads [N] in increasing order.
+
+    Parameters
+    ----------
+    orientation : what faces the ground [deg]
+    files : loads [N] with their files, one at least; the first gives the mesh
+    points : fields at the points of the curve, which are then shown instead
+
+    Raises
+    ------
+    InputError
+        For a file that cannot be used.
+    """
     read = [(load, *read_fields(path)) for load, path in files]
     _, surface, first = read[0]
     still = WheelField(displacement=0.0 * first.displacement, von_mises=0.0 * first.von_mises)
+    shown = [(load, field) for load, _, field in read]
+    if points is not None:
+        shown = [(load, WheelField(displacement=u, von_mises=s)) for load, u, s in read_points(points)]
+        if any(len(field.von_mises) != len(still.von_mises) for _, field in shown):
+            rule = f"must hold the {len(still.von_mises)} nodes of the mesh"
+            raise InputError("field file", points, rule, "run the report again, or take the file out of the folder")
     phi = np.radians(orientation)
     return WheelStage(
         surface=surface,
-        loads=(0.0, *(load for load, _, _ in read)),
-        fields=(still, *(field for _, _, field in read)),
+        loads=(0.0, *(load for load, _ in shown)),
+        fields=(still, *(field for _, field in shown)),
         down=np.array([np.sin(phi), 0.0, -np.cos(phi)]),
     )
 
