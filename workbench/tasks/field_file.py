@@ -77,7 +77,7 @@ def read_points(path: Path) -> Iterator[tuple[float, NDArray[np.float64], NDArra
         If the file is not what `write_points` writes.
     """
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
             load, moved, stress = (np.asarray(archive[name], dtype=np.float64) for name in _NAMES)
         fits = moved.ndim == 3 and moved.shape[:2] == stress.shape and load.shape == stress.shape[:1]
         sound = fits and moved.shape[2] == 3 and all(np.isfinite(a).all() for a in (load, moved, stress))
