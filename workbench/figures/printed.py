@@ -46,7 +46,7 @@ def draw(figure: Spec, path: Path, *, whole_width: bool) -> None:
     """
     data, layout = figure["data"], figure["layout"]
     labels = [plain(str(t["name"])) for t in data if t.get("name") and t.get("showlegend", True)]
-    width, height = (6.9, 3.0) if whole_width else (3.35, 2.55)
+    width, height = (6.9, 2.6) if whole_width else (3.35, 2.55)
     rows = _legend_rows(labels, _PER_ROW[whole_width]) if len(labels) > 1 else 0
     tall = height + _LEGEND_ROW * rows
     second_axis, bar = "yaxis2" in layout, any(_with_bar(trace) for trace in data)

@@ -18,8 +18,10 @@ __all__ = ["Tree", "read_html"]
 type Node = str | dict[str, Any]
 
 _DROPPED = ("iframe", "input", "button", "label", "svg", "nav", "style", "noscript")
+_LEFT_OUT = {"screen", "aside"}
+"""Classes of what is done with a pointer, and of long tables that the page keeps folded."""
 _VOID = ("br", "img", "input", "wbr", "meta", "hr", "col")
-_CLEAR = ("span", "div", "section", "tbody", "thead", "header", "main", "col", "colgroup")
+_CLEAR = ("span", "div", "section", "tbody", "header", "main", "col", "colgroup")
 """Tags that only group; their content stands for them, unless their class has a meaning."""
 _MEANING = ("pair", "chip", "plot", "scene", "soft", "caption", "inferred", "verdict", "eyebrow")
 
@@ -51,7 +53,8 @@ class Tree:
     Attributes
     ----------
     nodes : text, or a dict with ``t`` (tag, or one of the classes that mean something), ``c`` (children) and, by tag,
-        ``name`` (of a figure), ``src`` (of a picture), ``n`` (a number's cell), ``across`` and ``down`` (spans)
+        ``name`` (of a figure), ``src`` (of a picture), ``n`` (a number's cell), ``across`` and ``down`` (spans),
+        ``shares`` (of a table: widths of its columns)
     figures : name -> Plotly's data and layout
     """
 
@@ -60,10 +63,7 @@ class Tree:
 
 
 def read_html(text: str) -> Tree:
-    """Read a piece of the page; scripts with numbers become figures, what only a screen needs is dropped.
-
-    That is, by tag or by the class ``screen``, what is done with a pointer.
-    """
+    """Read a piece of the page; scripts with numbers become figures, what only a screen needs is dropped."""
     reader = _Reader()
     reader.feed(text)
     reader.close()
@@ -82,7 +82,7 @@ class _Reader(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         given = {name: value or "" for name, value in attrs}
-        if self.dropped or tag in _DROPPED or "screen" in given.get("class", "").split():
+        if self.dropped or tag in _DROPPED or _LEFT_OUT & set(given.get("class", "").split()):
             self.dropped += tag not in _VOID
             return
         if tag == "script":
@@ -128,6 +128,8 @@ def _node(tag: str, given: Mapping[str, str]) -> dict[str, Any]:
         )
     if tag in ("td", "th"):
         node |= {"n": "n" in classes, "across": int(given.get("colspan", 1)), "down": int(given.get("rowspan", 1))}
+    if "data-shares" in given:
+        node["shares"] = [float(part) for part in given["data-shares"].split()]
     if tag == "img":
         node["src"] = given.get("src", "")
     if meaning in ("plot", "scene"):

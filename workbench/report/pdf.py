@@ -107,9 +107,14 @@ def _first_page(found: Opening, status: str) -> dict[str, Any]:
         "verdict": found.verdict,
         "counts": [{"words": _counted(*row), "tone": _tone(row[0], row[1])} for row in found.counts],
         "ratings": ratings,
-        "band": [_row(c) | {"title": c.title.removeprefix("Average FE curve: ")} for c in found.band],
+        "band": [_row(c) | {"title": _short(c.title)} for c in found.band],
         "outside": [{"title": o.check.title, "value": f"{o.value} ({o.check.tolerance})"} for o in found.outside],
     }
+
+
+def _short(title: str) -> str:
+    """Title of a check of the reference band, as on the page's first screen."""
+    return title.removeprefix("Average FE curve: ").replace("slope from first contact to", "slope to")
 
 
 def _row(check: Check) -> dict[str, str]:

@@ -1,8 +1,9 @@
 // Figures and scenes are drawn when the reader comes near them, one a frame.
-const config = { responsive: true, displaylogo: false, plotlyServerURL: "", displayModeBar: "hover",
+const byFinger = matchMedia("(pointer: coarse)").matches;
+const modeBar = byFinger ? false : "hover";
+const config = { responsive: true, displaylogo: false, plotlyServerURL: "", displayModeBar: modeBar,
   modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
 const narrow = () => window.innerWidth < 600;
-const byFinger = matchMedia("(pointer: coarse)").matches;
 
 function drawPlot(box, Plotly) {
   if (box.dataset.drawn) return null;

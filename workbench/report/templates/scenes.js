@@ -31,7 +31,7 @@ const sceneLayout = (eye, aspectratio) => ({
     camera: { eye: { x: eye[0], y: eye[1], z: eye[2] }, up: { x: 0, y: 0, z: 1 }, projection: { type: "orthographic" } },
   },
 });
-const sceneConfig = { responsive: true, displaylogo: false, displayModeBar: "hover",
+const sceneConfig = { responsive: true, displaylogo: false,
   modeBarButtonsToRemove: ["orbitRotation", "tableRotation", "resetCameraLastSave3d"] };
 
 const pieceTraces = (content) => content.pieces.map((piece, q) => {
@@ -101,7 +101,8 @@ async function drawScene(box) {
   const wheel = Boolean(content.poses);
   const traces = wheel ? stressTraces(content, content.poses[0], 1) : pieceTraces(content);
   const zoom = content.zoom * Math.min(1, 0.3 + 0.45 * stage.clientWidth / stage.clientHeight);
-  await Plotly.newPlot(view, traces, sceneLayout(content.eye, proportions(traces, zoom)), sceneConfig);
+  await Plotly.newPlot(view, traces, sceneLayout(content.eye, proportions(traces, zoom)),
+    { ...sceneConfig, displayModeBar: modeBar });
   if (!wheel) addLegend(view, Plotly, traces, (holder) => box.querySelector(".controls").append(holder));
   if (wheel) {
     stressControls(box.querySelector(".controls"), content, (pose, share) => {
