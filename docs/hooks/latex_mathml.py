@@ -140,7 +140,8 @@ class _Reader:
         if name in SPACES:
             return f'<mspace width="{SPACES[name]}"></mspace>'
         if name in ACCENTS:
-            return f'<mover accent="true">{self.argument()}{_operator(ACCENTS[name], stretchy="false")}</mover>'
+            # no accent="true": without a mathematical font Chromium then draws the sign into the letter
+            return f"<mover>{self.argument()}{_operator(ACCENTS[name], stretchy='false', mathsize='100%')}</mover>"
         if name in SIZES:
             return _operator(self.bracket(), minsize=f"{SIZES[name]}em", maxsize=f"{SIZES[name]}em")
         if name in ("frac", "tfrac"):

@@ -31,7 +31,7 @@ def latex() -> ModuleType:
         (r"\frac{d}{\theta}", "<mfrac><mrow><mi>d</mi></mrow><mrow><mi>θ</mi></mrow></mfrac>"),
         (r"\tfrac12", '<mstyle displaystyle="false"><mfrac><mn>1</mn><mn>2</mn></mfrac></mstyle>'),
         (r"\sum_i x", "<munder><mo>∑</mo><mi>i</mi></munder><mi>x</mi>"),
-        (r"\ddot z", '<mover accent="true"><mi>z</mi><mo stretchy="false">¨</mo></mover>'),
+        (r"\ddot z", '<mover><mi>z</mi><mo stretchy="false" mathsize="100%">¨</mo></mover>'),
         (r"\text{at node (0, 0)}", "<mtext>at\xa0node\xa0(0,\xa00)</mtext>"),
         (r"1.25 \le x", "<mn>1.25</mn><mo>≤</mo><mi>x</mi>"),
     ],

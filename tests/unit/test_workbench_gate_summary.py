@@ -23,7 +23,7 @@ def _gate(tmp_path: Path) -> Gate:
 
 def test_markdown_names_what_broke_what_is_given_up_and_what_moved(tmp_path: Path) -> None:
     text = gate_markdown(_gate(tmp_path))
-    assert text.startswith("## ❌ Wheel workbench, s\n\n1 of 2 gates did not pass.\n")
+    assert text.startswith("## ❌ Wheel workbench, s\n\n1 given up of what was accepted. 1 of 2 gates did not pass.\n")
     assert "| `fe.balance` | Forces balance. | 120 N | 100 N, 10 % | pass, 100 N |" in text
     assert "| `gone.gate` | Forces balance. | gone | | pass, 100 N |" in text
     assert "| `f` | A \\| holds. |" in text
@@ -36,7 +36,7 @@ def test_lines_and_rows_say_the_same(tmp_path: Path) -> None:
     assert gate_lines(gate) == [
         "BROKEN fe.balance: Forces balance. [q 120 N; 100 N, 10 %]",
         "GIVEN UP gone.gate: gone: Forces balance.",
-        "gate FAILED: 1 of 2 gates did not pass.",
+        "gate FAILED: 1 given up of what was accepted. 1 of 2 gates did not pass.",
     ]
     rows = gate_rows(gate)["changes"]
     assert [(row["id"], row["kind"], row["fails"]) for row in rows][:2] == [

@@ -41,6 +41,13 @@ class Gate:
         return [change for change in self.changes if change.fails and change.check.id not in failed]
 
     @property
+    def verdict_now(self) -> str:
+        """The report's verdict, behind what the gate fails for though every gate of the run passed."""
+        if not self.given_up:
+            return self.verdict
+        return f"{len(self.given_up)} given up of what was accepted. {self.verdict}"
+
+    @property
     def holds(self) -> bool:
         """Whether nothing makes it fail."""
         return not self.failed and not self.given_up
@@ -50,7 +57,7 @@ def gate_lines(gate: Gate) -> list[str]:
     """Plain lines: every gate that did not pass, everything given up, and the verdict last."""
     lines = [f"BROKEN {c.id}: {c.claim} {_numbers(c)}" for c in gate.failed]
     lines += [f"GIVEN UP {c.check.id}: {c.kind}: {c.check.claim}" for c in gate.given_up]
-    return [*lines, f"gate {'passed' if gate.holds else 'FAILED'}: {gate.verdict}"]
+    return [*lines, f"gate {'passed' if gate.holds else 'FAILED'}: {gate.verdict_now}"]
 
 
 def gate_rows(gate: Gate) -> dict[str, Any]:
@@ -73,7 +80,7 @@ def gate_rows(gate: Gate) -> dict[str, Any]:
 
 def gate_markdown(gate: Gate) -> str:
     """The summary: verdict, what broke with its claim and numbers, findings outside, what changed."""
-    blocks = [f"## {'✅' if gate.holds else '❌'} Wheel workbench, {gate.study}", gate.verdict]
+    blocks = [f"## {'✅' if gate.holds else '❌'} Wheel workbench, {gate.study}", gate.verdict_now]
     blocks += _failures(gate)
     outside = [c for c in gate.checks if c.role == "finding" and c.status != "pass"]
     if outside:
