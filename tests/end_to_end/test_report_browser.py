@@ -228,26 +228,28 @@ def test_a_swipe_over_a_figure_scrolls_the_page(phone: tuple[Page, list[str]], p
 def test_a_finger_turns_a_scene_sideways_and_freely_after_a_tap(phone: tuple[Page, list[str]]) -> None:
     page, errors = phone
     x, y = middle(page, "#scene-parts .stage")
-    before, eye = page.evaluate("scrollY"), page.evaluate(EYE)
+    eye = page.evaluate(EYE)
     swipe(page, (x - 60, y), (x + 60, y))
     page.wait_for_function(f"({EYE}) !== {eye!r}")
     turned = page.evaluate(EYE)
     assert json.loads(turned)["z"] == pytest.approx(json.loads(eye)["z"])
     page.touchscreen.tap(x, y)
     page.wait_for_selector("#scene-parts .stage.free")
+    place = page.locator("#scene-parts .stage").bounding_box()
     swipe(page, (x, y + 80), (x, y - 80))
     page.wait_for_function(f"({EYE}) !== {turned!r}")
     assert json.loads(page.evaluate(EYE))["z"] != pytest.approx(json.loads(eye)["z"])
-    assert page.evaluate("scrollY") == before
+    assert page.locator("#scene-parts .stage").bounding_box() == place
     page.touchscreen.tap(x, max(y - 260, 60))
     assert page.locator(".stage.free").count() == 0
     assert errors == []
 
 
 def middle(page: Page, place: str) -> tuple[float, float]:
-    """Of a figure, brought to the middle of the screen and drawn."""
+    """Of a figure, brought to the middle of the screen and drawn, as all near it."""
     page.evaluate(f"document.querySelector('{place}').scrollIntoView({{ block: 'center', behavior: 'instant' }})")
     page.wait_for_selector(f"{place.split()[0]}[data-drawn='1']", state="attached")
+    page.wait_for_function("!busy && waiting.length === 0")
     page.evaluate(f"document.querySelector('{place}').scrollIntoView({{ block: 'center', behavior: 'instant' }})")
     box = page.locator(place).bounding_box()
     assert box
