@@ -57,12 +57,13 @@ class TireShapes:
             self.also(t, now)
 
     def explained(self, error: ConvergenceError) -> ConvergenceError:
-        """The error of a motion that stopped, which says so if a tire was about to fold."""
+        """The error of a motion that stopped, which says whether a tire was about to fold."""
         if self.seen is None or "folds" in str(error):
             return error
         (t, now), ratios = self.seen, self.ratios(self.seen[1])
         if ratios.min() > NEARLY:
-            return error
+            message = f"{error}. No tire is near folding: least volume has {self._worst(ratios, now)} at t = {t:g} s"
+            return ConvergenceError(message, error.history, error.last_good)
         message = f"a tire folds at t = {t:g} s, where no step converges: {self._worst(ratios, now)} gives way; {_TRY}"
         return ConvergenceError(message, error.history, error.last_good)
 

@@ -36,7 +36,7 @@ LAW = replace(THESIS_LAW, damping_depth=1e-3)
 """The thesis' contact, its damping built up over a millimetre of penetration: at the speeds of traction points arrive
 so fast that the force of eq. 2.22, which is there at once, ends every Newton iteration."""
 STEPS = EvenSteps(shortest=1e-5)
-"""A motion that needs shorter ones is one in which a tire folds."""
+"""On level ground and slopes a motion that needs shorter ones is one in which a tire folds."""
 START_HEIGHT = -0.015
 """Lowest points of the undeformed wheels over the ground at the start of the settling [m]: from there the tires sink by
 themselves, while from the ground up the fall takes them beyond what they carry."""
