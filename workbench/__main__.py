@@ -22,7 +22,7 @@ def main() -> None:
 
 def _end(*_: object) -> None:
     os.write(2, b"workbench: error: interrupted; nothing was begun\n")
-    os._exit(130)
+    os._exit(2)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The command line ``workbench``. Heavy libraries are imported by the command that needs them, never on ``--help``.
 
-Exit status: 0 every gate passed, 1 a gate failed, 2 bad input or a failed run, 130 interrupted (Ctrl-C). Verified by
+Exit status: 0 every gate passed, 1 a gate failed, 2 bad input, a failed run or one ended by Ctrl-C. Verified by
 tests/end_to_end/test_commands.py and tests/end_to_end/test_interrupt.py.
 """
 
@@ -27,11 +27,13 @@ from workbench.commands.options import (
     computing,
 )
 from workbench.commands.results_app import results_app
-from workbench.execution.interrupts import INTERRUPTED, came, hear_no_more, interrupt_safely
+from workbench.execution.interrupts import came, hear_no_more, interrupt_safely
 
 __all__ = ["app", "main"]
 
 _INTERRUPTED = "interrupted; finished results are kept, start again to go on"
+_TYPER_INTERRUPTED = 130
+"""What Typer makes of Ctrl-C within a command."""
 _LONGEST_MESSAGE = 1600
 app = typer.Typer(
     name="workbench",
@@ -254,9 +256,9 @@ def _run(arguments: list[str]) -> int:
         hear_no_more()
     except KeyboardInterrupt:  # here, a second one is on its way already and not raised
         hear_no_more()
-        status, message = INTERRUPTED, _INTERRUPTED
-    if status == INTERRUPTED or (status == 2 and came()):
-        status, message = INTERRUPTED, _INTERRUPTED
+        status, message = 2, _INTERRUPTED
+    if status == _TYPER_INTERRUPTED or (status == 2 and came()):
+        status, message = 2, _INTERRUPTED
     if message:
         _complain(message)
     return status
@@ -273,7 +275,7 @@ def _ended(arguments: list[str]) -> tuple[int, str]:
         show()
         return 2, ""
     except typer.Abort:
-        return INTERRUPTED, _INTERRUPTED
+        return 2, _INTERRUPTED
     except WorkbenchError as error:
         return 2, str(error)
     except OSError as error:

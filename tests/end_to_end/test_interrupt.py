@@ -1,4 +1,4 @@
-"""Ctrl-C at any time: exit status 130, one message and no traceback, nothing half written, a store that works.
+"""Ctrl-C at any time: exit status 2, one message and no traceback, nothing half written, a store that works.
 
 When it comes is counted in audit events of the command's own process (imports, opened files, renames), by a hook that
 its start installs (``sitecustomize``): each moment of a run can be hit on purpose, however busy the machine is. What
@@ -48,6 +48,7 @@ def _started(arguments: list[str], known: dict[str, str]) -> subprocess.Popen[st
 def _interrupted(folder: Path, at: int) -> tuple[int, str]:
     """Exit status and error stream of a command that gets SIGINT with its ``at``-th event, or with none if 0."""
     known = environment() | {"INTERRUPT_AT": str(at), "EVENT_LOG": str(folder / "renames")}
+    known["PYTHONPYCACHEPREFIX"] = str(folder / "bytecode")  # the same whatever else runs
     known["PYTHONPATH"] = f"{folder}{os.pathsep}{known['PYTHONPATH']}"
     places = ("--out", folder / f"out{at}", "--store", folder / "store")
     process = _started(command("stiffness", folder / "study.toml", "--model", "brush", *places), known)
@@ -59,14 +60,17 @@ def test_at_any_moment_of_a_run(tmp_path: Path) -> None:
     """While libraries are loaded, in the store's one rename and in the last ones, which put the curves in place."""
     (tmp_path / "sitecustomize.py").write_text(HOOK, encoding="utf-8")
     (tmp_path / "study.toml").write_text(small_study_text(), encoding="utf-8")
-    assert _interrupted(tmp_path, 0) == (0, "")
+    for _ in range(2):  # the first run fills the caches of Python and numba, which counts as events
+        shutil.rmtree(tmp_path / "store", ignore_errors=True)
+        (tmp_path / "renames").unlink(missing_ok=True)
+        assert _interrupted(tmp_path, 0) == (0, "")
     renames = [int(line) for line in (tmp_path / "renames").read_text(encoding="utf-8").split()]
     source = random.Random(7)
     for at in (*(round(renames[0] * (0.02 + 0.45 * (k + source.random()))) for k in range(2)), renames[0], renames[-1]):
         for entry in (tmp_path / "store").glob("??"):
             shutil.rmtree(entry)
         status, message = _interrupted(tmp_path, at)
-        assert (status, message.count("\n")) == (130, 1), f"event {at} of {renames}: {message}"
+        assert (status, message.count("\n")) == (2, 1), f"event {at} of {renames}: {message}"
         assert message.startswith("workbench: error: interrupted; "), f"event {at}"
         entries = list((tmp_path / "store").glob("??/*"))
         assert len(entries) == 1 or at < renames[-1]
@@ -88,6 +92,6 @@ def test_in_the_middle_of_a_command_without_tasks(tmp_path: Path) -> None:
     time.sleep(begun)
     process.send_signal(signal.SIGINT)
     _, message = process.communicate(timeout=120)
-    assert (process.returncode, message.count("\n")) == (130, 1), message
+    assert (process.returncode, message.count("\n")) == (2, 1), message
     assert message.startswith("workbench: error: interrupted; ")
     assert not (tmp_path / "series").exists()

@@ -1,4 +1,4 @@
-"""Ctrl-C: it ends a command at any time, in one line and with exit status 130, and is never lost.
+"""Ctrl-C: it ends a command at any time, in one line and with exit status 2, and is never lost.
 
 A KeyboardInterrupt can be lost where compiled code calls Python: in a callback, while a library is loaded, or while
 numba or LLVM is at work, where it leaves half a function behind besides. So it is put off where it does harm; and once
@@ -19,10 +19,8 @@ from pathlib import PurePath
 from types import FrameType
 from typing import Any
 
-__all__ = ["INTERRUPTED", "came", "delicate", "hear_no_more", "interrupt_safely", "put_off"]
+__all__ = ["came", "delicate", "hear_no_more", "interrupt_safely", "put_off"]
 
-INTERRUPTED = 130
-"""Exit status after Ctrl-C, as shells have it: 128 + SIGINT."""
 _DELICATE = frozenset(("numba", "llvmlite"))
 _AGAIN = 0.02
 """After this time a Ctrl-C that was put off, or may be lost, is tried again [s]."""
