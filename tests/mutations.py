@@ -5,7 +5,15 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 
-__all__ = ["HOSTILE_CELLS", "HOSTILE_VALUES", "mutated_bytes", "mutated_table", "mutated_toml", "seeds"]
+__all__ = [
+    "HOSTILE_CELLS",
+    "HOSTILE_VALUES",
+    "mutated_bytes",
+    "mutated_sweep",
+    "mutated_table",
+    "mutated_toml",
+    "seeds",
+]
 
 HOSTILE_VALUES = (
     *("-1", "0", "1", "1e308", "-1e308", "1e-320", "nan", "-inf", "true", "0x7fffffffffffffff", "9" * 400, "9" * 5000),
@@ -20,6 +28,33 @@ HOSTILE_CELLS = (
     *('"', '""', '"1\n2"', "'", "text", "1;2", "\x00", "\ufeff", "9" * 400, "a" * 140000, "=1+1", "#", "1e-300"),
 )
 """Cells of a table, and pieces of its header."""
+
+SWEEP_KEYS = (
+    *("strip_thickness", "orientation", "temperature", "plates", "models", "design", "samples", "seed", "base"),
+    *("deflections", "loads", '"fe.friction"', '"wheel.springs[0].count"', '"wheel.springs[9].count"', '"wheel"'),
+    *('"sweep.models"', '"wheel.springs[-1].count"', '"wheel.springs"', '"mesh..element_size"', '""', '"a.b.c"', "x"),
+    *(
+        '"name"',
+        '"fe.points"',
+        '"ancf.contact_points[0]"',
+        '"materials.Ti-6Al-4V.density"',
+        '"wheel.springs[0"',
+        "fe.x",
+    ),
+)
+"""Keys of [sweep]: its own, those of a study, and those of none."""
+SOUND_SWEEP = (
+    *('strip_thickness = { low = "0.5 mm", high = "0.7 mm" }', 'orientation = ["0 deg"]', '"fe.friction" = [0, 0.3]'),
+    *('"wheel.springs[0].count" = [3, 4]', "plates = [8, 12]", 'models = ["ancf", "brush"]', "base = false"),
+    *('design = "latin-hypercube"', "samples = 3", '"fe.max_load" = ["100 N"]', 'loads = ["40 N"]', "seed = 7"),
+)
+"""Lines of [sweep] that mean something, alone or with others."""
+SWEEP_VALUES = (
+    *('["0.5 mm", "0.6 mm"]', '["fe", "ancf"]', '"latin-hypercube"', '"grid"', "3", "100000", "[3, 4]", "[0, 0.3]"),
+    *('{ low = "0.5 mm", high = "0.7 mm" }', '{ low = 1, high = "2 mm" }', "{ low = 2, high = 1 }", "{ low = 1 }"),
+    *('{ low = "0 deg", high = "inf deg" }', "{ low = nan, high = 1 }", '{ low = "1 mm", high = "1 N" }', '["x", 1]'),
+    *("[0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.4, 2.7]", '["0 deg", "0 deg"]', f"[{', '.join(map(str, range(300)))}]"),
+)
 
 
 def mutated_bytes(source: random.Random, content: bytes) -> bytes:
@@ -64,6 +99,23 @@ def mutated_toml(source: random.Random, text: str) -> bytes:
         else:
             lines[i] = f"{name}={lines[source.choice(keys)].partition('=')[2]}"
     return "\n".join(lines).encode()
+
+
+def mutated_sweep(source: random.Random, text: str) -> bytes:
+    """A study whose section [sweep] has one to four keys given other values, lost or added; the rest is as it was."""
+    before, _, rest = text.partition("[sweep]\n")
+    section, bracket, after = rest.partition("\n[")
+    lines = [line for line in section.splitlines() if "=" in line and not line.startswith("#")]
+    for _ in range(source.randint(1, 3)):
+        key, value = source.choice(SWEEP_KEYS), source.choice((*SWEEP_VALUES, *SWEEP_VALUES, *HOSTILE_VALUES))
+        kind = source.randrange(8)
+        if kind == 0 and lines:
+            del lines[source.randrange(len(lines))]
+        if kind > 2:
+            key, _, value = source.choice(SOUND_SWEEP).partition(" = ")
+        lines = [line for line in lines if kind == 1 or line.partition("=")[0].strip() != key]
+        lines.insert(source.randint(0, len(lines)), f"{key} = {value}")
+    return f"{before}[sweep]\n{'\n'.join(lines)}\n{bracket}{after}".encode()
 
 
 def mutated_table(source: random.Random, text: str, headers: Sequence[str]) -> bytes:

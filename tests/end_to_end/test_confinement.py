@@ -8,12 +8,14 @@ count; pipes between processes of this machine do not either.
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 from pathlib import Path
 
 import pytest
 
 from tests.end_to_end.small_study import command, environment, small_study_text
+from tests.small_report_folder import write_small_report
 
 HOOK = """
 import os, sys
@@ -40,22 +42,32 @@ def _hear(event, arguments):
         os.write(_log, f"network {event} {arguments[0]}\\n".encode())
 sys.addaudithook(_hear)
 """
+SWEEP = '[sweep]\nmodels = ["brush"]\nbase = false\n"brush.friction_max" = [0.757]\n'
 CURVE = "deflection_m,load_N\n0,0\n0.01,80\n0.02,165\n"
+
+
+def _hooked(folder: Path) -> dict[str, str]:
+    """Environment in which a command writes the audit's log ``folder/hook/log.txt``, empty at first."""
+    (folder / "hook").mkdir(exist_ok=True)
+    (folder / "hook" / "sitecustomize.py").write_text(HOOK, encoding="utf-8")
+    log = folder / "hook" / "log.txt"
+    log.write_text("", encoding="utf-8")
+    known = environment()
+    return known | {"AUDIT_LOG": str(log), "PYTHONPATH": f"{folder / 'hook'}{os.pathsep}{known['PYTHONPATH']}"}
 
 
 def _audited(folder: Path, *arguments: str | Path) -> list[str]:
     """Lines of the audit's log of one command that must succeed."""
-    (folder / "hook").mkdir(exist_ok=True)
-    (folder / "hook" / "sitecustomize.py").write_text(HOOK, encoding="utf-8")
-    log = folder / "hook" / "log.txt"
-    log.unlink(missing_ok=True)
-    known = environment()
-    known |= {"AUDIT_LOG": str(log), "PYTHONPATH": f"{folder / 'hook'}{os.pathsep}{known['PYTHONPATH']}"}
+    known = _hooked(folder)
     ended = subprocess.run(
         command(*arguments), cwd=folder, env=known, capture_output=True, text=True, check=False, timeout=300
     )
     assert ended.returncode == 0, ended.stderr
-    return log.read_text(encoding="utf-8").splitlines()
+    return _lines(folder)
+
+
+def _lines(folder: Path) -> list[str]:
+    return (folder / "hook" / "log.txt").read_text(encoding="utf-8").splitlines()
 
 
 def _strays(lines: list[str], *allowed: Path) -> list[str]:
@@ -72,23 +84,42 @@ def _strays(lines: list[str], *allowed: Path) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("name", ["compare", "stiffness", "rover"])
+@pytest.mark.parametrize("name", ["compare", "stiffness", "mesh", "rover", "sweep"])
 def test_commands_stay_at_home(tmp_path: Path, name: str) -> None:
     """Folders with a blank and letters of other alphabets, as users have them."""
     home = tmp_path / "Räder und Reifen 火星"
     home.mkdir()
     (home / "кривая 1.csv").write_text(CURVE, encoding="utf-8")
-    (home / "étude.toml").write_text(small_study_text(), encoding="utf-8")
+    (home / "étude.toml").write_text(f"{small_study_text()}\n{SWEEP}", encoding="utf-8")
     out, store = home / "résultats", home / "запас"
     arguments: dict[str, tuple[str | Path, ...]] = {
         "compare": ("compare", home / "кривая 1.csv", home / "кривая 1.csv", "--out", out),
         "stiffness": ("stiffness", home / "étude.toml", "--model", "brush", "--out", out, "--store", store),
+        "mesh": ("mesh", home / "étude.toml", "--out", out, "--store", store),
+        "sweep": ("sweep", home / "étude.toml", "--out", out, "--store", store),
         "rover": ("rover", "static", "--out", out, "--store", store),
     }
     lines = _audited(tmp_path, *arguments[name])
     assert _strays(lines, out, store) == []
     assert any(str(out) in line for line in lines)  # the hook has seen what the command wrote
     assert any(out.rglob("*.*"))
+
+
+def test_the_viewer_listens_on_loopback_and_writes_nothing(tmp_path: Path) -> None:
+    """Two sockets are bound, the probe's and the server's, both to this machine alone; nobody is called."""
+    write_small_report(tmp_path / "résultats")
+    arguments = command("view", tmp_path / "résultats")
+    process = subprocess.Popen(
+        arguments, cwd=tmp_path, env=_hooked(tmp_path), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout is not None
+    address = process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    _, message = process.communicate(timeout=120)
+    assert (process.returncode, message) == (0, ""), address
+    strays = _strays(_lines(tmp_path))
+    assert strays
+    assert [line for line in strays if not line.startswith("network socket.bind ('127.0.0.1', ")] == []
 
 
 def test_negative_control_strays_are_seen(tmp_path: Path) -> None:

@@ -26,8 +26,8 @@ from hypothesis import strategies as st
 
 from contracts.errors import WorkbenchError
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER
-from tests.end_to_end.small_study import run, small_study_text
-from tests.mutations import HOSTILE_CELLS, mutated_bytes, mutated_table, mutated_toml, seeds
+from tests.end_to_end.small_study import ROOT, run, small_study_text
+from tests.mutations import HOSTILE_CELLS, mutated_bytes, mutated_sweep, mutated_table, mutated_toml, seeds
 from workbench.cli import _run
 
 REACHED = "the file was read and its tasks were made"
@@ -79,6 +79,7 @@ def nothing_computes(monkeypatch: pytest.MonkeyPatch) -> None:
         raise WorkbenchError(REACHED)
 
     monkeypatch.setattr("workbench.commands.computing.run_tasks", reached)
+    monkeypatch.setattr("workbench.commands.sweep.run_all", reached)
     monkeypatch.setattr("workbench.commands.rover.run_scenario", reached)
     monkeypatch.setenv("WORKBENCH_TRACEBACK", "1")
 
@@ -120,6 +121,13 @@ def test_studies(tmp_path: Path, capsys: pytest.CaptureFixture[str], model: str,
     arguments = ["stiffness", str(path), "--model", model, "--out", str(tmp_path / "o"), "--store", str(tmp_path / "s")]
     found = fuzz(capsys, path, arguments, lambda source: mutated_toml(Random(f"{model}{source.random()}"), text), count)
     assert min(found["read"], found["refused"]) > 0
+
+
+def test_sweeps(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text, path = (ROOT / "studies" / "strip_sweep.toml").read_text(encoding="utf-8"), tmp_path / "sweep.toml"
+    arguments = ["sweep", str(path), "--out", str(tmp_path / "o"), "--store", str(tmp_path / "s")]
+    found = fuzz(capsys, path, arguments, lambda source: mutated_sweep(source, text), 60)
+    assert min(found["read"], found["refused"]) > 5
 
 
 def test_rovers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

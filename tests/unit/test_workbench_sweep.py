@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy as np
 import pyarrow.parquet as pq  # type: ignore[import-untyped]
 import pytest
 
-from contracts.curves import StiffnessCurve, write_curve
+from contracts.curves import StiffnessCurve, read_curve, write_curve
 from workbench.comparison.sweep import Outcome, outcomes, references
 from workbench.comparison.sweep_table import SweepTable, sweep_table
 from workbench.execution.result_files import FAILURE, write_result
@@ -112,6 +113,32 @@ def test_the_table_has_what_was_varied_and_what_was_found(made: tuple[SweepTable
     assert "task p3/section_phi000 failed: why" in str(failed["note"])
 
 
+def test_a_curve_that_ends_early_says_where_and_why(tmp_path: Path) -> None:
+    """Half of the curve is there: its state is partial, its numbers are those it reaches."""
+    study, graph = _swept(**{"fe.max_load": ["290 N"]}, deflections=["10 mm", "30 mm"])
+    tasks = [task.name for task in graph.tasks if task.name.startswith("p1/section")]
+    for task, entry in _results(tmp_path, graph, dict.fromkeys(tasks, 8000.0)).items():
+        whole = read_curve(entry.path / "curve.csv", model="section", orientation_deg=0.0)
+        half = replace(
+            whole,
+            deflection=whole.deflection[:21],
+            load=whole.load[:21],
+            columns={name: values[:21] for name, values in whole.columns.items()},
+            partial=True,
+        )
+        write_curve(half, entry.path / "curve.csv")
+        write_result(entry.path, {FAILURE: f"{task} stopped"})
+    entries = {t: Entry(key=graph.keys[t], path=tmp_path / t, manifest={"wall_s": 2.0}) for t in tasks}
+    found = [outcome for outcome in outcomes(graph, entries, {}) if outcome.run.point.number == 1]
+    table = sweep_table(study, graph, found, {})
+    assert table.column("state") == ("partial",)
+    assert table.column("load_at_10mm_N") == (pytest.approx(80.0),)
+    assert table.column("load_at_30mm_N") == (None,)
+    (note,) = table.column("note")
+    assert str(note).startswith("ends at 20 mm and 160 N; ")
+    assert str(note).endswith(" stopped")
+
+
 def test_csv_and_parquet_hold_the_same(made: tuple[SweepTable, list[Outcome], SweepGraph], tmp_path: Path) -> None:
     table, _, _ = made
     write_parquet(table, tmp_path / "sweep.parquet")
@@ -140,7 +167,9 @@ def test_a_reference_of_the_study_s_own_comes_before_the_base(tmp_path: Path) ->
 def test_axes_are_those_every_drawn_row_has_a_number_for(made: tuple[SweepTable, list[Outcome], SweepGraph]) -> None:
     table, found, _ = made
     axes = {axis["label"]: axis for axis in coordinate_axes(table)}
-    assert axes["fe.max load N"]["values"] == [290.0, 310.0]
+    assert axes["fe.max load [N]"]["values"] == [290.0, 310.0]
+    assert "relative l2 [-]" in axes
+    assert [label for label in axes if not label.endswith("]")] == []
     assert axes["initial tangent [N/mm]"]["values"] == pytest.approx([9.0, 10.0])
     assert all(
         axis["range"][0] < min(axis["values"]) and max(axis["values"]) < axis["range"][1] for axis in axes.values()

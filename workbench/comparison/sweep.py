@@ -78,9 +78,18 @@ def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str,
         run=run,
         by_orientation=tuple(curves),
         curve=curves[0] if len(curves) == 1 else mean_curve(curves),
-        note="; ".join(early_ends(folders).values()),
+        note="; ".join(_reach(curves) + list(early_ends(folders).values())),
         wall_s=sum(entries[name].wall_s for name in run.tasks),
     )
+
+
+def _reach(curves: Sequence[StiffnessCurve]) -> list[str]:
+    """How far those came that end early."""
+    return [
+        "converged nowhere" if c.unloaded else f"ends at {1e3 * c.deflection[-1]:.3g} mm and {c.load[-1]:.4g} N"
+        for c in curves
+        if c.partial
+    ]
 
 
 def references(study: Study, folder: Path, found: Sequence[Outcome]) -> dict[str, Reference]:

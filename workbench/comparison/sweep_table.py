@@ -24,11 +24,15 @@ type Cell = float | int | str | None
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepTable:
-    """Names of the columns with their units, the rows, and which columns are what was varied and what was found."""
+    """Names of the columns with their units, the rows, and which columns are what was varied and what was found.
+
+    ``labels`` are what was varied in the same order, as written at an axis: ``"strip thickness [mm]"``.
+    """
 
     names: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     inputs: tuple[str, ...]
+    labels: tuple[str, ...]
     outputs: tuple[str, ...]
 
     def column(self, name: str) -> tuple[Cell, ...]:
@@ -52,31 +56,33 @@ def sweep_table(
     section = study.sweep
     assert section is not None
     columns = {key: _column(section, key) for key in section.parameters}
-    inputs = tuple(name for name, _ in columns.values())
+    inputs = tuple(name for name, _, _ in columns.values())
     rows, outputs = [], tuple[str, ...]()
     for outcome in found:
         values = outcome.run.point.values
-        told = [convert(values[key]) if key in values else None for key, (_, convert) in columns.items()]
+        told = [convert(values[key]) if key in values else None for key, (_, _, convert) in columns.items()]
         numbers = measured(outcome, section, study.tolerances.initial_tangent_up_to, against.get(outcome.run.model))
         outputs = tuple(numbers)
         keys = " ".join(graph.keys[task] for task in outcome.run.curves.values())
         first = (outcome.run.point.number, outcome.run.model, *told, outcome.state)
         rows.append((*first, *numbers.values(), outcome.wall_s, keys, outcome.note or None))
     names = ("point", "model", *inputs, "state", *outputs, "wall_time_s", "task_key", "note")
-    return SweepTable(names=names, rows=tuple(rows), inputs=inputs, outputs=outputs)
+    labels = tuple(label for _, label, _ in columns.values())
+    return SweepTable(names=names, rows=tuple(rows), inputs=inputs, labels=labels, outputs=outputs)
 
 
-def _column(section: SweepSection, key: str) -> tuple[str, Callable[[Value], Cell]]:
-    """Header of one parameter and what a value becomes in it: its number in the unit it was written in, or its text."""
+def _column(section: SweepSection, key: str) -> tuple[str, str, Callable[[Value], Cell]]:
+    """Header and label of one parameter, and what a value becomes: a number in the unit it was written in, or text."""
     values = section.parameters[key]
     given = (values.low, values.high) if isinstance(values, SweepRange) else values
     numbers = [number_and_unit(value) for value in given]
+    words = key.replace("_", " ")
     if None in numbers:
-        return key, _as_text
+        return key, words, _as_text
     unit = next((number[1] for number in numbers if number), "") or unit_of(key) or ""
     header = f"{key}_{_in_a_name(unit)}" if unit else key
     whole = all(isinstance(value, int) for value in given) and not unit
-    return header, _as_whole_number if whole else _as_number
+    return header, f"{words} [{unit or '-'}]", _as_whole_number if whole else _as_number
 
 
 def _as_text(value: Value) -> str:

@@ -46,7 +46,8 @@ def coordinate_axes(table: SweepTable) -> list[dict[str, Any]]:
     names = [*(("model",) if len(set(table.column("model"))) > 1 else ()), *table.inputs, *table.outputs]
     columns = {name: [row[table.names.index(name)] for row in rows] for name in names if name != "held_against"}
     whole = {name: cells for name, cells in columns.items() if cells and None not in cells}
-    return [_axis(name, cells, varied=name in (*table.inputs, "model")) for name, cells in whole.items()]
+    told = dict(zip(table.inputs, table.labels, strict=True)) | {"model": "model"}
+    return [_axis(cells, told[name]) if name in told else _found_axis(cells, name) for name, cells in whole.items()]
 
 
 def _drawn_rows(table: SweepTable) -> list[tuple[Cell, ...]]:
@@ -55,21 +56,32 @@ def _drawn_rows(table: SweepTable) -> list[tuple[Cell, ...]]:
     return [row for row in table.rows if row[point] != 0 and row[state] != "failed"]
 
 
-def _axis(name: str, cells: Sequence[Cell], *, varied: bool) -> dict[str, Any]:
+def _axis(cells: Sequence[Cell], label: str) -> dict[str, Any]:
+    """What was varied: a tick for each of a few values."""
     if any(isinstance(cell, str) for cell in cells):
         texts = sorted({str(cell) for cell in cells})
         places = [texts.index(str(cell)) for cell in cells]
         ends = [-0.5, len(texts) - 0.5]
-        return {"label": name, "values": places, "tickvals": [*range(len(texts))], "ticktext": texts, "range": ends}
-    ending = "" if varied else next((e for e in _SCALED if name.endswith(e)), "")
-    factor, unit = _SCALED[ending] if ending else (1.0, "")
+        return {"label": label, "values": places, "tickvals": [*range(len(texts))], "ticktext": texts, "range": ends}
+    values = [float(cell) for cell in cells if cell is not None]
+    ticks = sorted(set(values))
+    few = {"tickvals": ticks, "ticktext": [f"{v:g}" for v in ticks]} if len(ticks) <= 8 else {}
+    return _between(values, label) | few
+
+
+def _found_axis(cells: Sequence[Cell], name: str) -> dict[str, Any]:
+    """What was found, in the unit that engineers read."""
+    ending = next((ending for ending in _SCALED if name.endswith(ending)), "")
+    factor, unit = _SCALED[ending] if ending else (1.0, "-")
     values = [factor * float(cell) for cell in cells if cell is not None]
+    return _between(values, f"{name.removesuffix(ending).replace('_', ' ')} [{unit}]")
+
+
+def _between(values: list[float], label: str) -> dict[str, Any]:
+    """An axis with some space at its ends."""
     low, high = min(values), max(values)
     margin = 0.05 * (high - low) or 0.05 * abs(high) or 1.0
-    label = name.removesuffix(ending).replace("_", " ") + (f" [{unit}]" if unit else "")
-    axis: dict[str, Any] = {"label": label, "values": values, "range": [low - margin, high + margin]}
-    ticks = sorted(set(values))
-    return axis | ({"tickvals": ticks, "ticktext": [f"{v:g}" for v in ticks]} if varied and len(ticks) <= 8 else {})
+    return {"label": label, "values": values, "range": [low - margin, high + margin]}
 
 
 def curves_figure(found: Sequence[Outcome], model: str) -> str:

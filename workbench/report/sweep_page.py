@@ -48,7 +48,7 @@ def sweep_page(title: str, table: SweepTable, found: Sequence[Outcome]) -> str:
     points = len({o.run.point.number for o in found if o.run.point.number})
     return _PAGE.substitute(
         title=html.escape(f"{title}: parameter study"),
-        lead=html.escape(f"{points} points; curves: {counts}. Varied: {', '.join(table.inputs)}."),
+        lead=html.escape(f"{points} points; curves: {counts}. Varied: {', '.join(table.labels)}."),
         plotly=plotly_script(),
         coordinates=parallel_coordinates(table) if drawn else "<p>No point has a curve.</p>",
         curves=curves,
