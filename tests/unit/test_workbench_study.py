@@ -179,6 +179,11 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
         'thickness = "0.61 um"',
         ["wheel.springs[0].thickness = '0.61 um'", "at least 0.01 mm"],
     ),
+    "no list": (
+        r'snapshot_loads = \["200 N"\]',
+        'snapshot_loads = "200 N"',
+        ["fe.snapshot_loads = '200 N'", "must be a list"],
+    ),
     "orientation twice": ('"0 deg", "15 deg"', '"15 deg", "15 deg"', ["fe.orientations", "holds 15 deg twice"]),
     "decimal comma": (THICKNESS, 'thickness = "0,6 mm"', ["wheel.tire.thickness = '0,6 mm'", "use a point"]),
     "not toml": ('name = "exomars"', "name = exomars", ["not valid TOML", "line"]),
@@ -232,6 +237,23 @@ def test_files_that_are_no_study(tmp_path: Path) -> None:
         with pytest.raises(StudyError, match=rule) as caught:
             read_study(path)
         assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        (f"a = {'[' * 5000}", "is not valid TOML: brackets in brackets without end"),
+        (f"a = {'9' * 5000}", "is not valid TOML: a number of thousands of digits"),
+    ],
+    ids=["brackets", "digits"],
+)
+def test_what_no_parser_bears(tmp_path: Path, text: str, wanted: str) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(StudyError) as caught:
+        read_study(path)
+    assert wanted in str(caught.value)
+    assert len(str(caught.value)) < 400
 
 
 def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -24,6 +24,9 @@ __all__ = ["built_in_study", "read_study", "read_study_table", "study_of"]
 _HINTS = {
     "extra_forbidden": ("is not a known key", "remove it or correct its spelling"),
     "missing": ("is missing", "add it to the study file"),
+    "tuple_type": ("must be a list", "put it in brackets, as in studies/exomars.toml"),
+    "list_type": ("must be a list", "put it in brackets, as in studies/exomars.toml"),
+    "dict_type": ("must be a table", "see studies/exomars.toml for an example"),
 }
 
 
@@ -88,8 +91,10 @@ def read_study_table(path: Path) -> dict[str, Any]:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise StudyError(path, "", "", f"is not valid TOML: {error}", example) from error
-    except (ValueError, RecursionError) as error:  # a number of thousands of digits, brackets in thousands
-        raise StudyError(path, "", "", f"cannot be read as TOML ({error})", example) from error
+    except RecursionError as error:
+        raise StudyError(path, "", "", "is not valid TOML: brackets in brackets without end", example) from error
+    except ValueError as error:  # Python refuses to turn that many digits into a number
+        raise StudyError(path, "", "", "is not valid TOML: a number of thousands of digits", example) from error
 
 
 def _study_error(path: Path, error: ValidationError) -> StudyError:
