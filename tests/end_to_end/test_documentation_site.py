@@ -63,7 +63,7 @@ def test_each_package_has_its_page_without_private_names(site: Path) -> None:
     reference = {p.stem: p.read_text(encoding="utf-8") for p in (site / "reference" / "api").glob("*.html")}
     assert set(reference) >= {"contracts", "geometry", "reference_fe", "ancf_reduced", "workbench.study"}
     assert 'id="contracts.curves.StiffnessCurve.load_at"' in reference["contracts"]
-    assert 'id="reference_fe.problem.static_problem.StaticProblem"' in reference["reference_fe"]
+    assert 'id="reference_fe.problem.static_problem.StaticProblem"' in reference["reference_fe.problem"]
     assert not re.search(r'id="[\w.]+\._\w', "".join(reference.values()))
 
 

@@ -72,7 +72,8 @@ def test_junit_holds_the_same_checks(first_report: Finished, workspace: Path) ->
 def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished, workspace: Path) -> None:
     folder = workspace / "report" / "curves"
     names = {"fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
-             "brush_average.csv", "section_phi000.csv", "section_average.csv", "fe_-40C_phi000.csv"}  # fmt: skip
+             "brush_average.csv", "section_phi000.csv", "section_average.csv", "fe_-40C_phi000.csv",
+             "fe_x1.5_phi000.csv", "fe_x2_phi000.csv"}  # fmt: skip
     names |= {
         f"ancf_{fit}_{place}.csv"
         for fit in ("four_spokes", "six_spokes", "three_spokes")
@@ -83,7 +84,8 @@ def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished
         lines = path.read_text(encoding="utf-8").splitlines()
         assert next(line for line in lines if not line.startswith("#")).startswith("deflection_m,load_N")
         assert np.all(np.diff(read_curve(path).deflection) > 0.0)
-    assert [p.name for p in (workspace / "report" / "fields").iterdir()] == ["fe_phi000_20N.vtu"]
+    fields = {p.name for p in (workspace / "report" / "fields").iterdir()}
+    assert fields == {"fe_phi000_20N.vtu", "fe_phi000_points.npz"}
     fe = read_curve(folder / "fe_phi000.csv")
     assert fe.load[-1] > 10.0
     assert fe.deflection[-1] == pytest.approx(0.006)
