@@ -194,22 +194,6 @@ def test_what_stands_before_a_slash_is_no_part_of_a_key(tmp_path: Path) -> None:
     assert entries["p1/c"].manifest["needs"] == {"a": keys["a"], "b": keys["b"]}
 
 
-def test_key_depends_on_inputs_needs_source_and_libraries() -> None:
-    def key(**changes: object) -> str:
-        values = {"name": "t", "function": f"{PROBE}:add", "inputs": {"value": 1.0}, "libraries": ("numpy",)}
-        return task_keys((Task(**(values | changes)),))["t"]  # type: ignore[arg-type]
-
-    keys = [
-        key(),
-        key(inputs={"value": 1.0000000000000002}),
-        key(function=f"{PROBE}:crash"),
-        key(sources=("contracts",)),
-        key(libraries=("numpy", "scipy")),
-    ]
-    assert len(set(keys)) == len(keys)
-    assert key() == key(cost=5.0)
-
-
 @pytest.mark.parametrize(
     ("function", "message"),
     [

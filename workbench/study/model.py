@@ -14,6 +14,7 @@ from pydantic import Field
 
 from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
+from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
 from workbench.study.quantities import Force, Length, Stiffness
 from workbench.study.rover import RoverSection
@@ -22,11 +23,8 @@ from workbench.study.sections import (
     BrushSection,
     CurveSection,
     FeSection,
-    FullSection,
-    HubStudySection,
     MaterialSection,
     MeshSection,
-    MeshStudySection,
     Positive,
     Section,
     ToleranceSection,

@@ -7,7 +7,6 @@ tests/unit/test_workbench_study.py.
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import (
@@ -31,12 +30,11 @@ __all__ = [
     "BrushSection",
     "CurveSection",
     "Drop",
+    "Factor",
     "FeSection",
-    "FullSection",
-    "HubStudySection",
     "MaterialSection",
     "MeshSection",
-    "MeshStudySection",
+    "Positive",
     "Section",
     "Thickness",
     "ToleranceSection",
@@ -156,50 +154,6 @@ class FeSection(Section):
     def turned(self) -> bool:
         """Whether the ground is turned out of the wheel's plane of symmetry."""
         return bool(self.camber or getattr(self.obstacle, "yaw", 0.0))
-
-
-class MeshStudySection(Section):
-    """Three meshes of one family, which give the numerical uncertainty of the load at some deflections [m].
-
-    ``factors`` are those of ``mesh.factor``; one of them is that of the curves' mesh.
-    """
-
-    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
-    factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
-    deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
-
-    @model_validator(mode="after")
-    def _increasing(self) -> MeshStudySection:
-        for key, values in (("factors", self.factors), ("deflections", self.deflections)):
-            if not all(b > a for a, b in pairwise(values)):
-                shown = ", ".join(f"{v:g}" for v in values)
-                raise in_key(key, shown, "must increase", "sort them and give each once")
-        return self
-
-
-class HubStudySection(Section):
-    """What elastic hubs, cone and impact springs add to the load, at one orientation and some deflections [m]."""
-
-    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
-    deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020)
-
-
-class FullSection(Section):
-    """What ``workbench report --full`` takes instead: step of orientations [rad], mesh, meshes of the mesh study."""
-
-    orientation_step: Annotated[Angle, Positive] = math.radians(5.0)
-    factor: Factor = 1.5
-    mesh_study_factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
-
-    @model_validator(mode="after")
-    def _factors_hold_the_mesh(self) -> FullSection:
-        factors = self.mesh_study_factors
-        if self.factor not in factors or not all(b > a for a, b in pairwise(factors)):
-            shown = ", ".join(f"{factor:g}" for factor in factors)
-            raise in_key(
-                "mesh_study_factors", shown, f"must increase and contain factor = {self.factor:g}", "e.g. 1, 1.5, 2"
-            )
-        return self
 
 
 class VerificationSection(Section):
