@@ -57,5 +57,5 @@ def environment() -> dict[str, str]:
 def run(*arguments: str | Path, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
     """Run one command to its end."""
     return subprocess.run(
-        command(*arguments), cwd=folder, env=environment(), capture_output=True, text=True, check=False, timeout=300
+        command(*arguments), cwd=folder, env=environment(), capture_output=True, text=True, check=False, timeout=900
     )

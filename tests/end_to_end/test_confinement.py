@@ -60,7 +60,7 @@ def _audited(folder: Path, *arguments: str | Path) -> list[str]:
     """Lines of the audit's log of one command that must succeed."""
     known = _hooked(folder)
     ended = subprocess.run(
-        command(*arguments), cwd=folder, env=known, capture_output=True, text=True, check=False, timeout=300
+        command(*arguments), cwd=folder, env=known, capture_output=True, text=True, check=False, timeout=900
     )
     assert ended.returncode == 0, ended.stderr
     return _lines(folder)
@@ -115,7 +115,7 @@ def test_the_viewer_listens_on_loopback_and_writes_nothing(tmp_path: Path) -> No
     assert process.stdout is not None
     address = process.stdout.readline()
     process.send_signal(signal.SIGINT)
-    _, message = process.communicate(timeout=120)
+    _, message = process.communicate(timeout=300)
     assert (process.returncode, message) == (0, ""), address
     strays = _strays(_lines(tmp_path))
     assert strays

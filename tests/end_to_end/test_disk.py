@@ -38,7 +38,7 @@ def _on(options: str, folder: Path, arguments: list[str], before: str = "") -> s
             pytest.fail("mounting needs root and mount namespaces")
         pytest.skip("mounting a small file system needs root and mount namespaces")
     whole = ["unshare", "-m", "bash", "-c", script, "bash", str(folder), *arguments]
-    return subprocess.run(whole, env=environment(), capture_output=True, text=True, check=False, timeout=300)
+    return subprocess.run(whole, env=environment(), capture_output=True, text=True, check=False, timeout=900)
 
 
 def test_a_full_disk_under_the_output(curve: Path, tmp_path: Path) -> None:
@@ -50,7 +50,7 @@ def test_a_full_disk_under_the_output(curve: Path, tmp_path: Path) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))
 
     ended = subprocess.run(
-        arguments, env=environment(), capture_output=True, text=True, check=False, timeout=300, preexec_fn=small_files
+        arguments, env=environment(), capture_output=True, text=True, check=False, timeout=900, preexec_fn=small_files
     )
     _refused(ended, "File too large")
     assert list(out.iterdir()) == []
@@ -81,7 +81,7 @@ def test_standard_output_on_a_full_disk_and_a_reader_that_leaves(curve: Path) ->
     with Path("/dev/full").open("w") as full:
         ended = subprocess.run(
             command("compare", curve, curve), env=environment(), stdout=full, stderr=subprocess.PIPE, text=True,
-            check=False, timeout=300,
+            check=False, timeout=900,
         )  # fmt: skip
     assert (ended.returncode, ended.stderr.count("\n")) == (2, 1), ended.stderr
     assert "No space left on device" in ended.stderr
