@@ -115,6 +115,20 @@ def test_a_snapshot_is_taken_at_its_load() -> None:
     assert snapshot.von_mises.max() == pytest.approx(np.interp(20.0, curve.load, largest), rel=0.15)
 
 
+def test_a_snapshot_leaves_the_curve_as_it_is() -> None:
+    """Springs and rim touch; what the terms of contact found at the kept load belongs to no point of the curve."""
+    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
+    plain = WheelLoadCase(orientation_deg=15.0, deflections=(0.011, 0.019))
+    without, kept = (
+        solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
+        for case in (plain, replace(plain, snapshot_loads=(110.0,)))
+    )
+    assert len(kept.snapshots) == 1
+    assert without.curve.columns["inner_penetration_m"][-1] > 0.0
+    for name, column in without.curve.columns.items():
+        np.testing.assert_array_equal(kept.curve.columns[name], column, err_msg=name)
+
+
 def test_fields_are_kept_at_every_point_of_the_curve() -> None:
     result = coarse_wheel(0.0)
     curve, points = result.curve, result.points
