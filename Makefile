@@ -19,7 +19,7 @@ export OMP_NUM_THREADS := 1
 # Certificates of the machine, not uv's own list: works behind a company's proxy too.
 export UV_SYSTEM_CERTS ?= true
 
-.PHONY: help setup report test docs lint unit evidence bench test-debian clean distclean
+.PHONY: help setup report test test-long docs lint unit evidence bench test-debian clean distclean
 
 help: ## show this list
 	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 18
@@ -31,6 +31,9 @@ report: $(READY) ## compute the study and write the report (STUDY=file.toml, OUT
 
 test: lint ## lint, then every test, two processes
 	$(PYTHON) -m pytest -n 2 --dist loadfile
+
+test-long: $(READY) ## what takes minutes: kills, fuzz, whole studies; the result goes into docs/test_long.json and .md
+	$(PYTHON) -m tests.long_run
 
 docs: $(READY) ## the manual, build/site/index.html; strict: no warning, no broken link
 	NO_MKDOCS_2_WARNING=1 $(VENV)/bin/mkdocs build --site-dir build/site

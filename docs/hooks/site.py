@@ -1,4 +1,4 @@
-"""What mkdocs does besides its own: MathML for formulas, and one page of the API reference for each package.
+"""What mkdocs does besides its own: formulas in MathML, the API reference, the state of the long tests.
 
 The reference is read from the sources without importing them: neither PETSc nor VTK is needed to build the site.
 """
@@ -14,8 +14,11 @@ from typing import Any
 
 from mkdocs.structure.files import File, Files
 
+sys.path.insert(0, str(Path(__file__).parents[2]))
 sys.path.insert(0, str(Path(__file__).parent))
 from latex_mathml import mathml
+
+from tests.long_run import STATE, state_of
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
@@ -41,6 +44,11 @@ def on_config(config: Any, **_: Any) -> Any:
     guides.extend(page for page in found if page not in named)
     reference.append({"API": ["reference/api.md", *({name: f"reference/api/{name}.md"} for name in packages())]})
     return config
+
+
+def on_page_markdown(markdown: str, **_: Any) -> str:
+    """Say whether the sources are still those of the last run of the long tests."""
+    return markdown.replace(STATE, f"Against these sources the result is **{state_of(ROOT)}**.")
 
 
 def _in_words(found: re.Match[str]) -> str:
