@@ -16,10 +16,14 @@ OUT ?= build/report
 
 # One thread in BLAS: results repeat, and independent tasks share the cores as processes.
 export OMP_NUM_THREADS := 1
+# Where we are root and have apt-get, the system's packages are ours to install.
+MAY_INSTALL := [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null
+APT := DEBIAN_FRONTEND=noninteractive apt-get --quiet --quiet --yes --no-install-recommends
+
 # Certificates of the machine, not uv's own list: works behind a company's proxy too.
 export UV_SYSTEM_CERTS ?= true
 
-.PHONY: help setup report test test-long docs lint unit evidence bench test-debian clean distclean
+.PHONY: help setup report test test-long docs lint unit evidence bench test-debian test-bare clean distclean
 
 help: ## show this list
 	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 18
@@ -63,24 +67,37 @@ test-debian: $(READY) ## FE tests and a wheel curve on Debian's DOLFINx, 13 and 
 	$(PYTHON) tests/debian/wheel_curve.py build/debian/wheel_build.csv
 	tests/debian/run.sh
 
+test-bare: ## the README's commands on a Debian 13 with git, make, gcc and python3 alone (needs root and debootstrap)
+	tests/debian/bare.sh
+
 clean: ## remove results and caches, keep the environment
 	rm -rf build .mypy_cache .ruff_cache .pytest_cache .hypothesis
 
 distclean: clean ## remove the environment too
 	rm -rf $(VENV) $(TOOLS)
 
-# The environment: uv from PATH, or our own copy; Python 3.12; the exact versions of constraints.txt.
+# The environment: uv from PATH, or our own copy; Python 3.12, else 3.13, else 3.12 fetched by uv; the exact versions of
+# constraints.txt; then doctor tries what was installed. What the system lacks is installed if we may, else named.
 $(READY): constraints.txt pyproject.toml .python-version
 	@uv="$$(command -v uv || true)"; \
 	if [ -z "$$uv" ] && [ ! -x $(TOOLS)/bin/uv ]; then \
 	  echo "uv is not on PATH: installing it into $(TOOLS)"; \
+	  if ! python3 -c 'import ensurepip' 2>/dev/null; then \
+	    packages="python3-venv ca-certificates"; \
+	    $(MAY_INSTALL) || { echo "make: python3 has no venv; as root: apt-get install --yes $$packages" >&2; exit 2; }; \
+	    $(APT) update && $(APT) install $$packages; \
+	  fi; \
 	  here="$$PWD"; \
 	  (cd / && python3 -m venv "$$here/$(TOOLS)" && "$$here/$(TOOLS)/bin/python" -m pip install --quiet --disable-pip-version-check uv) \
 	    || { rm -rf $(TOOLS); echo "make: uv could not be installed with python3; install uv yourself and put it on PATH" >&2; exit 2; }; \
 	fi; \
 	uv="$${uv:-$(TOOLS)/bin/uv}"; \
-	if ! $(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 12))' 2>/dev/null; then \
-	  "$$uv" venv --quiet --clear --python "$$(cat .python-version)" $(VENV); \
+	if ! $(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] not in ((3, 12), (3, 13)))' 2>/dev/null; then \
+	  find="$$uv python find --quiet --no-project --no-python-downloads"; \
+	  found="$$($$find "$$(cat .python-version)" 2>/dev/null || $$find 3.13 2>/dev/null || cat .python-version)"; \
+	  "$$uv" venv --quiet --clear --python "$$found" $(VENV); \
 	fi; \
 	"$$uv" pip install --quiet --python $(PYTHON) --constraints constraints.txt --build-constraints constraints.txt --group dev --group docs --editable . ; \
+	echo "trying what was installed (workbench doctor)"; \
+	$(VENV)/bin/workbench doctor $$($(MAY_INSTALL) && echo --install) > $(VENV)/doctor.txt 2>&1 || { cat $(VENV)/doctor.txt >&2; exit 2; }; \
 	touch $@

@@ -10,7 +10,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-__all__ = ["ConvergenceError", "IncrementRecord", "InputError", "MeshError", "StudyError", "WorkbenchError"]
+__all__ = [
+    "ConvergenceError",
+    "IncrementRecord",
+    "InputError",
+    "MeshError",
+    "MissingLibraryError",
+    "StudyError",
+    "WorkbenchError",
+]
 
 
 class WorkbenchError(Exception):
@@ -54,6 +62,19 @@ class StudyError(WorkbenchError, ValueError):
 
 class MeshError(WorkbenchError):
     """A mesh fails one of its checks (untagged boundary, inverted element, separate pieces, wrong volume)."""
+
+
+class MissingLibraryError(WorkbenchError):
+    """A library is installed but cannot be loaded, since this machine lacks something it needs.
+
+    Parameters
+    ----------
+    library : what cannot be loaded
+    reason : what the system says, e.g. ``"libGLU.so.1: cannot open shared object file"``
+    """
+
+    def __init__(self, library: str, reason: str) -> None:
+        super().__init__(f"{library} cannot be loaded ({reason}); `workbench doctor` names the command that mends it")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from contracts.errors import MissingLibraryError
+
 __all__ = ["gmsh_session"]
 
 _OPTIONS = {
@@ -39,9 +41,13 @@ def gmsh_session(name: str) -> Iterator[Any]:
     Parameters
     ----------
     name : name of the model
-    """
-    import gmsh  # type: ignore[import-untyped]
 
+    Raises
+    ------
+    MissingLibraryError
+        If a shared library of the system that gmsh needs is not there.
+    """
+    gmsh = _gmsh()
     fresh = not gmsh.isInitialized()
     if fresh:
         gmsh.initialize(readConfigFiles=False, interruptible=False)
@@ -60,3 +66,12 @@ def gmsh_session(name: str) -> Iterator[Any]:
             for option, value in before.items():
                 gmsh.option.setNumber(option, value)
             gmsh.model.setCurrent(current)
+
+
+def _gmsh() -> Any:
+    """The module; loads the X11 and OpenGL libraries of the system, which a server may lack."""
+    try:
+        import gmsh  # type: ignore[import-untyped]
+    except OSError as error:
+        raise MissingLibraryError("gmsh", str(error)) from error
+    return gmsh

@@ -215,11 +215,15 @@ def view(
 
 
 @app.command()
-def doctor() -> None:
-    """Show the versions found, what is missing and how to install it."""
+def doctor(
+    install: Annotated[
+        bool, typer.Option("--install", help="Install the Debian packages that are missing; needs root and apt-get.")
+    ] = False,
+) -> None:
+    """Load what the workbench needs, try it, and say what is missing and how to install it."""
     from workbench.commands.doctor import run_doctor
 
-    raise typer.Exit(run_doctor())
+    raise typer.Exit(run_doctor(mend=install))
 
 
 def main() -> None:

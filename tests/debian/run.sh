@@ -9,19 +9,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-fail() { echo "make test-debian: $*" >&2; exit 2; }
-[ "$(id -u)" = 0 ] || fail "needs root: debootstrap and chroot do; run it as root, e.g. with sudo"
-for tool in debootstrap unshare chroot tar; do
-  command -v "$tool" >/dev/null || fail "$tool is not on PATH; on Debian: apt-get install debootstrap util-linux"
-done
-
-# The first Debian archive (a URI that ends in /debian) of one-line or deb822 apt sources.
-own_mirror() {
-  cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list /etc/apt/sources.list.d/*.sources 2>/dev/null |
-    sed -nE 's/^(URIs:|deb( +\[[^]]*\])?) +([^ ]+).*/\3/p' | grep -E '/debian/?$' | head -n 1 || true
-}
-mirror="${DEBIAN_MIRROR:-$(own_mirror)}"
-[ -n "$mirror" ] || fail "no Debian mirror in this machine's apt sources; set DEBIAN_MIRROR to one"
+target=test-debian
+. tests/debian/system.sh
+settings=(OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  DOLFINX_ALLOW_USER_SITE_IMPORTS=1)
 
 # Real arithmetic: python3-dolfinx alone could also be met by the complex build.
 packages="python3-dolfinx-real python3-petsc4py-real python3-gmsh python3-numba python3-scipy
@@ -29,18 +20,6 @@ packages="python3-dolfinx-real python3-petsc4py-real python3-gmsh python3-numba 
 tests="${FE_TESTS:-tests/unit/test_fe_*.py tests/verification/test_fe_*.py}"
 reference="${REFERENCE:-build/debian/wheel_build.csv}"
 [ -f "$reference" ] || fail "$reference is not there; make test-debian computes it with the project's environment"
-
-# Run a command in a suite's folder; mounts live in a namespace of their own and end with it.
-inside() {
-  local root=$1; shift
-  unshare --mount --pid --fork --kill-child -- bash -c '
-    root=$1; shift
-    mount -t proc proc "$root/proc"; mount --rbind /sys "$root/sys"; mount --rbind /dev "$root/dev"
-    exec chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 OMP_NUM_THREADS=1 \
-      DEBIAN_FRONTEND=noninteractive PYTHONDONTWRITEBYTECODE=1 OMPI_ALLOW_RUN_AS_ROOT=1 \
-      OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 DOLFINX_ALLOW_USER_SITE_IMPORTS=1 ${http_proxy:+http_proxy="$http_proxy"} bash -c "$*"
-  ' inside "$root" "$@"
-}
 
 install() {
   local suite=$1 root=$2

@@ -11,6 +11,7 @@ import pytest
 
 from contracts.curves import read_curve
 from tests.end_to_end.small_study import run
+from workbench.execution.load_checks import CHECKS
 
 
 def test_help_and_wrong_usage() -> None:
@@ -29,9 +30,11 @@ def test_help_and_wrong_usage() -> None:
 def test_doctor_finds_what_the_tests_run_on() -> None:
     ended = run("doctor")
     assert ended.returncode == 0, ended.stdout
-    for name in ("dolfinx-solver-real", "gmsh", "python", "C compiler"):
+    for name in ("dolfinx-solver-real", "gmsh", "python"):
         assert name in ended.stdout
     assert "missing" not in ended.stdout
+    for check in CHECKS:
+        assert f"{check.name} " in ended.stdout
 
 
 def test_mesh_writes_every_file(

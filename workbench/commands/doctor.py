@@ -1,26 +1,38 @@
-"""``workbench doctor``: what is installed and what is missing.
+"""``workbench doctor``: what is installed, what works, what is missing.
 
 Verified by tests/end_to_end/test_commands.py.
 """
 
 from __future__ import annotations
 
+from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from workbench.commands.computing import console
+from workbench.execution.doctor import Examination, examine, install
+from workbench.execution.load_checks import install_command
 
 __all__ = ["run_doctor"]
 
 
-def run_doctor() -> int:
-    """Show what is installed; 2 if something is missing."""
-    from workbench.execution.doctor import examine
+def run_doctor(*, mend: bool = False) -> int:
+    """Show what was found; 2 if something is missing. With ``mend``, install the system's packages and look again."""
+    found = examine()
+    if mend and found.packages:
+        install(found.packages)
+        found = examine()
+    _show(found, console)
+    return 0 if found.well else 2
 
-    findings = examine()
+
+def _show(found: Examination, shown_on: Console) -> None:
     table = Table(title="workbench doctor", title_justify="left")
     for column in ("name", "found", "needed for", "advice"):
         table.add_column(column, overflow="fold")
-    for finding in findings:
-        table.add_row(finding.name, finding.found, finding.purpose, finding.advice or "ok")
-    console.print(table)
-    return 2 if any(f.advice for f in findings) else 0
+    for finding in found.findings:
+        cells = (finding.name, finding.found, finding.purpose, finding.advice or "ok")
+        table.add_row(*map(Text, cells))  # what a library complains of is no markup
+    shown_on.print(table)
+    if found.packages:
+        shown_on.print(f"as root: {install_command(found.packages)}", highlight=False, markup=False, soft_wrap=True)

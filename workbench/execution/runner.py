@@ -18,6 +18,7 @@ from workbench.execution.claims import Claims
 from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
 from workbench.execution.live_runs import announce
+from workbench.execution.load_checks import require_loadable
 from workbench.execution.local_workers import LocalWorkers
 from workbench.execution.ranks import mpiexec
 from workbench.execution.store import Entry, Store
@@ -136,7 +137,7 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
     Raises
     ------
     RunError
-        If nobody can compute, or the user interrupts; what had finished stays in the store.
+        If nobody can compute, a library cannot be loaded, or the user interrupts; what had finished stays in the store.
     """
     store.sweep()
     keys = task_keys(tuple(tasks))
@@ -154,6 +155,8 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
         return Ended(entries=entries, failures={})
     log = store.root / "log" / f"run-{os.getpid()}.log"
     computing = computing or Computing()
+    if computing.scheduler is None:
+        require_loadable(waiting)
     run = _Run(store, keys, listener, _workers(computing, len(waiting), log), computing.ranks)
     run.run(waiting, entries)
     return Ended(entries=entries, failures=run.failures)
