@@ -93,7 +93,7 @@ $(READY): constraints.txt pyproject.toml .python-version
 	fi; \
 	uv="$${uv:-$(TOOLS)/bin/uv}"; \
 	if ! $(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] not in ((3, 12), (3, 13)))' 2>/dev/null; then \
-	  find="$$uv python find --quiet --no-project --no-python-downloads"; \
+	  find="$$uv python find --no-project --no-python-downloads"; \
 	  found="$$($$find "$$(cat .python-version)" 2>/dev/null || $$find 3.13 2>/dev/null || cat .python-version)"; \
 	  "$$uv" venv --quiet --clear --python "$$found" $(VENV); \
 	fi; \
