@@ -45,8 +45,8 @@ def run_stiffness(
         reach = f"{curve.deflection[-1] * 1e3:.1f} mm at {curve.load[-1]:.1f} N"
         reach = "no point converged" if curve.unloaded else reach
         part = " (partial)" if curve.partial else ""
-        console.print(f"{model} {label}: {reach}{part}", highlight=False, markup=False)
-    console.print(f"curves: {out / 'curves'}", highlight=False, markup=False, soft_wrap=True)
+        console.print(f"{model} {label}: {reach}{part}")
+    console.print(f"curves: {out / 'curves'}", soft_wrap=True)
     complain_of_early_ends(study_path, early_ends({name: entry.path for name, entry in entries.items()}))
     return 0
 
