@@ -15,6 +15,7 @@ from pydantic_core import PydanticCustomError
 from rich.filesize import decimal
 
 from contracts.errors import InputError
+from contracts.text import for_json
 from workbench.commands.computing import console
 from workbench.execution.integrity import examined
 from workbench.execution.inventory import Kept, leftovers, results
@@ -99,7 +100,7 @@ def run_show(store: Path, key: str) -> int:
         raise InputError("key", key or "nothing", rule, "workbench results lists them; more digits tell two apart")
     manifest, fault = examined(matching[0].path, matching[0].name)
     shown = {"state": f"damaged: {fault}" if fault else "whole", "folder": str(matching[0].path), **_told(manifest)}
-    print(json.dumps(shown, indent=2, ensure_ascii=False))
+    print(for_json(json.dumps(shown, indent=2, ensure_ascii=False)))
     return 0
 
 

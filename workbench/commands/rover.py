@@ -13,6 +13,7 @@ from rich.table import Table
 
 from contracts.errors import ConvergenceError, InputError
 from contracts.series import write_series
+from contracts.text import one_line
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, gravity_named, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
@@ -185,7 +186,7 @@ def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -
 
     field = read_height_field(choices.terrain)
     x, y = (place - begin for place, begin in zip(field.origin, choices.start or (0.0, 0.0), strict=True))
-    return on_terrain(scenario, design, replace(field, origin=(x, y)), choices.terrain.name)
+    return on_terrain(scenario, design, replace(field, origin=(x, y)), one_line(choices.terrain.name))
 
 
 def _check_tire(tire: str) -> None:
