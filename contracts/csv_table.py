@@ -1,7 +1,8 @@
 """Tables of numbers as CSV: comment lines with ``#``, a header of names with units, rows.
 
 Two comments mean something: ``# source:`` says where the numbers come from, ``# partial: True`` that a run ended before
-its target. Verified by tests/unit/test_curves_csv.py and tests/unit/test_series.py.
+its target. No name or source is a formula for a spreadsheet, see `contracts.text.for_cell`. Verified by
+tests/unit/test_curves_csv.py, tests/unit/test_series.py and tests/unit/test_text.py.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from contracts.text import cell_text, comment_text, for_cell, for_comment, one_line
 
 __all__ = ["CsvTable", "TableRule", "read_table", "table_text"]
 
@@ -53,11 +55,11 @@ def table_text(table: CsvTable) -> str:
     """The file's text; numbers with 12 digits."""
     stream = io.StringIO()
     if table.source:
-        stream.write(f"# source: {' '.join(table.source.split())}\n")
+        stream.write(for_comment(f"# source: {' '.join(table.source.split())}") + "\n")
     if table.partial:
         stream.write("# partial: True\n")
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(table.names)
+    writer.writerow(map(for_cell, table.names))
     writer.writerows([[f"{value:.12g}" for value in row] for row in table.values])
     return stream.getvalue()
 
@@ -77,11 +79,11 @@ def read_table(path: Path, rule: TableRule) -> CsvTable:
         raise InputError(rule.what, path, "is no text in UTF-8", "save it as CSV in UTF-8") from error
     except OSError as error:
         raise InputError(rule.what, path, f"cannot be read ({type(error).__name__})", "check the path") from error
-    comments = [line[1:].strip() for line in lines if line.startswith("#")]
+    comments = [comment_text(line[1:].strip()) for line in lines if line.startswith("#")]
     partial = "partial: True" in comments
     numbered = [(n, line) for n, line in enumerate(lines, start=1) if line.strip() and not line.startswith("#")]
     names, values = _numbers(numbered, path, rule, partial)
-    source = next((c.removeprefix("source:").strip() for c in comments if c.startswith("source:")), "")
+    source = next((one_line(c.removeprefix("source:").strip()) for c in comments if c.startswith("source:")), "")
     places = tuple(n for n, _ in numbered[1:])
     return CsvTable(names=names, values=values, source=source, partial=partial, lines=places)
 
@@ -94,7 +96,7 @@ def _numbers(
         rows = list(csv.reader(line for _, line in numbered))
     except csv.Error as error:
         raise InputError(rule.what, path, f"has a bad row ({error})", "every cell must be a number") from error
-    names = tuple(name.strip() for name in rows[0]) if rows else ()
+    names = tuple(cell_text(one_line(name.strip())) for name in rows[0]) if rows else ()
     if len(rows) < 3 - partial or names[: len(rule.first)] != rule.first:
         wanted = f"must have a header {','.join(rule.first)} and two or more rows"
         raise InputError(rule.what, path, wanted, rule.units)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contracts.csv_table import CsvTable, TableRule, read_table, table_text
 from contracts.errors import InputError
+from contracts.text import one_line
 
 __all__ = ["StiffnessCurve", "average_curve", "read_curve", "write_curve"]
 
@@ -147,7 +148,7 @@ def read_curve(path: Path, model: str | None = None, orientation_deg: float | No
     table = read_table(path, _RULE)
     try:
         return StiffnessCurve(
-            model=model or path.stem,
+            model=model or one_line(path.stem),
             orientation_deg=orientation_deg,
             deflection=table.values[:, 0],
             load=table.values[:, 1],

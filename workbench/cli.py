@@ -15,6 +15,7 @@ import typer
 from typer.exceptions import TyperException
 
 from contracts.errors import WorkbenchError
+from contracts.text import for_terminal
 from workbench.commands.calibrate_app import calibrate_app
 from workbench.commands.options import (
     DEFAULT_STORE,
@@ -28,6 +29,7 @@ from workbench.commands.options import (
 )
 from workbench.commands.results_app import results_app
 from workbench.execution.interrupts import came, hear_no_more, interrupt_safely
+from workbench.execution.quiet import quieten
 
 __all__ = ["app", "main"]
 
@@ -229,6 +231,7 @@ def doctor(
 def main() -> None:
     """Entry point: turns every error into one message on stderr and an exit status."""
     interrupt_safely()
+    quieten()
     status = _run(sys.argv[1:])
     exec(
         ""
@@ -274,8 +277,10 @@ def _ended(arguments: list[str]) -> tuple[int, str]:
         return int(app(arguments, standalone_mode=False) or 0), ""
     except TyperException as error:  # wrong usage of the command line
         show = getattr(error, "show", None)
+        text = for_terminal(error.format_message())
         if show is None:
-            return 2, error.format_message()
+            return 2, text
+        error.format_message = lambda: text  # type: ignore[method-assign]
         show()
         return 2, ""
     except typer.Abort:
@@ -293,7 +298,7 @@ def _ended(arguments: list[str]) -> tuple[int, str]:
 
 def _complain(message: str) -> int:
     """Say it in one line, whatever a file made a message hold; the middle of a very long one is left out."""
-    line = " ".join(message.split())
+    line = for_terminal(" ".join(message.split()))
     if len(line) > _LONGEST_MESSAGE:
         line = f"{line[: _LONGEST_MESSAGE // 2]} [...] {line[-_LONGEST_MESSAGE // 2 :]}"
     sys.stderr.write(f"workbench: error: {line}\n")

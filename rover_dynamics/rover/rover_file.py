@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from contracts.errors import InputError
+from contracts.text import one_line
 
 __all__ = [
     "EXOMARS_ROVER",
@@ -170,7 +171,7 @@ class _Reader:
         return value
 
     def word(self, key: str) -> str:
-        return str(self.get(key, str, "a word"))
+        return one_line(str(self.get(key, str, "a word")))
 
     def flag(self, key: str) -> bool:
         return bool(self.get(key, bool, "true or false")) if key in self.content else False

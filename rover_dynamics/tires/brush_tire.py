@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 
-__all__ = ["THESIS_BRUSH", "BrushTireParameters", "radial_load", "stiffness_curve"]
+__all__ = ["THESIS_BRUSH", "BrushTireParameters", "line_source", "radial_load", "stiffness_curve"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,5 +135,10 @@ def stiffness_curve(parameters: BrushTireParameters, max_deflection: float, poin
         orientation_deg=None,
         deflection=deflection,
         load=radial_load(parameters, deflection),
-        source=f"radial line of the brush tire, {parameters.radial_stiffness:g} N/m ({parameters.source})",
+        source=line_source(parameters),
     )
+
+
+def line_source(parameters: BrushTireParameters) -> str:
+    """What the static line is, and where its parameters come from."""
+    return f"radial line of the brush tire, {parameters.radial_stiffness:g} N/m ({parameters.source})"

@@ -16,7 +16,7 @@ from contracts.errors import StudyError
 from contracts.materials import AISI_301, TI_6AL_4V, Material
 from contracts.materials_temperature import REFERENCE_TEMPERATURE
 from workbench.checks.environment import EnvironmentRun, Series, environment_checks
-from workbench.study.reading import built_in_study, read_study
+from workbench.study.reading import built_in_study, read_study, read_study_table, study_of
 from workbench.topics.environment import chosen_points, environment_tasks
 
 COLD = 130.15
@@ -95,8 +95,22 @@ def test_tasks_are_one_for_each_curve_the_study_does_not_have() -> None:
     assert list(tasks) == [f"environment_{name}" for name in names]
     assert tasks["environment_-143C"]["deflections"] == [0.006, 0.010, 0.016, 0.020, 0.026, 0.030]
     cold = tasks["environment_-143C"]["materials"]["tire"]
-    assert Material(**cold) == replace(TI_6AL_4V.at(COLD), name="Ti-6Al-4V")
+    words = {"name": "Ti-6Al-4V", "source": TI_6AL_4V.source, "temperature_data": TI_6AL_4V.temperature_data}
+    assert Material(**words, **cold) == replace(TI_6AL_4V.at(COLD), name="Ti-6Al-4V")
     assert tasks["environment_AISI_301_20C"]["materials"]["outer_hub"]["young_modulus"] == 193e9
+
+
+def test_variants_whose_names_differ_in_signs_alone_have_tasks_of_their_own() -> None:
+    table = read_study_table(built_in_study())
+    steel = table["materials"].pop("AISI 301")
+    names = ["steel 1", "steel-1", "\u94c1", "\u92fc"]
+    table["materials"] |= {name: steel | {"density": f"{7000 + k} kg/m^3"} for k, name in enumerate(names)}
+    table["environment"]["variants"] = names
+    study = study_of(built_in_study(), table)
+    tasks = environment_tasks(study)
+    assert len({task.name for task in tasks}) == len(tasks) == 3 + 2 * len(names)
+    densities = [task.inputs["materials"]["tire"]["density"] for task in tasks[3:]]
+    assert densities == [7000.0 + k for k in range(4) for _ in range(2)]
 
 
 BAD = {

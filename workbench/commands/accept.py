@@ -30,5 +30,5 @@ def run_accept(report: Path, baseline: Path) -> int:
         raise InputError("report", f"{source} ({status})", "must have passed its gates", "mend what broke first")
     check_folder(baseline)
     (written,) = copy_files(report, [SUMMARY], baseline)
-    console.print(f"accepted: {written}; keep it under version control", highlight=False, markup=False, soft_wrap=True)
+    console.print(f"accepted: {written}; keep it under version control", soft_wrap=True)
     return 0

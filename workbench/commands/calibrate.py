@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from pydantic_core import PydanticCustomError
-from rich.console import Console
 from rich.table import Table
 
 from contracts.curves import read_curve
@@ -23,6 +22,7 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
+from workbench.execution.terminal import console
 from workbench.graph.fe import degrees, without_fields
 from workbench.graph.section import without_planar_model
 from workbench.graph.study_graph import stiffness_tasks
@@ -35,7 +35,6 @@ from workbench.study.rewrite import rewritten_study
 
 __all__ = ["run_calibrate"]
 
-console = Console()
 _NAMES = {"section": "section model", "fe": "solid model"}
 
 
@@ -57,7 +56,7 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     publish(out, {name: text, "calibration.json": to_json(_summary(study, found))})
     _check_rewritten(out / name, thickness)
     _print(study, found)
-    console.print(f"study: {out / name}", highlight=False, markup=False, soft_wrap=True)
+    console.print(f"study: {out / name}", soft_wrap=True)
     return 0 if abs(found.difference) <= study.tolerances.initial_tangent else 1
 
 
@@ -88,7 +87,7 @@ class _Runs:
             wheel_design(scaled)
             value = self._solve(model, [self._shortened(task) for task in stiffness_tasks(scaled, model, ())])
             shown = f"strips {factor:.4f} times as thick: {_NAMES[model]} {value * 1e-3:.4f} N/mm"
-            console.print(shown, highlight=False, markup=False)
+            console.print(shown)
             return value
 
         return evaluate

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table
 
 from contracts.errors import InputError
@@ -19,6 +18,7 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
+from workbench.execution.terminal import console
 from workbench.graph.fit import AS_IT_IS, fit_name, fit_tasks
 from workbench.graph.study_graph import report_tasks
 from workbench.report.number_format import displayed
@@ -31,7 +31,6 @@ from workbench.tasks.ancf_tire import preset_from
 
 __all__ = ["run_calibrate_ancf"]
 
-console = Console()
 _UNITS = {"young_modulus": "Pa", "density": "kg/m^3", "contact_stiffness": "N/m", "phase": "rad"}
 _LENGTHS = ("outer_radius", "datum_radius", "hub_radius", "rim_thickness", "spoke_thickness")
 _COUNTS = ("circumferential_plates", "spokes")
@@ -61,7 +60,7 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     publish(out, {name: text, "ancf_fit.json": to_json(summary)}, curves)
     _check_rewritten(out / name, kept)
     _print([own, *tires], kept)
-    console.print(f"study: {out / name}", highlight=False, markup=False, soft_wrap=True)
+    console.print(f"study: {out / name}", soft_wrap=True)
     return 0 if abs(kept.numbers["average"]["largest"]) <= study.tolerances.ancf_fit else 1
 
 
@@ -134,7 +133,7 @@ def _print(tires: Sequence[FittedTire], kept: FittedTire) -> None:
         table.add_row(row["name"], displayed(row["value"], row["unit"]), fitted, _interval(row["spread"], row["unit"]))
     console.print(table)
     for pair in kept.numbers["indistinguishable"]:
-        console.print(f"cannot be told apart: {' and '.join(pair)}", highlight=False)
+        console.print(f"cannot be told apart: {' and '.join(pair)}")
 
 
 def _interval(ends: Sequence[Any] | None, unit: str) -> str:

@@ -90,10 +90,10 @@ def _print(pair: CurvePair, title: str) -> None:
         table.add_column(column, justify="right", overflow="fold")
     for row in compared_rows(pair):
         table.add_row(row.quantity, row.curve, row.reference, row.difference)
-    console.print(table, markup=False)
+    console.print(table)
     if pair.judgement.tolerance is not None:
         text = f"{pair.judgement.outcome}: {sentence(pair)}"
-        console.print(text, highlight=False, markup=False, soft_wrap=True)
+        console.print(text, soft_wrap=True)
 
 
 def _write(pair: CurvePair, out: Path) -> None:
@@ -108,4 +108,4 @@ def _write(pair: CurvePair, out: Path) -> None:
         "compare.json": to_json(compared_values(pair)).encode(),
     }
     put_files(out, contents)
-    console.print(f"picture: {out / 'compare.html'}", highlight=False, markup=False, soft_wrap=True)
+    console.print(f"picture: {out / 'compare.html'}", soft_wrap=True)

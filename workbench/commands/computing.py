@@ -9,30 +9,25 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from rich.console import Console
-
 from contracts.errors import InputError, StudyError
 from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task
+from workbench.execution.terminal import Terminal, console
 
 __all__ = ["complain_of_early_ends", "computed", "console", "naming"]
 
-console = Console()
-
 
 def computed(
-    study_path: Path, tasks: Sequence[Task], store: Path, computing: Computing, shown_on: Console = console
+    study_path: Path, tasks: Sequence[Task], store: Path, computing: Computing, shown_on: Terminal = console
 ) -> dict[str, Entry]:
     """Run a study's graph with a display; entries in the order of the graph."""
     results = Store(store, study=study_path.stem)
     with naming(study_path), RunDisplay(shown_on, tasks) as display:
         entries = run_tasks(tasks, results, display, computing)
-    shown_on.print(
-        f"{len(tasks) - display.reused} tasks computed, {display.reused} reused", highlight=False, markup=False
-    )
+    shown_on.print(f"{len(tasks) - display.reused} tasks computed, {display.reused} reused")
     return {task.name: entries[task.name] for task in tasks}
 
 

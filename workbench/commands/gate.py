@@ -10,10 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rich.console import Console
-
 from contracts.records import Check
 from workbench.comparison.baseline import Baseline, changes_since
+from workbench.execution.terminal import Terminal
 from workbench.report.gate_summary import Gate, gate_lines, gate_markdown
 
 __all__ = ["GateChoices", "gate_of", "plain_console", "tell"]
@@ -30,9 +29,9 @@ class GateChoices:
     baseline: Path | None = None
 
 
-def plain_console() -> Console:
+def plain_console() -> Terminal:
     """Console of a log: no bars, no colours, lines as long as they are."""
-    return Console(force_terminal=False, no_color=True, soft_wrap=True, highlight=False)
+    return Terminal(force_terminal=False, no_color=True, soft_wrap=True)
 
 
 def gate_of(study: str, verdict: str, checks: Sequence[Check], baseline: Baseline | None) -> Gate:
@@ -41,10 +40,10 @@ def gate_of(study: str, verdict: str, checks: Sequence[Check], baseline: Baselin
     return Gate(study=study, verdict=verdict, checks=checks, baseline=baseline, changes=changes)
 
 
-def tell(gate: Gate, console: Console) -> None:
+def tell(gate: Gate, console: Terminal) -> None:
     """Print the gate's lines and add its summary to the job's page, where there is one."""
     for line in gate_lines(gate):
-        console.print(line, markup=False)
+        console.print(line)
     page = os.environ.get(_JOB_SUMMARY)
     if page:
         with Path(page).open("a", encoding="utf-8") as stream:

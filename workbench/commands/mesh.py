@@ -47,7 +47,7 @@ def _run_mesh(study_path: Path, out: Path, store: Path) -> int:
     entries = computed(study_path, mesh_tasks(study, with_files=True), store, Computing(workers=1))
     files = entries["mesh_files"]
     for path in copy_files(files.path, sorted(files.manifest["files"]), out):
-        console.print(str(path), highlight=False, markup=False, soft_wrap=True)
+        console.print(str(path), soft_wrap=True)
     return 0
 
 
@@ -61,7 +61,7 @@ def _run_surfaces(study_path: Path, orientation_deg: float, deflections: Sequenc
     for name, deviation in read_result(entry.path)["read_back_m"].items():
         (path,) = copy_files(entry.path, [f"{name}.step"], out)
         text = f"{path} (read back: {1e9 * deviation:.2g} nm off at most)"
-        console.print(text, highlight=False, markup=False, soft_wrap=True)
+        console.print(text, soft_wrap=True)
     return 0
 
 

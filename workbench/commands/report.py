@@ -93,7 +93,7 @@ def run_report(
         tell(gate, shown_on)
     else:
         _print_checks(found.checks)
-    shown_on.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)
+    shown_on.print(f"report: {out / 'report.html'}", soft_wrap=True)
     complain_of_early_ends(path, origin["partial"])
     return exit_status(found.checks) or int(not gate.holds)
 

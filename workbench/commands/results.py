@@ -15,6 +15,7 @@ from pydantic_core import PydanticCustomError
 from rich.filesize import decimal
 
 from contracts.errors import InputError
+from contracts.text import for_json
 from workbench.commands.computing import console
 from workbench.execution.integrity import examined
 from workbench.execution.inventory import Kept, leftovers, results
@@ -41,7 +42,7 @@ def run_list(store: Path, *, check: bool) -> int:
     if damaged:
         lines.append(f"{len(damaged)} damaged: the next run that needs them says so and computes them again")
     for line in lines:
-        console.print(line, highlight=False, markup=False, soft_wrap=True)
+        console.print(line, soft_wrap=True)
     return 1 if check and damaged else 0
 
 
@@ -81,12 +82,12 @@ def run_prune(store: Path, older_than: str | None, larger_than: str | None, task
         what = f"{one.task or '?'} {one.name[:_PREFIX]}" if one.kind == "result" else f"{one.kind} {one.name[:40]}"
         did = "would remove" if dry_run else "removed"
         text = f"{did} {what}, {duration_text(now - one.stored_at)}, {decimal(one.size)}"
-        console.print(text, highlight=False, markup=False, soft_wrap=True)
+        console.print(text, soft_wrap=True)
     freed = sum(one.size for one in found.removed)
     verb = "would be removed" if dry_run else "removed"
     held = f"; {found.in_use} kept, because a run that lives uses them" if found.in_use else ""
     total = f"{_counted(found.removed)} {verb}, {decimal(freed)} of {decimal(found.size)}{held}"
-    console.print(total, highlight=False, markup=False, soft_wrap=True)
+    console.print(total, soft_wrap=True)
     return 0
 
 
@@ -99,7 +100,7 @@ def run_show(store: Path, key: str) -> int:
         raise InputError("key", key or "nothing", rule, "workbench results lists them; more digits tell two apart")
     manifest, fault = examined(matching[0].path, matching[0].name)
     shown = {"state": f"damaged: {fault}" if fault else "whole", "folder": str(matching[0].path), **_told(manifest)}
-    print(json.dumps(shown, indent=2, ensure_ascii=False))
+    print(for_json(json.dumps(shown, indent=2, ensure_ascii=False)))
     return 0
 
 

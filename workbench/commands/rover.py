@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from rich.console import Console
 from rich.table import Table
 
 from contracts.errors import ConvergenceError, InputError
 from contracts.series import write_series
+from contracts.text import one_line
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, gravity_named, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
@@ -21,13 +21,13 @@ from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, ro
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from workbench.execution.errors import RunError
+from workbench.execution.terminal import console
 from workbench.report.number_format import displayed
 from workbench.report.outputs import check_folder, check_targets
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, series_file
 
 __all__ = ["RoverChoices", "list_scenarios", "run_rover"]
 
-console = Console()
 _TIRES = ("rigid", "brush", "ancf")
 
 
@@ -97,7 +97,7 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
         raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
     _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)
     for what, path in [("series", out / file), *([("animation", page)] if choices.animate else [])]:
-        console.print(f"{what}: {path}", highlight=False, markup=False, soft_wrap=True)
+        console.print(f"{what}: {path}", soft_wrap=True)
     return 0
 
 
@@ -124,7 +124,7 @@ def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:
         try:
             found += part(scenario, design) if part else ()
         except ConvergenceError as error:
-            console.print(f"study of {scenario.name} left out: {error}", highlight=False, markup=False, soft_wrap=True)
+            console.print(f"study of {scenario.name} left out: {error}", soft_wrap=True)
     return found
 
 
@@ -186,7 +186,7 @@ def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -
 
     field = read_height_field(choices.terrain)
     x, y = (place - begin for place, begin in zip(field.origin, choices.start or (0.0, 0.0), strict=True))
-    return on_terrain(scenario, design, replace(field, origin=(x, y)), choices.terrain.name)
+    return on_terrain(scenario, design, replace(field, origin=(x, y)), one_line(choices.terrain.name))
 
 
 def _check_tire(tire: str) -> None:

@@ -11,12 +11,13 @@ from pathlib import Path
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.commands.computing import complain_of_early_ends, computed, console, naming
-from workbench.comparison.results import mean_curve
+from workbench.comparison.results import brush_curve, mean_curve
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.graph.study_graph import stiffness_tasks
 from workbench.report.outputs import check_folder, publish
+from workbench.study.model import Study
 from workbench.study.reading import read_study
 
 __all__ = ["check_orientation", "run_stiffness"]
@@ -37,15 +38,15 @@ def run_stiffness(
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
     entries = computed(study_path, tasks, store, computing)
     with naming(study_path):
-        curves = _curves(model, entries)
+        curves = _curves(study, model, entries)
     publish(out, {}, curves)
     for curve in curves:
         label = "average" if curve.orientation_deg is None else f"{curve.orientation_deg:g} deg"
         reach = f"{curve.deflection[-1] * 1e3:.1f} mm at {curve.load[-1]:.1f} N"
         reach = "no point converged" if curve.unloaded else reach
         part = " (partial)" if curve.partial else ""
-        console.print(f"{model} {label}: {reach}{part}", highlight=False, markup=False)
-    console.print(f"curves: {out / 'curves'}", highlight=False, markup=False, soft_wrap=True)
+        console.print(f"{model} {label}: {reach}{part}")
+    console.print(f"curves: {out / 'curves'}", soft_wrap=True)
     complain_of_early_ends(study_path, early_ends({name: entry.path for name, entry in entries.items()}))
     return 0
 
@@ -57,9 +58,9 @@ def check_orientation(orientation: float) -> None:
         raise InputError("orientation", f"{orientation} deg", rule, "give degrees such as 15")
 
 
-def _curves(model: str, entries: dict[str, Entry]) -> list[StiffnessCurve]:
+def _curves(study: Study, model: str, entries: dict[str, Entry]) -> list[StiffnessCurve]:
     if model == "brush":
-        return [read_curve(entries["brush"].path / "curve.csv", model="brush")]
+        return [brush_curve(study, entries["brush"].path)]
     found = []
     for name, entry in entries.items():
         if name.startswith(f"{model}_phi"):

@@ -39,14 +39,14 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
     with naming(study_path):
         graph = sweep_graph(points, study.sweep.models)
     models = ", ".join(study.sweep.models)
-    console.print(f"{len(points)} points, {models}: {len(graph.tasks)} tasks", highlight=False, markup=False)
+    console.print(f"{len(points)} points, {models}: {len(graph.tasks)} tasks")
     with naming(study_path), RunDisplay(console, graph.tasks) as display:
         ended = run_all(graph.tasks, Store(store, study=study_path.stem), display, computing)
     found = outcomes(graph, ended.entries, ended.failures)
     table = sweep_table(study, graph, found, references(study, study_path.parent, found))
     _publish(out, table, sweep_page(study.title, table, found))
     _print(table, found)
-    console.print(f"sweep: {out / 'sweep.html'}", highlight=False, markup=False, soft_wrap=True)
+    console.print(f"sweep: {out / 'sweep.html'}", soft_wrap=True)
     _complain(study_path, out, found)
     return 0
 
@@ -71,7 +71,7 @@ def _print(table: SweepTable, found: list[Outcome]) -> None:
         number = f"{1e-3 * tangent:.4f} N/mm" if isinstance(tangent, float) else "no initial tangent"
         state = "" if outcome.state == "whole" else f" ({outcome.state})"
         line = f"{outcome.run.point.number}: {outcome.run.point.label}: {outcome.run.model}: {number}{state}"
-        console.print(line, highlight=False, markup=False, soft_wrap=True)
+        console.print(line, soft_wrap=True)
 
 
 def _complain(path: Path, out: Path, found: list[Outcome]) -> None:

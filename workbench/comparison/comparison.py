@@ -24,7 +24,7 @@ from workbench.checks.models import agreement_checks, ancf_checks, surfaces_chec
 from workbench.checks.statements import statement_of
 from workbench.comparison.agreement import Agreement, agreements, noted
 from workbench.comparison.mesh_study import MeshStudy
-from workbench.comparison.results import CURVE, ModelCurves, UserCurve, model_curves
+from workbench.comparison.results import ModelCurves, UserCurve, brush_curve, mesh_numbers, model_curves
 from workbench.execution.result_files import early_ends, read_result
 from workbench.graph.study_graph import degrees
 from workbench.graph.surfaces import SURFACES
@@ -93,10 +93,10 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
     comparison = Comparison(
         fe=fe,
         ancf=ancf,
-        brush=read_curve(folders["brush"] / CURVE, model="brush"),
+        brush=brush_curve(study, folders["brush"]),
         users=_users(study, folders["metrics"]),
-        mesh=read_result(folders["mesh"]),
-        mesh_whole=read_result(folders["mesh_whole"]),
+        mesh=mesh_numbers(study, folders["mesh"]),
+        mesh_whole=mesh_numbers(study, folders["mesh_whole"]),
         metrics=metrics,
         topics={topic.name: topic.read(study, folders) for topic in topics_of(study)},
         agreement_limit=study.tolerances.model_agreement,

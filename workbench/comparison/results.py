@@ -14,8 +14,19 @@ from contracts.curves import StiffnessCurve, average_curve, read_curve
 from contracts.records import Timing
 from workbench.execution.result_files import FAILURE, read_result
 from workbench.execution.store import Entry
+from workbench.study.model import Study
+from workbench.study.model_parameters import brush_parameters, part_materials
 
-__all__ = ["CURVE", "ModelCurves", "UserCurve", "mean_curve", "model_curves", "task_timings"]
+__all__ = [
+    "CURVE",
+    "ModelCurves",
+    "UserCurve",
+    "brush_curve",
+    "mean_curve",
+    "mesh_numbers",
+    "model_curves",
+    "task_timings",
+]
 
 CURVE = "curve.csv"
 
@@ -81,6 +92,20 @@ def mean_curve(curves: Sequence[StiffnessCurve]) -> StiffnessCurve:
         return average
     missing = ", ".join(f"{c.orientation_deg} deg" for c in curves if c.unloaded)
     return replace(average, source=f"{average.source}; without {missing}, where no point converged", partial=True)
+
+
+def brush_curve(study: Study, folder: Path) -> StiffnessCurve:
+    """The brush line of the task ``brush``, with the source that the study states for its parameters."""
+    from rover_dynamics.tires.brush_tire import line_source
+
+    return replace(read_curve(folder / CURVE, model="brush"), source=line_source(brush_parameters(study)))
+
+
+def mesh_numbers(study: Study, folder: Path) -> dict[str, Any]:
+    """Numbers of a mesh with the names that the study gives the wheel and its parts' materials."""
+    numbers, materials = read_result(folder), part_materials(study)
+    parts = {part: row | {"material": materials[part]} for part, row in numbers["parts"].items()}
+    return numbers | {"design": study.name, "parts": parts}
 
 
 def task_timings(entries: Mapping[str, Entry]) -> tuple[Timing, ...]:

@@ -10,6 +10,7 @@ import io
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+from contracts.text import for_cell
 from workbench.comparison.sweep import Outcome, Reference, measured
 from workbench.graph.sweep import SweepGraph
 from workbench.study.key_units import unit_of
@@ -44,9 +45,13 @@ class SweepTable:
         """The table as text; numbers to their last digit, an empty cell where there is none."""
         stream = io.StringIO()
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(self.names)
-        writer.writerows([["" if cell is None else cell for cell in row] for row in self.rows])
+        writer.writerow(map(for_cell, self.names))
+        writer.writerows([[_written(cell) for cell in row] for row in self.rows])
         return stream.getvalue()
+
+
+def _written(cell: Cell) -> float | int | str:
+    return "" if cell is None else for_cell(cell) if isinstance(cell, str) else cell
 
 
 def sweep_table(

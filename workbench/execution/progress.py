@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import Self
 
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from workbench.execution.remaining import RemainingTime
 from workbench.execution.store import Entry
 from workbench.execution.task import Task
+from workbench.execution.terminal import Terminal
 
 __all__ = ["RunDisplay", "duration_text"]
 
@@ -31,17 +31,17 @@ def duration_text(seconds: float) -> str:
 class RunDisplay:
     """A ``Listener`` that draws Rich progress bars, or prints plain lines when standard output is no terminal."""
 
-    def __init__(self, console: Console, tasks: Sequence[Task]) -> None:
+    def __init__(self, console: Terminal, tasks: Sequence[Task]) -> None:
         self.console, self.total = console, len(tasks)
         self.remaining = RemainingTime(tasks)
         self.count = self.reused = 0
         self.bars: dict[str, TaskID] = {}
         self.progress = Progress(
-            TextColumn("{task.description:<24}"),
+            TextColumn("{task.description:<24}", markup=False),
             BarColumn(),
-            TextColumn("{task.percentage:>3.0f} %"),
+            TextColumn("{task.percentage:>3.0f} %", markup=False),
             TimeElapsedColumn(),
-            TextColumn("{task.fields[left]}"),
+            TextColumn("{task.fields[left]}", markup=False),
             console=console,
             disable=not console.is_terminal,
         )
@@ -80,7 +80,7 @@ class RunDisplay:
         self.progress.update(self.whole, completed=float(self.count), left=left)
         if not self.console.is_terminal:
             how = "reused" if reused else f"computed in {entry.wall_s:.1f} s{left and f', {left}'}"
-            self.console.print(f"[{self.count}/{self.total}] {name}: {how}", markup=False, highlight=False)
+            self.console.print(f"[{self.count}/{self.total}] {name}: {how}")
 
     def elsewhere(self, name: str) -> None:
         """Say so."""
@@ -107,4 +107,4 @@ class RunDisplay:
             self.progress.remove_task(self.bars.pop(name))
 
     def _say(self, text: str) -> None:
-        self.console.print(text, markup=False, highlight=False)
+        self.console.print(text)

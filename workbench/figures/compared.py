@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.text import for_matplotlib
 from workbench.comparison.curve_pair import CurvePair
 from workbench.figures.interactive import empty_figure, figure_html
 from workbench.figures.palette import INK, MODEL_COLOURS
@@ -73,7 +74,7 @@ def compared_still(pair: CurvePair) -> bytes:
         places[axis].fill_between(d, low, high, color=tint, alpha=strength, linewidth=0.0, label=name)
     for axis, name, y, colour, dash, _ in _lines(pair):
         style = "-" if dash == "solid" else "--"
-        places[axis].plot(d, y, color=colour, linestyle=style, label=name.replace("$", r"\$"))
+        places[axis].plot(d, y, color=colour, linestyle=style, label=for_matplotlib(name))
     for one, colour in ((pair.reference, _REFERENCE), (pair.curve, _CURVE)):
         inside = _inside(pair, one.curve.deflection)
         axes[0].plot(1e3 * one.curve.deflection[inside], one.curve.load[inside], "o", color=colour, markersize=3.5)

@@ -6,14 +6,16 @@ Verified by tests/end_to_end/test_report.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import plotly.graph_objects as go  # type: ignore[import-untyped]
-from markupsafe import escape
+from plotly.io.json import to_json_plotly  # type: ignore[import-untyped]
 from plotly.offline import get_plotlyjs  # type: ignore[import-untyped]
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
+from contracts.text import for_html, for_plotly, for_script
 from workbench.comparison.comparison import Comparison
 from workbench.comparison.mesh_study import MeshStudy
 from workbench.comparison.results import ModelCurves, UserCurve
@@ -36,6 +38,8 @@ __all__ = [
 
 _MANY = 8
 """More orientations than this are drawn alike."""
+_SHOWN = ("name", "text", "label")
+"""Keys of a figure under which Plotly finds what it shows."""
 _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 _MARKERS = ("circle", "square", "diamond", "triangle-up", "cross", "x")
 
@@ -178,15 +182,25 @@ def empty_figure(x: str = "radial deflection [mm]", y: str = "load on the wheel 
 
 
 def figure_html(figure: go.Figure, name: str) -> str:
-    """The figure as a piece of the page: a place with this id, and the numbers the page draws there when it is seen."""
-    text = str(figure.to_json()).replace("</", "<\\/")
+    """The figure as a piece of the page: a place with this id, and the numbers the page draws there when it is seen.
+
+    Names, titles and notes are text: Plotly, which reads markup in them, gets them escaped.
+    """
+    text = for_script(str(to_json_plotly(_escaped(figure.to_dict()))))
     height = int(figure.layout.height)
     titles = (figure.layout.xaxis.title.text, figure.layout.yaxis.title.text)
-    label = escape(f"{titles[1]} against {titles[0]}")
+    label = for_html(f"{titles[1]} against {titles[0]}")
     return (
         f'<div class="plot" id="{name}" role="img" aria-label="{label}" style="height: {height}px"></div>'
         f'<script type="application/json" data-for="{name}">{text}</script>'
     )
+
+
+def _escaped(spec: Any) -> Any:
+    """The figure's dictionary with every text that is shown escaped."""
+    if isinstance(spec, dict):
+        return {k: for_plotly(v) if k in _SHOWN and isinstance(v, str) else _escaped(v) for k, v in spec.items()}
+    return [_escaped(one) for one in spec] if isinstance(spec, list | tuple) else spec
 
 
 def named(name: str, curve: StiffnessCurve) -> str:

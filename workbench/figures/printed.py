@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.text import for_matplotlib, plain_of_html
 from workbench.figures.still_charts import blank_figure, red_green_blue
 
 __all__ = ["draw", "plain", "values"]
@@ -80,10 +81,8 @@ def values(field: object) -> NDArray[np.float64]:
 
 def plain(text: str) -> str:
     """Text without the tags and entities Plotly allows; dollars are no formulas."""
-    text = re.sub(r"<sub>(.*?)</sub>", r"\1", re.sub(r"<br\s*/?>", "\n", text))
-    return (
-        re.sub(r"<[^>]*>", "", text).replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&").replace("$", "\\$")
-    )
+    lines = re.split(r"<br\s*/?>", text)
+    return "\n".join(for_matplotlib(plain_of_html(line)) for line in lines)
 
 
 def _trace(axes: Axes, trace: Spec, page: Figure) -> str | None:

@@ -8,7 +8,6 @@ Verified by tests/unit/test_workbench_rover_animation.py.
 from __future__ import annotations
 
 import base64
-import html
 import io
 import json
 from collections.abc import Sequence
@@ -22,6 +21,7 @@ from PIL import Image
 
 from contracts.errors import InputError
 from contracts.terrain import Terrain
+from contracts.text import for_html
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.vehicle.vehicle import VehicleMotion
@@ -173,7 +173,7 @@ def _page(
     options = "".join(f'<option value="{s:g}"{" selected" * (s == fitting)}>{s:g} &times;</option>' for s in _SPEEDS)
     title, squares, legend = words
     return Template(_PAGE.read_text(encoding="utf-8")).substitute(
-        title=html.escape(title),
+        title=for_html(title),
         squares=f"{squares:g}",
         legend=legend,
         width=size[0],

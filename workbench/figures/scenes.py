@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from markupsafe import escape
 from numpy.typing import NDArray
 
+from contracts.text import for_html
 from workbench.figures.packing import packed, quantised
 from workbench.figures.palette import ABOVE_YIELD
 
@@ -131,7 +131,7 @@ def _indices(quads: IntArray) -> str:
 
 def _html(name: str, content: Mapping[str, Any], poster: str, alt: str) -> str:
     text = packed(json.dumps(content, allow_nan=False, separators=(",", ":")))
-    image = f'<img class="poster" loading="lazy" src="{poster}" alt="{escape(alt)}">'
+    image = f'<img class="poster" loading="lazy" src="{poster}" alt="{for_html(alt)}">'
     return (
         f'<div class="scene" id="{name}"><div class="controls"></div><div class="stage">{image}</div></div>'
         f'<script type="text/plain" data-for="{name}">{text}</script>'

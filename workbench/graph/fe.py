@@ -12,9 +12,10 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from contracts.materials import Material
 from workbench.execution.task import Task
 from workbench.study.model import Study
-from workbench.study.model_parameters import wheel_design
+from workbench.study.model_parameters import part_materials, wheel_design
 
 __all__ = [
     "FE",
@@ -27,8 +28,10 @@ __all__ = [
     "degrees",
     "fe_inputs",
     "fe_task",
+    "material_inputs",
     "mesh_task",
     "orientation_name",
+    "wheel_inputs",
     "without_fields",
 ]
 
@@ -79,9 +82,33 @@ def mesh_task(
         "parts": "flexible" if study.fe.hub == "rigid" else "all",
         "factor": factor or mesh.factor,
     }
-    wheel = study.model_dump(mode="json", include={"name", "wheel", "materials"})
-    inputs = {"wheel": wheel, "options": options | dict(changes or {})}
+    inputs = {"wheel": wheel_inputs(study), "options": options | dict(changes or {})}
     return Task(name=name, function="workbench.tasks.mesh:build", inputs=inputs, cost=cost, **MESH)
+
+
+def wheel_inputs(study: Study) -> dict[str, Any]:
+    """Numbers of the wheel's parts and of the materials they use, see `workbench.tasks.mesh.design_from`.
+
+    The study's name, names of materials and their sources are words about the wheel that decide no result: the report
+    takes them from the study, so that to change them computes nothing again.
+    """
+    wheel = study.wheel.model_dump(mode="json")
+    labels = {name: f"material {k}" for k, name in enumerate(dict.fromkeys(part_materials(study).values()), start=1)}
+    for group in wheel.values():
+        for part in group if isinstance(group, list) else [group] if group else []:
+            part["material"] = labels[part["material"]]
+    words = {"source", "temperature_data"}
+    materials = {label: study.materials[name].model_dump(mode="json", exclude=words) for name, label in labels.items()}
+    return {"wheel": wheel, "materials": materials}
+
+
+def material_inputs(materials: Mapping[str, Material]) -> dict[str, dict[str, float]]:
+    """Numbers of the material of each part, without its name and where they come from."""
+    words = ("name", "source", "temperature_data")
+    return {
+        part: {name: value for name, value in asdict(material).items() if name not in words}
+        for part, material in materials.items()
+    }
 
 
 def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]) -> dict[str, Any]:
@@ -103,7 +130,7 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "inner_contact_stiffness": INNER_STIFFNESS,
         "relative_tolerance": fe.relative_tolerance,
         "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
-        "materials": {part: asdict(m) for part, m in wheel_design(study).materials.items()},
+        "materials": material_inputs(wheel_design(study).materials),
     }
 
 

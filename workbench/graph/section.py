@@ -7,7 +7,17 @@ from typing import Any
 
 from contracts.errors import InputError
 from workbench.execution.task import Task
-from workbench.graph.fe import FE, MESH, Origin, curve_deflections, degrees, fe_inputs, orientation_name, without_fields
+from workbench.graph.fe import (
+    FE,
+    MESH,
+    Origin,
+    curve_deflections,
+    degrees,
+    fe_inputs,
+    orientation_name,
+    wheel_inputs,
+    without_fields,
+)
 from workbench.study.model import Study
 
 __all__ = ["section_task", "section_tasks", "without_planar_model"]
@@ -56,7 +66,7 @@ def section_task(study: Study, name: str, orientation_deg: float, deflections: S
         "factor": mesh.factor,
     }
     inputs = without_fields(fe_inputs(study, orientation_deg, deflections)) | {
-        "wheel": study.model_dump(mode="json", include={"name", "wheel", "materials"}),
+        "wheel": wheel_inputs(study),
         "options": options,
         "rigid_parts": ["outer_hub"],
     }

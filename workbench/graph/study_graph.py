@@ -70,7 +70,7 @@ def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
     files = Task(
         name="mesh_files",
         function="workbench.tasks.mesh_files:write_files",
-        inputs={"wheel": whole.inputs["wheel"]},
+        inputs={"wheel": study.model_dump(mode="json", include={"name", "wheel", "materials"})},
         needs=("mesh", "mesh_whole"),
         sources=sources,
         libraries=(*MESH["libraries"], *_PICTURES["libraries"], "meshio"),
@@ -121,15 +121,15 @@ def _table_deflections(study: Study) -> list[float]:
 
 def _brush_task(study: Study) -> Task:
     end = max(study.fe.max_deflection, study.ancf.max_deflection)
-    inputs = {"parameters": asdict(brush_parameters(study)), "max_deflection": end}
+    parameters = {name: value for name, value in asdict(brush_parameters(study)).items() if name != "source"}
+    inputs = {"parameters": parameters, "max_deflection": end}
     return Task(name="brush", function="workbench.tasks.brush:solve", inputs=inputs, **_BRUSH)
 
 
 def _metrics_task(study: Study, curves: Sequence[str], curve_folder: Path) -> Task:
-    """Distances between curves; the text of the user's own curves is part of the inputs."""
+    """Distances between curves; the text of the user's own curves is part of the inputs, their labels are not."""
     users = [
         {
-            **section.model_dump(mode="json"),
             "orientation": None if section.orientation is None else degrees(section.orientation),
             "text": in_si(curve_folder / section.file),
         }

@@ -6,9 +6,10 @@ Verified by tests/unit/test_workbench_sweep.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 
 from workbench.execution.task import Task, bare_name
+from workbench.graph.fe import material_inputs
 from workbench.graph.study_graph import stiffness_tasks
 from workbench.study.model_parameters import wheel_design
 from workbench.study.sweep import SweptModel
@@ -71,5 +72,5 @@ def _model_tasks(point: Point, model: SweptModel) -> list[Task]:
     if point.temperature is None:
         return list(tasks)
     design = wheel_design(point.study).materials
-    warm = {"materials": {part: asdict(m.at(point.temperature)) for part, m in design.items()}}
+    warm = {"materials": material_inputs({part: m.at(point.temperature) for part, m in design.items()})}
     return [replace(t, inputs={**t.inputs, **warm}) if t.name.startswith("fe_phi") else t for t in tasks]

@@ -5,7 +5,6 @@ Verified by tests/unit/test_workbench_compared_page.py.
 
 from __future__ import annotations
 
-import html
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from string import Template
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from contracts.csv_table import CsvTable, table_text
+from contracts.text import for_html
 from workbench.comparison.curve_pair import CurvePair
 
 __all__ = ["Row", "compared_html", "compared_rows", "compared_table", "compared_values", "sentence"]
@@ -114,13 +114,13 @@ def compared_html(pair: CurvePair) -> str:
     both = (pair.curve.curve, pair.reference.curve)
     partial = [f"{one.model} is partial: its run ended before its target." for one in both if one.partial]
     values = {
-        "title": html.escape(f"{both[0].model} against {both[1].model}"),
-        "sources": html.escape(" · ".join(f"{one.model}: {one.source or 'no source stated'}" for one in both)),
+        "title": for_html(f"{both[0].model} against {both[1].model}"),
+        "sources": for_html(" · ".join(f"{one.model}: {one.source or 'no source stated'}" for one in both)),
         "class": _COLOURS[pair.judgement.outcome],
         "outcome": pair.judgement.outcome,
-        "sentence": html.escape(sentence(pair)),
+        "sentence": for_html(sentence(pair)),
         "rows": "\n".join(_html_row(row) for row in compared_rows(pair)),
-        "notes": html.escape(" ".join([*partial, _NOTES])),
+        "notes": for_html(" ".join([*partial, _NOTES])),
         "style": (_TEMPLATES / "style.css.j2").read_text(encoding="utf-8"),
         "plotly": plotly_script(),
         "figure": compared_figure(pair),
@@ -134,8 +134,8 @@ def sentence(pair: CurvePair) -> str:
 
 
 def _html_row(row: Row) -> str:
-    numbers = "".join(f'<td class="n">{html.escape(text)}</td>' for text in (row.curve, row.reference, row.difference))
-    return f"<tr><td>{html.escape(row.quantity)}</td>{numbers}</tr>"
+    numbers = "".join(f'<td class="n">{for_html(text)}</td>' for text in (row.curve, row.reference, row.difference))
+    return f"<tr><td>{for_html(row.quantity)}</td>{numbers}</tr>"
 
 
 def _percent(difference: float, reference: float) -> str:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from contracts.errors import InputError
+from contracts.text import for_markdown
 from workbench.report.number_format import displayed
 
 __all__ = ["document", "main", "rows_of", "written_list"]
@@ -49,9 +50,10 @@ def document(provenance: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -
 def _line(row: Mapping[str, Any]) -> str:
     tests = ", ".join(f"`{Path(test).stem}`" for test in row["tests"])
     value = displayed(row["value"], row["unit"], row["quantity"])
-    status = {"pass": value, "fail": f"**{value}, outside**", "error": "not evaluated"}[row["status"]]
-    cells = (row["claim"], f"`{row['id']}`, {row['role']}", tests, status, _limit(row))
-    return "| " + " | ".join(str(cell).replace("|", "\\|") for cell in cells) + " |"
+    shown = for_markdown(value)
+    status = {"pass": shown, "fail": f"**{shown}, outside**", "error": "not evaluated"}[row["status"]]
+    cells = (for_markdown(row["claim"]), f"`{row['id']}`, {row['role']}", tests, status, for_markdown(_limit(row)))
+    return "| " + " | ".join(cells) + " |"
 
 
 def _limit(row: Mapping[str, Any]) -> str:

@@ -5,11 +5,13 @@ Verified by tests/unit/test_workbench_gate_summary.py and tests/end_to_end/test_
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from contracts.records import Check
+from contracts.text import for_markdown
 from workbench.comparison.baseline import NOISE, Baseline, Change, Kept
 from workbench.report.number_format import displayed, displayed_reference
 
@@ -80,11 +82,11 @@ def gate_rows(gate: Gate) -> dict[str, Any]:
 
 def gate_markdown(gate: Gate) -> str:
     """The summary: verdict, what broke with its claim and numbers, findings outside, what changed."""
-    blocks = [f"## {'✅' if gate.holds else '❌'} Wheel workbench, {gate.study}", gate.verdict_now]
+    blocks = [f"## {'✅' if gate.holds else '❌'} Wheel workbench, {_cell(gate.study)}", gate.verdict_now]
     blocks += _failures(gate)
     outside = [c for c in gate.checks if c.role == "finding" and c.status != "pass"]
     if outside:
-        rows = [f"| `{c.id}` | {_cell(c.claim)} | {_value(c)} | {_limit(c)} |" for c in outside]
+        rows = [f"| {_id(c.id)} | {_cell(c.claim)} | {_cell(_value(c))} | {_cell(_limit(c))} |" for c in outside]
         title = f"{len(outside)} findings outside their limits or not evaluated (no failure)"
         table = "\n".join(["| check | claim that does not hold | value | limit |", "|---|---|---|---|", *rows])
         blocks.append(f"<details><summary>{title}</summary>\n\n{table}\n\n</details>")
@@ -96,10 +98,12 @@ def _failures(gate: Gate) -> list[str]:
         return []
     accepted = {} if gate.baseline is None else gate.baseline.checks
     rows = [
-        f"| `{c.id}` | {_cell(c.claim)} | {_value(c)} | {_limit(c)} | {_before(accepted.get(c.id))} |"
+        f"| {_id(c.id)} | {_cell(c.claim)} | {_cell(_value(c))} | {_cell(_limit(c))} | {_before(accepted.get(c.id))} |"
         for c in gate.failed
     ]
-    rows += [f"| `{c.check.id}` | {_cell(c.check.claim)} | {c.kind} | | {_before(c.before)} |" for c in gate.given_up]
+    rows += [
+        f"| {_id(c.check.id)} | {_cell(c.check.claim)} | {c.kind} | | {_before(c.before)} |" for c in gate.given_up
+    ]
     return [
         "### Broken claims",
         "\n".join(["| gate | claim | value | limit | accepted |", "|---|---|---|---|---|", *rows]),
@@ -110,7 +114,7 @@ def _since(gate: Gate) -> list[str]:
     if gate.baseline is None:
         return []
     made = f"{gate.baseline.created[:16].replace('T', ' ')} UTC, commit {(gate.baseline.commit or 'unknown')[:12]}"
-    title = f"### Since the accepted report ({made})"
+    title = f"### Since the accepted report ({_cell(made)})"
     others = [change for change in gate.changes if not change.fails]
     if not others:
         return [title, "Nothing else changed by more than the noise."]
@@ -123,11 +127,11 @@ def _since(gate: Gate) -> list[str]:
 
 def _row(change: Change) -> str:
     share = "" if change.shift is None else f"{100.0 * change.shift:.3g} %"
-    return f"| `{change.check.id}` | {change.kind} | {_before(change.before)} | {_before(change.now)} | {share} |"
+    return f"| {_id(change.check.id)} | {change.kind} | {_before(change.before)} | {_before(change.now)} | {share} |"
 
 
 def _before(kept: Kept | None) -> str:
-    return "–" if kept is None else f"{kept.status}, {_value(kept)}"
+    return "–" if kept is None else f"{_cell(kept.status)}, {_cell(_value(kept))}"
 
 
 def _numbers(check: Check) -> str:
@@ -145,4 +149,9 @@ def _limit(check: Check) -> str:
 
 
 def _cell(text: Any) -> str:
-    return str(text).replace("|", "\\|")
+    return for_markdown(str(text))
+
+
+def _id(id: str) -> str:
+    """An identifier as code; one that an accepted report's file may have made up as text."""
+    return f"`{id}`" if re.fullmatch(r"[A-Za-z0-9_.+-]+", id) else _cell(id)

@@ -16,6 +16,7 @@ from xml.etree import ElementTree
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.records import Check, Timing
 from contracts.series import TimeSeries, write_series
+from contracts.text import for_json, one_line
 from workbench.comparison.baseline import Change
 from workbench.comparison.comparison import overall_status
 from workbench.report.evidence import Evidence
@@ -166,20 +167,24 @@ def junit(study: str, checks: Sequence[Check], given_up: Sequence[Change] = ()) 
     suite = ElementTree.SubElement(root, "testsuite", {"name": study, **counts})
     for check in checks:
         case = ElementTree.SubElement(suite, "testcase", {"classname": f"{study}.{check.role}", "name": check.id})
-        text = f"{check.title}: {check.quantity} {check.value} {check.unit}, {check.tolerance} of {check.reference}"
+        text = one_line(
+            f"{check.title}: {check.quantity} {check.value} {check.unit}, {check.tolerance} of {check.reference}"
+        )
+        claim, source = one_line(check.claim), one_line(check.source)
         if check.role == "gate" and check.status != "pass":
             kind = "failure" if check.status == "fail" else "error"
-            ElementTree.SubElement(case, kind, {"message": text}).text = f"claim: {check.claim}\nsource: {check.source}"
+            ElementTree.SubElement(case, kind, {"message": text}).text = f"claim: {claim}\nsource: {source}"
         else:
-            ElementTree.SubElement(case, "system-out").text = f"{check.status}: {text}; source: {check.source}"
+            ElementTree.SubElement(case, "system-out").text = f"{check.status}: {text}; source: {source}"
     for change in given_up:
-        attributes = {"classname": f"{study}.accepted", "name": change.check.id}
+        attributes = {"classname": f"{study}.accepted", "name": one_line(change.check.id)}
         case = ElementTree.SubElement(suite, "testcase", attributes)
-        ElementTree.SubElement(case, "failure", {"message": change.kind}).text = f"claim: {change.check.claim}"
+        claim = one_line(change.check.claim)
+        ElementTree.SubElement(case, "failure", {"message": change.kind}).text = f"claim: {claim}"
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
 def to_json(value: Mapping[str, Any]) -> str:
     """Indented JSON text; refuses NaN."""
-    return json.dumps(value, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+    return for_json(json.dumps(value, indent=2, allow_nan=False, ensure_ascii=False)) + "\n"

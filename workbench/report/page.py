@@ -6,7 +6,6 @@ tests/end_to_end/test_report_browser.py.
 
 from __future__ import annotations
 
-import html
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ import jinja2
 
 from contracts.errors import InputError
 from contracts.records import Timing
+from contracts.text import for_html, one_line
 from workbench.comparison.comparison import Comparison, overall_status
 from workbench.figures.interactive import plotly_source
 from workbench.figures.packing import packed
@@ -114,6 +114,7 @@ def page_environment() -> jinja2.Environment:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
         autoescape=True,
+        finalize=_finalized,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -123,6 +124,11 @@ def page_environment() -> jinja2.Environment:
     environment.filters["largest_by_unit"] = largest_by_unit
     environment.filters["reference"] = displayed_reference
     return environment
+
+
+def _finalized(value: object) -> object:
+    """What a template puts into the page: a text in one line, unless it is a piece of the page itself."""
+    return one_line(value) if type(value) is str else value
 
 
 def _section_text(
@@ -138,7 +144,7 @@ def _section_text(
         if not values["provenance"]["partial"]:
             raise
         why = f"Not evaluated, because a curve is partial: {error}"
-        return f'<section id="{section.name}"><h2>{section.title}</h2><p>{html.escape(why)}</p></section>'
+        return f'<section id="{section.name}"><h2>{section.title}</h2><p>{for_html(why)}</p></section>'
 
 
 def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Sequence
 from string import Template
 
+from contracts.text import for_html
 from workbench.comparison.sweep import Outcome
 from workbench.comparison.sweep_table import Cell, SweepTable
 from workbench.figures.interactive import plotly_script
@@ -47,8 +47,8 @@ def sweep_page(title: str, table: SweepTable, found: Sequence[Outcome]) -> str:
     curves = "".join(f"<h2>Curves of the {_NAMES[m]}</h2>{curves_figure(found, m)}" for m in models)
     points = len({o.run.point.number for o in found if o.run.point.number})
     return _PAGE.substitute(
-        title=html.escape(f"{title}: parameter study"),
-        lead=html.escape(f"{points} points; curves: {counts}. Varied: {', '.join(table.labels)}."),
+        title=for_html(f"{title}: parameter study"),
+        lead=for_html(f"{points} points; curves: {counts}. Varied: {', '.join(table.labels)}."),
         plotly=plotly_script(),
         coordinates=parallel_coordinates(table) if drawn else "<p>No point has a curve.</p>",
         curves=curves,
@@ -58,7 +58,7 @@ def sweep_page(title: str, table: SweepTable, found: Sequence[Outcome]) -> str:
 
 def _table(table: SweepTable) -> str:
     names = [name for name in table.names if name != "task_key"]
-    head = "".join(f"<th>{html.escape(name).replace('_', '_<wbr>')}</th>" for name in names)
+    head = "".join(f"<th>{for_html(name).replace('_', '_<wbr>')}</th>" for name in names)
     rows = []
     for i, state in enumerate(table.column("state")):
         cells = "".join(_cell(table.rows[i][table.names.index(name)]) for name in names)
@@ -68,5 +68,5 @@ def _table(table: SweepTable) -> str:
 
 def _cell(cell: Cell) -> str:
     if isinstance(cell, str):
-        return f'<td class="text">{html.escape(cell)}</td>'
+        return f'<td class="text">{for_html(cell)}</td>'
     return "<td></td>" if cell is None else f"<td>{cell:.5g}</td>"

@@ -19,6 +19,7 @@ from pydantic_core import PydanticCustomError
 from contracts.csv_table import CsvTable, TableRule, read_table, table_text
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
+from contracts.text import one_line
 from workbench.study.deformation import DEFORMATIONS, Deformation, Kind, deformation_named
 from workbench.study.quantities import to_si
 
@@ -81,7 +82,7 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
         load = columns["load"].factor * table.values[:, columns["load"].place]
     try:
         curve = StiffnessCurve(
-            model=path.stem,
+            model=one_line(path.stem),
             orientation_deg=None,
             deflection=_si_deformation(path, deformation, columns["deformation"], table, remarks),
             load=load,

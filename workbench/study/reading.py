@@ -18,6 +18,7 @@ from workbench.study.curve_file import in_si
 from workbench.study.model import Study
 from workbench.study.model_parameters import SectionInputError, ancf_mesh, ancf_preset, brush_parameters, wheel_design
 from workbench.study.rules import broken_rules
+from workbench.study.words import in_one_line
 
 __all__ = ["built_in_study", "read_study", "read_study_table", "study_of"]
 
@@ -54,7 +55,7 @@ def read_study(path: Path) -> Study:
 def study_of(path: Path, table: Mapping[str, Any]) -> Study:
     """Check and freeze the content of a study file, which may have been changed since it was read; as `read_study`."""
     try:
-        study = Study.model_validate(table)
+        study = Study.model_validate(in_one_line(table))
     except ValidationError as error:
         raise _study_error(path, error) from error
     study = _with_surfaces_from(study, path.parent)

@@ -14,8 +14,7 @@ __all__ = ["solve"]
 
 
 def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """Static line of the brush tire: ``curve.csv``."""
-    write_curve(
-        stiffness_curve(BrushTireParameters(**inputs["parameters"]), inputs["max_deflection"]), out / "curve.csv"
-    )
+    """Static line of the brush tire: ``curve.csv``; where its parameters come from is added by who shows it."""
+    parameters = BrushTireParameters(**inputs["parameters"], source="the study")
+    write_curve(stiffness_curve(parameters, inputs["max_deflection"]), out / "curve.csv")
     return 0

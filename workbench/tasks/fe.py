@@ -28,6 +28,9 @@ from workbench.tasks.mesh_file import MESH, read_mesh
 
 __all__ = ["converged_part", "load_case", "solve_orientation"]
 
+_STUDY = "the study"
+"""Where the numbers of every material come from, for all that a task knows."""
+
 
 def solve_orientation(
     inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
@@ -40,7 +43,7 @@ def solve_orientation(
     (mesh_folder,) = needs.values()
     mesh = read_mesh(mesh_folder / MESH)
     case = load_case(inputs)
-    materials = {part: Material(**values) for part, values in inputs["materials"].items()}
+    materials = {part: Material(name=part, source=_STUDY, **v) for part, v in inputs["materials"].items()}
 
     def report(deflection: float, load: float) -> None:
         progress(max(deflection / case.deflections[-1], load / inputs["max_load"]))

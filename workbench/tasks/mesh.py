@@ -24,8 +24,10 @@ __all__ = ["build", "design_from", "measure"]
 
 
 def design_from(wheel: Mapping[str, Any]) -> WheelDesign:
-    """The design from the JSON of a study's wheel, all values SI."""
-    return wheel_design(WheelStudy.model_validate(wheel, context={"si": True}))
+    """The design from the JSON of a study's wheel, all values SI; words that it leaves out are made up."""
+    materials = {name: {"source": "the study"} | values for name, values in wheel["materials"].items()}
+    whole = {"name": "wheel", **wheel, "materials": materials}
+    return wheel_design(WheelStudy.model_validate(whole, context={"si": True}))
 
 
 def build(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:

@@ -33,7 +33,7 @@ def measure(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
     for i, user in enumerate(inputs["user_curves"]):
         path = out / f"user_{i}.csv"
         path.write_text(user["text"], encoding="utf-8")
-        curve = read_curve(path, model=user["label"], orientation_deg=user["orientation"])
+        curve = read_curve(path, orientation_deg=user["orientation"])
         pairs[f"user_{i}"] = _counterpart(fe, user["orientation"]), curve
     known = {name: pair for name, pair in pairs.items() if not any(curve.unloaded for curve in pair)}
     write_result(out, {name: _distance(pair, inputs["max_load"]) for name, pair in known.items()})

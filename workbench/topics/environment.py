@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +19,15 @@ from contracts.materials_temperature import REFERENCE_TEMPERATURE
 from workbench.checks.environment import EnvironmentRun, Series, environment_checks
 from workbench.comparison.results import CURVE
 from workbench.execution.task import Task
-from workbench.graph.fe import curve_deflections, degrees, fe_inputs, fe_task, orientation_name, without_fields
+from workbench.graph.fe import (
+    curve_deflections,
+    degrees,
+    fe_inputs,
+    fe_task,
+    material_inputs,
+    orientation_name,
+    without_fields,
+)
 from workbench.study.environment import EnvironmentSection
 from workbench.study.model import Study
 from workbench.study.model_parameters import materials, wheel_design
@@ -39,8 +47,8 @@ def environment_tasks(study: Study) -> list[Task]:
     inputs = without_fields(fe_inputs(study, degrees(section.orientation), deflections))
     return [
         fe_task(
-            _name(variant, temperature),
-            inputs | {"materials": {part: asdict(m) for part, m in _materials(study, variant, temperature).items()}},
+            _name(study, variant, temperature),
+            inputs | {"materials": material_inputs(_materials(study, variant, temperature))},
             cost=40.0,
         )
         for variant, temperature in _wanted(study)
@@ -77,8 +85,11 @@ def _materials(study: Study, variant: str, temperature: float) -> dict[str, Mate
     return {part: material.at(temperature) for part, material in design.items()}
 
 
-def _name(variant: str, temperature: float) -> str:
-    label = re.sub(r"[^A-Za-z0-9]+", "_", variant)
+def _name(study: Study, variant: str, temperature: float) -> str:
+    """Name of a task: the variant in letters that every file system takes, numbered where two would be alike."""
+    plain = {name: re.sub(r"[^A-Za-z0-9]+", "_", name) for name in dict.fromkeys(_section(study).variants)}
+    alike = [name for name in plain if plain[name] == plain.get(variant)]
+    label = plain.get(variant, "") + (f"_{alike.index(variant) + 1}" if len(alike) > 1 else "")
     return f"environment_{label + '_' if label else ''}{_celsius(temperature)}"
 
 
@@ -92,8 +103,8 @@ def _read(study: Study, folders: Mapping[str, Path]) -> tuple[Series, ...]:
     runs: dict[str, list[EnvironmentRun]] = {}
     for variant, temperature in _wanted(study):
         own = (variant, temperature) == (_DESIGN, REFERENCE_TEMPERATURE)
-        name = orientation_name("fe", orientation) if own else _name(variant, temperature)
-        model = f"fe_{_name(variant, temperature).removeprefix('environment_')}"
+        name = orientation_name("fe", orientation) if own else _name(study, variant, temperature)
+        model = f"fe_{_name(study, variant, temperature).removeprefix('environment_')}"
         curve = read_curve(folders[name] / CURVE, model=model, orientation_deg=orientation)
         run = EnvironmentRun(temperature=temperature, curve=curve, materials=_materials(study, variant, temperature))
         runs.setdefault(variant, []).append(run)

@@ -33,7 +33,7 @@ function addLegend(box, Plotly, data, place) {
     const button = document.createElement("button");
     button.type = "button";
     button.innerHTML = `<svg viewBox="0 0 30 10" width="30" height="10" aria-hidden="true">${legendSymbol(trace)}</svg>`;
-    button.append(trace.name.replace(/<[^>]*>/g, ""));
+    button.append(new DOMParser().parseFromString(trace.name, "text/html").body.textContent);
     button.title = "click: hide or show; double click: alone";
     button.addEventListener("click", () => { off.has(k) ? off.delete(k) : off.add(k); show(); });
     button.addEventListener("dblclick", () => {
