@@ -11,8 +11,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from reference_fe.solver import triangular_product
+from reference_fe.solver.loopback import keep_to_this_machine
 
 with contextlib.suppress(ModuleNotFoundError):
+    keep_to_this_machine()  # before MPI is loaded
     triangular_product.provide()  # before PETSc is loaded
     import dolfinx_solver  # noqa: F401  (sets up the libraries of the PyPI wheel)
 

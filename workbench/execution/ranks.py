@@ -30,9 +30,12 @@ _PR_SET_PDEATHSIG = 1
 
 
 def mpiexec() -> str:
-    """Launcher of the MPI that came with this Python's packages, else the one on the path."""
-    beside = Path(sys.executable).with_name("mpiexec")
-    found = str(beside) if beside.exists() else shutil.which("mpiexec")
+    """Launcher of the MPI that came with this Python's packages, else the one on the path.
+
+    MPICH has one that forks all processes here, and one for many machines, which listens on all their addresses.
+    """
+    beside = [Path(sys.executable).with_name(name) for name in ("mpiexec.gforker", "mpiexec")]
+    found = next((str(one) for one in beside if one.exists()), None) or shutil.which("mpiexec")
     if found is None:
         raise InputError("mpiexec", "none", "is needed for --ranks", "install the package mpich of your MPI library")
     return found
@@ -77,6 +80,7 @@ def die_with_parent() -> None:
 
 def main(path: Path) -> None:
     """Run the job as one of the MPI processes; a failure of any process ends them all."""
+    die_with_parent()
     from reference_fe.dolfinx_api import COMM
 
     values = json.loads(path.read_text(encoding="utf-8"))

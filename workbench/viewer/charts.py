@@ -14,6 +14,7 @@ from contracts.curves import StiffnessCurve
 from contracts.series import TimeSeries
 from workbench.figures.palette import INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.viewer.folder import spoken
+from workbench.viewer.names import chart_text, plain
 
 __all__ = ["curves_chart", "quantities", "series_chart"]
 
@@ -50,7 +51,7 @@ def curves_chart(
             {
                 "type": "scatter",
                 "mode": "lines+markers" if name in own else "lines",
-                "name": (name if name in own else spoken(name)) + " (partial)" * curve.partial,
+                "name": chart_text(name if name in own else spoken(name)) + " (partial)" * curve.partial,
                 "x": _rounded(1e3 * curve.deflection),
                 "y": _rounded(curve.load),
                 "line": {"color": style, "width": 3.5 if kept else 2.0, "dash": dash},
@@ -72,7 +73,7 @@ def quantities(series: TimeSeries) -> dict[str, str]:
         if any(column.endswith(f"_{key}") for column in series.columns):
             found[key] = title
     single = [c for c in series.columns if not any(c.endswith(f"_{key}") for key in _QUANTITIES)]
-    return found | {column: _titled(column)[0] for column in single}
+    return found | {column: plain(_titled(column)[0]) for column in single}
 
 
 def series_chart(series: TimeSeries, quantity: str) -> Figure:
@@ -87,7 +88,7 @@ def series_chart(series: TimeSeries, quantity: str) -> Figure:
         {
             "type": "scatter",
             "mode": "lines",
-            "name": label.replace("_", " "),
+            "name": chart_text(plain(label.replace("_", " "))),
             "x": _rounded(series.time),
             "y": _rounded(factor * series[column]),
             "line": {
@@ -99,7 +100,7 @@ def series_chart(series: TimeSeries, quantity: str) -> Figure:
         }
         for k, (column, label) in enumerate(columns.items())
     ]
-    return {"data": lines, "layout": _layout("time [s]", title, "normal")}
+    return {"data": lines, "layout": _layout("time [s]", chart_text(plain(title)), "normal")}
 
 
 def _titled(column: str) -> tuple[str, float]:

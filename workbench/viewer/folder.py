@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,11 +15,12 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.series import TimeSeries, read_series
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours
+from workbench.viewer.names import named_apart, plain
 
 __all__ = ["FieldFile", "ReportFolder", "read_folder", "spoken"]
 
-_FIELDS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_(?P<load>\d+)N\.vtu")
-_POINTS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_points\.npz")
+_FIELDS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_(?P<load>\d+)N\.vtu", re.DOTALL | re.ASCII)
+_POINTS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_points\.npz", re.DOTALL | re.ASCII)
 _MODELS = {"fe": "FE", "ancf": "ANCF", "brush": "brush", "section": "section"}
 _HINT = "give the folder that `workbench report --out` wrote, such as build/report"
 
@@ -47,6 +48,9 @@ class ReportFolder:
     curves : by file name without its ending, such as ``fe_phi015``
     series : time series by (scenario, tire)
     motions : files of recorded motions by (scenario, tire)
+    left_out : names of what looks like a result and leads out of the folder, or is no file
+
+    Names are `plain`: a file may be called anything.
     """
 
     path: Path
@@ -57,6 +61,7 @@ class ReportFolder:
     curves: Mapping[str, StiffnessCurve]
     series: Mapping[tuple[str, str], TimeSeries]
     motions: Mapping[tuple[str, str], Path]
+    left_out: tuple[str, ...] = ()
 
     def parts_of(self, model: str, orientation: float) -> tuple[str, ...]:
         """Names of the parts with a stress in the curve beside the fields, in the order of their tags 1, 2, ..."""
@@ -77,21 +82,22 @@ def read_folder(path: Path) -> ReportFolder:
     """
     if not path.is_dir():
         raise InputError("report folder", path, "is not a folder" if path.exists() else "does not exist", _HINT)
-    study, status = _summary(path / "summary.json")
-    series = {
-        _named(one): read_series(one, *_named(one))
-        for one in sorted((path / SERIES_FOLDER).glob("*.csv"))
-        if is_ours(one.name)
-    }
+    inside = _Inside(path)
+    summary = path / "summary.json"
+    study, status = _summary(summary) if inside.has(summary) else ("", "")
+    motions = {_named(one): one for one in inside.files(MOTIONS_FOLDER, "*_*.npz")}
+    series = {_named(one): one for one in inside.files(SERIES_FOLDER, "*.csv") if is_ours(one.name)}
+    fields, points = inside.matches("fields", _FIELDS, ".vtu"), inside.matches("fields", _POINTS, "_points.npz")
     found = ReportFolder(
         path=path,
         study=study,
         status=status,
-        fields=_field_files(path / "fields"),
-        points={(m["model"], float(m["orientation"])): one for one, m in _matches(path / "fields", _POINTS)},
-        curves={one.stem: read_curve(one) for one in sorted((path / "curves").glob("*.csv"))},
-        series=series,
-        motions={_named(one): one for one in sorted((path / MOTIONS_FOLDER).glob("*_*.npz"))},
+        fields=_field_files(fields),
+        points={(plain(m["model"]), float(m["orientation"])): one for one, m in points},
+        curves={name: read_curve(one) for name, one in named_apart(inside.files("curves", "*.csv")).items()},
+        series={names: read_series(one, *names) for names, one in series.items()},
+        motions=motions,
+        left_out=tuple(dict.fromkeys(inside.left_out)),
     )
     if not (found.fields or found.curves or found.series or found.motions):
         raise InputError("report folder", path, "holds no results", _HINT)
@@ -106,29 +112,50 @@ def spoken(name: str) -> str:
     return f"{text} {float(angle):g}°" if re.fullmatch(r"\d+(\.\d+)?", angle) else text
 
 
-def _field_files(folder: Path) -> tuple[FieldFile, ...]:
+def _field_files(matches: Iterable[tuple[Path, re.Match[str]]]) -> tuple[FieldFile, ...]:
     found = [
-        FieldFile(model=m["model"], orientation=float(m["orientation"]), load=float(m["load"]), path=path)
-        for path, m in _matches(folder, _FIELDS)
+        FieldFile(model=plain(m["model"]), orientation=float(m["orientation"]), load=float(m["load"]), path=path)
+        for path, m in matches
     ]
     return tuple(sorted(found, key=lambda one: (one.model, one.orientation, one.load)))
 
 
-def _matches(folder: Path, pattern: re.Pattern[str]) -> list[tuple[Path, re.Match[str]]]:
-    matches = [(path, pattern.fullmatch(path.name)) for path in sorted(folder.glob("*"))]
-    return [(path, m) for path, m in matches if m]
+class _Inside:
+    """Files within a folder; what leads out of it, or is a pipe or a folder, is left out and remembered."""
+
+    def __init__(self, root: Path) -> None:
+        self.root, self.left_out = root, list[str]()
+
+    def files(self, folder: str, pattern: str) -> Iterator[Path]:
+        """In the order of their names."""
+        for path in sorted((self.root / folder).glob(pattern)):
+            if self.has(path):
+                yield path
+            else:
+                self.left_out.append(plain(f"{folder}/{path.name}"))
+
+    def matches(self, folder: str, pattern: re.Pattern[str], ending: str) -> Iterator[tuple[Path, re.Match[str]]]:
+        """Those whose name matches as a whole."""
+        for path in self.files(folder, f"*{ending}"):
+            if match := pattern.fullmatch(path.name):
+                yield path, match
+
+    def has(self, path: Path) -> bool:
+        """Whether this is a file in the folder, or a link to one."""
+        try:
+            return path.is_file() and path.resolve().is_relative_to(self.root.resolve())
+        except (OSError, RuntimeError):  # a link to itself
+            return False
 
 
 def _named(path: Path) -> tuple[str, str]:
     scenario, _, tire = path.stem.rpartition("_")
-    return scenario, tire
+    return plain(scenario), plain(tire)
 
 
 def _summary(path: Path) -> tuple[str, str]:
-    if not path.exists():
-        return "", ""
     try:
         summary = json.loads(path.read_text(encoding="utf-8"))
-        return str(summary["study"]), str(summary["status"])
+        return plain(str(summary["study"])), plain(str(summary["status"]))
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError("summary", path, f"cannot be read ({type(error).__name__})", "run the report again") from error

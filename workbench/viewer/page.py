@@ -5,7 +5,6 @@ Verified by tests/end_to_end/test_view.py.
 
 from __future__ import annotations
 
-import asyncio
 import importlib.util
 from pathlib import Path
 from typing import Any
@@ -14,11 +13,12 @@ from trame.app import get_server  # type: ignore[import-untyped]
 from trame.ui.html import DivLayout  # type: ignore[import-untyped]
 from trame.widgets import vtk  # type: ignore[import-untyped]
 
-from workbench.viewer.folder import ReportFolder
+from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
 from workbench.viewer.session import Session, initial_state
+from workbench.viewer.window import Window
 
-__all__ = ["build_page"]
+__all__ = ["open_page"]
 
 _HERE = Path(__file__).parent
 _TURNING = [
@@ -29,9 +29,15 @@ _TURNING = [
 ]
 
 
-def build_page(folder: ReportFolder) -> Any:
-    """A server that is ready to start, with everything the page needs from this machine; raises InputError."""
-    server: Any = get_server("workbench-view", client_type="vue3")
+async def open_page(results: Results, secret: str, number: int) -> Window:
+    """Another page with everything it needs from this machine, running and waiting for its browser.
+
+    Each has a server, a state and a scene of its own, so that no window steers another.
+
+    secret : what its browser says first
+    number : unlike that of any other page
+    """
+    server: Any = get_server(f"workbench-view-{number}", client_type="vue3")
     plotly = importlib.util.find_spec("plotly")
     assert plotly is not None
     assert plotly.origin is not None
@@ -39,10 +45,9 @@ def build_page(folder: ReportFolder) -> Any:
     scripts, styles = ["plotly/plotly.min.js", "workbench/viewer.js"], ["workbench/viewer.css"]
     server.enable_module({"serve": static, "scripts": scripts, "styles": styles, "vue_use": ["workbench"]})
     state, scene = server.state, Scene()
-    state.update(initial_state(folder))
+    state.update(initial_state(results.folder))
     state.trame__title = f"{state.study} - wheel workbench"
     state.trame__favicon = ""
-    session: list[Session] = []
     with DivLayout(server) as layout:
         view = vtk.VtkLocalView(
             scene.window,
@@ -54,15 +59,18 @@ def build_page(folder: ReportFolder) -> Any:
         )
         layout.root.clear()
         layout.root.add_child((_HERE / "page.html").read_text(encoding="utf-8").replace("<!--scene-->", view.html))
-    session.append(Session(state, view, folder, scene))
-    _connect(server, session[0])
-    return server
+    page = Window(server, Session(state, view, results, scene))
+    _connect(server, page)
+    server.controller.on_server_bind.add(page.bind)
+    server.cli.parse_known_args = lambda *_: type(server.cli).parse_known_args(server.cli, ["--authKey", secret])
+    server.start(backend="generic", exec_mode="task", port=0, show_connection_info=False, disable_logging=True)
+    await server.ready
+    return page
 
 
-def _connect(server: Any, session: Session) -> None:
+def _connect(server: Any, page: Window) -> None:
     """Changes of the page's choices and its triggers to what the session does about them."""
-    state = server.state
-    tasks: set[asyncio.Task[None]] = set()
+    state, session = server.state, page.session
     for keys, action in (
         (("tab",), session.open),
         (("model", "orientation"), session.open_wheel),
@@ -75,9 +83,7 @@ def _connect(server: Any, session: Session) -> None:
 
     def played(playing: bool, **_: Any) -> None:
         if playing and server.running:
-            task = asyncio.create_task(session.play())
-            tasks.add(task)
-            task.add_done_callback(tasks.discard)
+            page.run(session.play())
 
     state.change("playing")(played)
     server.trigger("probe")(session.probe)

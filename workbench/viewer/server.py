@@ -7,14 +7,22 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import functools
+import logging
 import os
 import signal
 import socket
 import sys
 import webbrowser
-from typing import Any
+
+from aiohttp import web
 
 from contracts.errors import InputError
+from workbench.viewer.access import Access
+from workbench.viewer.page import open_page
+from workbench.viewer.results import Results
+from workbench.viewer.site import site
+from workbench.viewer.windows import Windows
 
 __all__ = ["HOST", "serve"]
 
@@ -23,12 +31,12 @@ _PATIENCE = 1.0
 """Longest wait for browsers to part [s]."""
 
 
-def serve(server: Any, port: int, *, open_browser: bool) -> None:
+def serve(results: Results, port: int, *, open_browser: bool) -> None:
     """Serve until SIGINT or SIGTERM; prints the address once.
 
     Parameters
     ----------
-    server : trame's, with its page
+    results : what the page shows
     port : 0 for any that is free
     open_browser : whether to open the address
 
@@ -37,68 +45,35 @@ def serve(server: Any, port: int, *, open_browser: bool) -> None:
     InputError
         If the port cannot be had.
     """
-    _check_port(port)
-    os.environ["WSLINK_READY_MSG"] = ""  # else it prints on stdout
-    asyncio.run(_served(server, port, open_browser=open_browser))
+    for name in ("wslink", "trame", "trame_server", "trame_vtk", "aiohttp"):  # what a browser does wrong is no news
+        logging.getLogger(name).addHandler(logging.NullHandler())
+        logging.getLogger(name).propagate = False
+    with _listening(port) as listener:
+        asyncio.run(_served(results, listener, open_browser=open_browser))
 
 
-def _check_port(port: int) -> None:
-    with socket.socket() as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind((HOST, port))
-        except OSError as error:
-            rule = f"cannot be used ({error.strerror or error})"
-            raise InputError("port", port, rule, "leave out --port for one that is free") from error
+def _listening(port: int) -> socket.socket:
+    try:
+        return socket.create_server((HOST, port))
+    except OSError as error:
+        rule = f"cannot be used ({os.strerror(error.errno) if error.errno else error})"
+        raise InputError("port", port, rule, "leave out --port for one that is free") from error
 
 
-async def _served(server: Any, port: int, *, open_browser: bool) -> None:
+async def _served(results: Results, listener: socket.socket, *, open_browser: bool) -> None:
     ended = asyncio.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         asyncio.get_running_loop().add_signal_handler(number, ended.set)
-
-    def ready(**_: Any) -> None:
-        address = f"http://{HOST}:{server.port}/"
-        sys.stdout.write(f"{address}\n")
-        sys.stdout.flush()
-        if open_browser:
-            webbrowser.open(address)
-
-    server.controller.on_server_ready.add(ready)
-    server.controller.on_server_bind.add(_guard)
-    server.cli.parse_known_args = lambda *_: type(server.cli).parse_known_args(server.cli, [])  # ours is parsed
-    running = server.start(
-        host=HOST,
-        port=port,
-        exec_mode="task",
-        open_browser=False,
-        show_connection_info=False,
-        disable_logging=True,
-        thread=True,  # the signals are ours
-        timeout=0,
-    )
-    await asyncio.wait({running, asyncio.create_task(ended.wait())}, return_when=asyncio.FIRST_COMPLETED)
-    if running.done():
-        running.result()
+    access = Access(HOST, listener.getsockname()[1])
+    windows = Windows(functools.partial(open_page, results, access.secret))
+    application = site(windows, access, await windows.begin())
+    runner = web.AppRunner(application, handle_signals=False, access_log=None, shutdown_timeout=_PATIENCE)
+    await runner.setup()
+    await web.SockSite(runner, listener).start()
+    sys.stdout.write(f"{access.address}\n")
+    sys.stdout.flush()
+    if open_browser:
+        webbrowser.open(access.address)
+    await ended.wait()
     with contextlib.suppress(TimeoutError):
-        await asyncio.wait_for(server.stop(), _PATIENCE)
-
-
-def _guard(bound: Any) -> None:
-    """Answer only what was asked of this address, by a page of ours: no other site's script may look in."""
-    from aiohttp import web
-
-    @web.middleware
-    async def ours(request: web.Request, handler: Any) -> web.StreamResponse:
-        hosts = {f"{name}:{bound.get_port()}" for name in (HOST, "localhost")}
-        origin = request.headers.get("Origin")
-        if request.host not in hosts or (origin is not None and origin.partition("://")[2] not in hosts):
-            raise web.HTTPForbidden(text="this page is for its own machine only")
-        answer: web.StreamResponse = await handler(request)
-        return answer
-
-    async def session(_: web.Request) -> web.Response:
-        return web.json_response({"sessionURL": "ws://USE_HOST/ws"})  # trame's page asks where to connect
-
-    bound.app.middlewares.append(ours)
-    bound.app.router.add_post("/paraview/", session)
+        await asyncio.wait_for(runner.cleanup(), 2.0 * _PATIENCE)

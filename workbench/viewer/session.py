@@ -19,10 +19,12 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.viewer.charts import curves_chart, quantities, series_chart
 from workbench.viewer.folder import ReportFolder, spoken
+from workbench.viewer.names import plain
+from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
-from workbench.viewer.stages import QUANTITIES, RoverStage, WheelStage, wheel_stage
+from workbench.viewer.stages import QUANTITIES, RoverStage, WheelStage
 
-__all__ = ["Session", "initial_state"]
+__all__ = ["SPEEDS", "Session", "initial_state"]
 
 _LOAD_SHOWN = 0.9
 """Longest time a load is shown while they are played [s]."""
@@ -30,6 +32,10 @@ _PLAYED = 4.0
 """Time in which many loads are played [s]."""
 _PATIENCE = 1.0
 """Longest wait for the browser to have drawn a frame [s]."""
+_MOST_OWN = 50
+"""Curves that a window may be given."""
+SPEEDS = (0.1, 0.5, 1, 2, 5, 10)
+"""At which a rover may be played, those of ``page.html``."""
 
 
 def initial_state(folder: ReportFolder) -> dict[str, Any]:
@@ -39,7 +45,7 @@ def initial_state(folder: ReportFolder) -> dict[str, Any]:
     scenarios = list(dict.fromkeys(scenario for scenario, _ in folder.motions))
     first = "straight" if "straight" in scenarios else next(iter(scenarios), "")
     return {
-        "study": folder.study or folder.path.name,
+        "study": folder.study or plain(folder.path.name),
         "verdict": folder.status,
         "tab": "wheel" if models or not scenarios else "rover",
         "models": [{"value": name, "text": spoken(name)} for name in models],
@@ -73,34 +79,34 @@ def initial_state(folder: ReportFolder) -> dict[str, Any]:
 
 
 class Session:
-    """One page on one folder.
+    """One window on one folder.
 
     Parameters
     ----------
-    state : trame's
+    state : trame's, of this window alone
     view : the page's 3D view: ``update()``, ``push_camera()``
-    folder, scene : what is shown, and where
+    results : what is shown, shared by all windows
+    scene : where it is shown
     """
 
-    def __init__(self, state: Any, view: Any, folder: ReportFolder, scene: Scene) -> None:
-        self.state, self.view, self.folder, self.scene = state, view, folder, scene
-        self.curves: dict[str, StiffnessCurve] = dict(folder.curves)
+    def __init__(self, state: Any, view: Any, results: Results, scene: Scene) -> None:
+        self.state, self.view, self.results, self.scene = state, view, results, scene
+        self.folder = results.folder
+        self.curves: dict[str, StiffnessCurve] = dict(self.folder.curves)
         self.own: list[str] = []
         self.wheel: WheelStage | None = None
         self.rover: RoverStage | None = None
         self.drawn = asyncio.Event()
-        self._wheels: dict[tuple[str, float], WheelStage] = {}
-        for one in folder.fields:  # what cannot be read is said before the page opens
-            self.wheel_at(one.model, one.orientation)
-        self._rovers = {key: RoverStage(path) for key, path in folder.motions.items()}
 
-    def wheel_at(self, model: str, orientation: float) -> WheelStage:
-        """The stage of a model at an orientation [deg], read once."""
-        key = (model, orientation)
-        if key not in self._wheels:
-            files = [(one.load, one.path) for one in self.folder.fields if (one.model, one.orientation) == key]
-            self._wheels[key] = wheel_stage(orientation, files, self.folder.points.get(key))
-        return self._wheels[key]
+    def renew(self) -> None:
+        """Forget what the last window did; the scene stays, and with it the addresses the browsers know."""
+        self.curves, self.own = dict(self.folder.curves), []
+        self.wheel = self.rover = None
+        self.scene.mark(None, 0.0)
+        with self.state:
+            self.state.update(initial_state(self.folder))
+        with self.state:
+            self.open()
 
     def open(self) -> None:
         """Show what the tab is about, from its first view."""
@@ -122,7 +128,7 @@ class Session:
         state.orientations = sorted({one.orientation for one in self.folder.fields if one.model == state.model})
         if state.orientation not in state.orientations:
             state.orientation = state.orientations[0]
-        self.wheel = self.wheel_at(state.model, float(state.orientation))
+        self.wheel = self.results.wheels[state.model, float(state.orientation)]
         state.loads = [float(f"{load:.4g}") for load in self.wheel.loads]
         state.load = state.frame = state.last_frame = len(state.loads) - 1
         state.probe = None
@@ -159,15 +165,15 @@ class Session:
         if state.tire not in state.tires:
             state.tire = state.tires[0]
         key = (state.scenario, state.tire)
-        self.rover = self._rovers[key]
+        self.rover = self.results.rovers[key]
         state.last_frame, state.frame, state.bar = len(self.rover.times) - 1, 0, self.rover.bar()
-        state.rover_title = self.rover.motion.title
+        state.rover_title = plain(self.rover.motion.title)
         series = self.folder.series.get(key)
         state.series_choices = quantities(series) if series else {}
         if state.series not in state.series_choices:
             state.series = next(iter(state.series_choices), "")
         lasts = float(self.rover.times[-1] - self.rover.times[0])
-        state.speed = min((0.1, 0.5, 1, 2, 5, 10), key=lambda speed: abs(np.log(lasts / speed / 12.0)))
+        state.speed = min(SPEEDS, key=lambda speed: abs(np.log(lasts / speed / 12.0)))
         self._show_rover()
         self.draw_curves()
 
@@ -216,7 +222,7 @@ class Session:
             "tag": tag,
             "title": QUANTITIES[state.quantity][0],
             "value": bar.text(float(self.wheel.values(number, state.quantity)[node])),
-            "part": names[tag - 1].replace("_", " ") if tag <= len(names) else f"hub (part {tag})",
+            "part": plain(names[tag - 1].replace("_", " ")) if 1 <= tag <= len(names) else f"hub (part {tag})",
             "node": node,
             "place": _millimetres(surface.places[point]),
             "moved": _millimetres(moved),
@@ -248,11 +254,16 @@ class Session:
             path = Path(folder) / "curve.csv"
             path.write_text(text, encoding="utf-8")
             try:
-                self.curves[name] = read_curve(path)
+                curve = read_curve(path)
             except InputError as error:
-                state.message = f"{name}: {error.rule}; {error.hint}"
+                state.message = f"{plain(name)}: {plain(error.rule)}; {plain(error.hint)}"
                 return
-        state.message = ""
+        name = plain(name)
+        full = name not in self.own and len(self.own) >= _MOST_OWN
+        state.message = f"{name}: {_MOST_OWN} curves are enough; reload the page to begin anew" if full else ""
+        if full:
+            return
+        self.curves[name] = curve
         if name not in self.own:
             self.own.append(name)
             state.curves = [*state.curves, {"value": name, "text": name}]

@@ -1,0 +1,137 @@
+"""What a page may ask of its session, checked before anything is done: a browser sends what it likes.
+
+Verified by tests/unit/test_viewer_requests.py and tests/end_to_end/test_view_nonsense.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeGuard
+
+import msgpack  # type: ignore[import-untyped]
+
+from workbench.viewer.session import SPEEDS, Session
+from workbench.viewer.stages import QUANTITIES
+
+__all__ = ["CHOICES", "LONGEST", "Refused", "Request", "allowed_change", "allowed_trigger", "read_request"]
+
+LONGEST = 4 * 1024 * 1024
+"""Bytes of a message; a curve file of 1 MB fits."""
+_HEADER = 12
+"""Bytes before each message: its number, the place of this piece and the size of the whole."""
+_LONGEST_NAME = 255
+_FARTHEST = 1e9
+"""Of a click's ray from the wheel [m]."""
+
+
+class Refused(ValueError):  # noqa: N818 - it is an answer
+    """A request that makes no sense; the text is the answer."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """One call: its number, the method and its arguments."""
+
+    number: str
+    method: str
+    arguments: list[Any]
+
+
+def read_request(message: bytes) -> Request:
+    """A message as wslink's client sends it, in one piece; raises Refused."""
+    if len(message) > LONGEST or message[4:8] != bytes(4) or message[8:12] != (len(message) - 12).to_bytes(4, "little"):
+        raise Refused("a message is one piece of at most 4 MB")
+    try:
+        call = msgpack.unpackb(message[_HEADER:])
+    except Exception as error:  # whatever msgpack finds
+        raise Refused("a message is a call packed by msgpack") from error
+    if not isinstance(call, dict):
+        raise Refused("a message is a call")
+    number, method, arguments = call.get("id"), call.get("method"), call.get("args", [])
+    if not _is_name(number) or not _is_name(method) or not isinstance(arguments, list):
+        raise Refused("a call has an id, a method and a list of arguments")
+    return Request(number=number, method=method, arguments=arguments)
+
+
+def allowed_change(session: Session, change: object) -> tuple[str, Any]:
+    """Name and value of a choice that the page offers now; raises Refused."""
+    if not isinstance(change, dict) or not isinstance(name := change.get("key"), str) or name not in CHOICES:
+        raise Refused("a change names one of the page's choices")
+    value = change.get("value")
+    if not CHOICES[name](session, value):
+        raise Refused(f"{name} is offered with other values")
+    return name, value
+
+
+def allowed_trigger(arguments: list[Any]) -> tuple[str, list[Any]]:
+    """Name and arguments of a deed; raises Refused."""
+    name, given = (arguments[0] if arguments else None), (arguments[1] if len(arguments) > 1 else [])
+    if not isinstance(name, str) or name not in _DEEDS or not isinstance(given, list) or not _DEEDS[name](given):
+        raise Refused("a trigger is one of the page's, with its own arguments")
+    return name, given
+
+
+def _is_name(value: object) -> TypeGuard[str]:
+    return isinstance(value, str) and 0 < len(value) <= _LONGEST_NAME
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _counted(value: object, end: int) -> bool:
+    return type(value) is int and 0 <= value < end
+
+
+def _curves(session: Session, value: object) -> bool:
+    if not isinstance(value, list) or not all(isinstance(name, str) and name in session.curves for name in value):
+        return False
+    return len(set(value)) == len(value)
+
+
+def _tab(session: Session, value: object) -> bool:
+    return (value == "wheel" and bool(session.state.models)) or (value == "rover" and bool(session.state.scenarios))
+
+
+CHOICES: Mapping[str, Callable[[Session, Any], bool]] = {
+    "tab": _tab,
+    "model": lambda session, value: isinstance(value, str) and value in session.wheel_models(),
+    "orientation": lambda session, value: _is_number(value) and value in session.state.orientations,
+    "load": lambda session, value: _counted(value, len(session.state.loads)),
+    "quantity": lambda session, value: isinstance(value, str) and value in QUANTITIES,
+    "scenario": lambda session, value: isinstance(value, str) and value in session.state.scenarios,
+    "tire": lambda session, value: isinstance(value, str) and value in session.state.tires,
+    "series": lambda session, value: isinstance(value, str) and value in session.state.series_choices,
+    "chosen": _curves,
+    "frame": lambda session, value: _counted(value, session.state.last_frame + 1),
+    "playing": lambda session, value: isinstance(value, bool),
+    "speed": lambda session, value: _is_number(value) and value in SPEEDS,
+}
+"""What a user can choose on ``page.html`` -> whether a value is on offer."""
+
+
+def _is_ray(given: list[Any]) -> bool:
+    """Nothing, or two ends with three coordinates each."""
+    if given == [None]:
+        return True
+    ray = given[0].get("ray") if len(given) == 1 and isinstance(given[0], dict) else None
+    ends = ray if isinstance(ray, list) and len(ray) == 2 else []
+    return bool(ends) and all(
+        isinstance(end, list) and len(end) == 3 and all(_is_number(x) and abs(x) < _FARTHEST for x in end)
+        for end in ends
+    )
+
+
+def _is_file(given: list[Any]) -> bool:
+    return len(given) == 2 and _is_name(given[0]) and isinstance(given[1], str)
+
+
+_DEEDS: Mapping[str, Callable[[list[Any]], bool]] = {
+    "probe": _is_ray,
+    "look": lambda given: not given,
+    "add_curve": _is_file,
+    "drawn": lambda given: not given,
+}
+"""Triggers of ``page.html`` -> whether arguments are theirs."""
