@@ -114,7 +114,8 @@ def _resumed(scenario: Scenario, design: RoverDesign, store: Path) -> Scenario:
         sources=("contracts", "ancf_reduced", "rover_dynamics"),
         libraries=("numpy", "numba", "scipy"),
     )
-    return resuming(scenario, Store(store).checkpoint(task.key({})))
+    kept = Store(store)
+    return resuming(scenario, kept.checkpoint(task.key({})) if kept.writable else None)
 
 
 def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:
