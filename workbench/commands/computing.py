@@ -18,7 +18,7 @@ from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task
 
-__all__ = ["complain_of_early_ends", "computed", "console", "naming"]
+__all__ = ["complain_of_early_ends", "computed", "console", "naming", "tell_kept"]
 
 console = Console()
 
@@ -52,3 +52,9 @@ def complain_of_early_ends(path: Path, reasons: Mapping[str, str]) -> None:
     if reasons:
         told = "; ".join(f"{task} did not converge, its curve is partial: {why}" for task, why in reasons.items())
         raise RunError(f"{path}: {told}")
+
+
+def tell_kept(sentences: Sequence[str], shown_on: Console = console) -> None:
+    """Say what was kept aside in the user's folder, a line each."""
+    for sentence in sentences:
+        shown_on.print(sentence, highlight=False, markup=False, soft_wrap=True)

@@ -1,8 +1,8 @@
 """Which results the runs that live now use: pruning leaves them alone.
 
-Each process that runs tasks keeps one file in ``STORE/runs`` with the keys of its graphs and a checksum, locked (flock) until the
-process ends, however it ends; a file nobody holds locked is a leftover. Whoever reads or writes these files holds the
-store's own lock, so that a run cannot begin to use a result while it is being removed.
+Each process that runs tasks keeps one file in ``STORE/runs`` with the keys of its graphs and a checksum, locked (flock)
+until the process ends, however it ends; a file nobody holds locked is a leftover. Whoever reads or writes these files
+holds the store's own lock, so that a run cannot begin to use a result while it is being removed.
 
 Verified by tests/unit/test_workbench_pruning.py.
 """

@@ -41,7 +41,7 @@ _WRITTEN_FIRST = ("tmp", "log", "checkpoints")
 def holds_a_store(root: Path) -> bool:
     """Whether a folder is marked as a store, or holds what a store holds and nothing else; not if it is empty."""
     try:
-        names = os.listdir(root)  # before the marker is looked for: whoever makes a store writes that first
+        names = _names(root)  # before the marker is looked for: whoever makes a store writes that first
         return (root / MARKER).is_file() or (bool(names) and not _foreign(root, names))
     except (FileNotFoundError, NotADirectoryError):
         return False
@@ -57,7 +57,7 @@ def make_store(root: Path) -> bool:
     """
     try:
         root.mkdir(parents=True, exist_ok=True)
-        names = os.listdir(root)
+        names = _names(root)
         if not (root / MARKER).is_file() and (foreign := _foreign(root, names)):
             rule = f"is no store of results: it is not empty, and {foreign} in it is not of a store"
             raise InputError("result store", root, rule, "give --store a folder of its own, empty or new")
@@ -84,15 +84,19 @@ def _foreign(root: Path, names: list[str]) -> str:
     return strange
 
 
+def _names(folder: Path) -> list[str]:
+    return [path.name for path in folder.iterdir()]
+
+
 def _is_ours(path: Path) -> bool:
     if path.name == MARKER or path.name == "lock":
         return path.is_file() and path.stat().st_size <= len(_TEXT)
     if path.is_symlink() or not path.is_dir():
         return False
     if path.name in _FOLDERS:
-        return all(_FOLDERS[path.name].fullmatch(name) for name in os.listdir(path))
+        return all(_FOLDERS[path.name].fullmatch(name) for name in _names(path))
     if re.fullmatch("[0-9a-f]{2}", path.name):
-        return all(KEY.fullmatch(name) and name.startswith(path.name) for name in os.listdir(path))
+        return all(KEY.fullmatch(name) and name.startswith(path.name) for name in _names(path))
     return False
 
 
