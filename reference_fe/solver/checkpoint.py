@@ -1,7 +1,7 @@
 """A file in which a long run keeps how far it came, so that a killed run goes on.
 
-One NumPy archive, without pickle, replaced by one rename: whole or absent. It begins with the key of the problem it
-belongs to; a damaged file, or one of another problem, counts as absent. Each process of a parallel run has its own part
+Arrays with a checksum, replaced by one rename: whole or absent. It begins with the key of the problem it belongs to; a
+damaged file, or one of another problem, counts as absent. Each process of a parallel run has its own part
 in it. Verified by tests/unit/test_fe_checkpoint.py and tests/verification/test_fe_resume.py.
 """
 
@@ -9,9 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
-import socket
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +17,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.kept_arrays import read_kept, write_kept
 from contracts.mesh import TaggedMesh
 from reference_fe import dolfinx_api as api
 
@@ -72,12 +70,7 @@ class Checkpoint:
         arrays: dict[str, NDArray[Any]] = {"key": np.array(self._key_and_size())}
         for folder, part in {"recorded": recorded, **{f"process{i}": s for i, s in enumerate(states)}}.items():
             arrays |= {f"{folder}/{name}": value for name, value in part.items()}
-        fresh = self.path.with_name(f".{self.path.stem}-{socket.gethostname()}-{os.getpid()}.npz")
-        with fresh.open("wb") as stream:
-            np.savez(stream, allow_pickle=False, **arrays)
-            stream.flush()
-            os.fsync(stream.fileno())
-        fresh.replace(self.path)
+        write_kept(self.path, arrays)
 
     def discard(self) -> None:
         """Remove the file: the run has ended."""
@@ -88,12 +81,8 @@ class Checkpoint:
         return f"{self.key}, {api.COMM.size} processes"
 
     def _archive(self) -> dict[str, NDArray[Any]] | None:
-        try:
-            with self.path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
-                arrays = {name: archive[name] for name in archive.files}
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
-            return None
-        return arrays if str(arrays.get("key")) == self._key_and_size() else None
+        arrays = read_kept(self.path)
+        return arrays if arrays is not None and str(arrays.get("key")) == self._key_and_size() else None
 
 
 def problem_key(mesh: TaggedMesh, *inputs: object) -> str:

@@ -1,7 +1,7 @@
 """A file in which a long motion on flexible tires keeps how far it came, so that a killed run goes on.
 
-One NumPy archive without pickle, replaced by one rename: whole or absent. It begins with a digest of the motion it
-belongs to; a damaged file, or that of another motion, counts as absent. A motion writes every `EVERY` seconds of
+Arrays with a checksum, replaced by one rename: whole or absent. It begins with a digest of the motion it belongs to; a
+damaged file, or that of another motion, counts as absent. A motion writes every `EVERY` seconds of
 simulated time, at the next sample, and makes its Newton matrix anew there whether it keeps a file or not: a resumed run
 then computes the same numbers bit for bit.
 
@@ -11,8 +11,6 @@ Verified by tests/verification/test_flexible_resume.py.
 from __future__ import annotations
 
 import hashlib
-import os
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.kept_arrays import read_kept, write_kept
 from rover_dynamics.flexible.even_steps import EvenSteps
 from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle
 
@@ -46,22 +45,13 @@ class MotionCheckpoint:
 
     def read(self) -> Arrays | None:
         """What was kept last, or None without a file that fits."""
-        try:
-            with self.path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
-                arrays = {name: archive[name] for name in archive.files}
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
-            return None
-        return arrays if str(arrays.get("key")) == self.key else None
+        arrays = read_kept(self.path)
+        return arrays if arrays is not None and str(arrays.get("key")) == self.key else None
 
     def write(self, arrays: Arrays) -> None:
         """Keep these; the last file stays whole until this one is."""
         self.path.parent.mkdir(parents=True, exist_ok=True)
-        fresh = self.path.with_name(f".{self.path.stem}-{os.getpid()}.npz")
-        with fresh.open("wb") as stream:
-            np.savez(stream, allow_pickle=False, key=np.array(self.key), **arrays)
-            stream.flush()
-            os.fsync(stream.fileno())
-        fresh.replace(self.path)
+        write_kept(self.path, {"key": np.array(self.key), **arrays})
 
     def discard(self) -> None:
         """Remove the file: the motion has ended."""

@@ -15,9 +15,11 @@ from contracts.errors import InputError
 from contracts.records import Check, Timing
 from contracts.series import TimeSeries
 from workbench.report.evidence import Evidence
+from workbench.report.folders import check_folder
 from workbench.report.number_format import displayed, displayed_reference, largest_by_unit, power_of_ten
 from workbench.report.opening import verdict
-from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
+from workbench.report.outputs import curve_file, junit, publish, summary, to_json
+from workbench.report.own_files import FILES
 
 
 def _check(name: str, role: str = "gate", status: str = "pass", value: float | None = 8.0) -> Check:
@@ -93,16 +95,16 @@ def test_publish_replaces_ours_and_leaves_the_rest(tmp_path: Path) -> None:
     out = tmp_path / "report"
     field = tmp_path / "field"
     field.write_text("field", encoding="utf-8")
-    publish(out, {"report.html": "one"}, [_curve("fe", 0.0), _curve("fe", 30.0)], {"fe_phi000_200N.vtu": field})
-    (out / ".new-0").mkdir()
+    curves, copies = [_curve("fe", 0.0), _curve("fe", 30.0)], {"fields/fe_phi000_200N.vtu": field}
+    assert publish(out, "report", {"report.html": "one"}, curves, copies=copies) == []
     assert (out / "fields" / "fe_phi000_200N.vtu").read_text(encoding="utf-8") == "field"
     (out / "notes.txt").write_text("mine", encoding="utf-8")
     (out / "curves" / "digitised.csv").write_text("mine", encoding="utf-8")
-    publish(out, {"report.html": "two"}, [_curve("fe", 0.0)], {})
+    assert publish(out, "report", {"report.html": "two"}, [_curve("fe", 0.0)]) == []
     assert list((out / "fields").iterdir()) == []
     assert (out / "report.html").read_text(encoding="utf-8") == "two"
     assert sorted(p.name for p in (out / "curves").iterdir()) == ["digitised.csv", "fe_phi000.csv"]
-    assert sorted(p.name for p in out.iterdir()) == ["curves", "fields", "notes.txt", "report.html"]
+    assert sorted(p.name for p in out.iterdir()) == [FILES, "curves", "fields", "notes.txt", "report.html"]
 
 
 def _series(scenario: str, tire: str = "ancf") -> TimeSeries:
@@ -113,22 +115,22 @@ def _series(scenario: str, tire: str = "ancf") -> TimeSeries:
 
 def test_series_are_published_and_replaced(tmp_path: Path) -> None:
     """Those of an earlier run go, other people's files stay; two of one name are refused before anything is written."""
-    publish(tmp_path, {"report.html": "one"}, series=[_series("drop"), _series("drop", "brush")])
+    publish(tmp_path, "report", {"report.html": "one"}, series=[_series("drop"), _series("drop", "brush")])
     (tmp_path / "series" / "measured.csv").write_text("mine", encoding="utf-8")
-    publish(tmp_path, {"report.html": "two"}, series=[_series("ride")])
+    publish(tmp_path, "report", {"report.html": "two"}, series=[_series("ride")])
     assert sorted(p.name for p in (tmp_path / "series").iterdir()) == ["measured.csv", "ride_ancf.csv"]
     with pytest.raises(InputError, match=r"drop_ancf\.csv"):
-        publish(tmp_path / "new", {"report.html": "three"}, series=[_series("drop"), _series("drop")])
+        publish(tmp_path / "new", "report", {"report.html": "three"}, series=[_series("drop"), _series("drop")])
     assert not (tmp_path / "new").exists()
 
 
 def test_a_publish_that_fails_leaves_the_earlier_set(tmp_path: Path) -> None:
-    publish(tmp_path, {"report.html": "one"}, [_curve("fe", 0.0)])
-    with pytest.raises(TypeError):
-        publish(tmp_path, {"report.html": "two", "summary.json": None}, [_curve("fe", 30.0)])  # type: ignore[dict-item]
+    publish(tmp_path, "report", {"report.html": "one"}, [_curve("fe", 0.0)])
+    with pytest.raises(AttributeError):
+        publish(tmp_path, "report", {"report.html": "two", "b": None}, [_curve("fe", 30.0)])  # type: ignore[dict-item]
     assert (tmp_path / "report.html").read_text(encoding="utf-8") == "one"
     assert [p.name for p in (tmp_path / "curves").iterdir()] == ["fe_phi000.csv"]
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["curves", "report.html"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == [FILES, "curves", "report.html"]
 
 
 def test_output_folder_that_cannot_be_made_is_refused_early(tmp_path: Path) -> None:
@@ -148,11 +150,11 @@ def test_a_link_to_nothing_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["report.html", "summary.json", "curves/fe_phi030.csv"])
 def test_a_folder_in_a_file_s_place_is_found_before_anything_moves(tmp_path: Path, name: str) -> None:
-    publish(tmp_path, {"note.html": "one"}, [_curve("fe", 0.0)])
+    publish(tmp_path, "report", {"note.html": "one"}, [_curve("fe", 0.0)])
     (tmp_path / name).mkdir()
     texts = {"note.html": "two", "report.html": "two", "summary.json": "two"}
     with pytest.raises(InputError, match="is a folder"):
-        publish(tmp_path, texts, [_curve("fe", 30.0)])
+        publish(tmp_path, "report", texts, [_curve("fe", 30.0)])
     assert (tmp_path / "note.html").read_text(encoding="utf-8") == "one"
     assert (tmp_path / "curves" / "fe_phi000.csv").is_file()
     assert not (tmp_path / "curves" / "fe_phi030.csv").is_file()
@@ -161,12 +163,14 @@ def test_a_folder_in_a_file_s_place_is_found_before_anything_moves(tmp_path: Pat
 def test_a_file_in_a_folder_s_place_is_found_before_anything_moves(tmp_path: Path) -> None:
     (tmp_path / "curves").write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match="is not a folder"):
-        publish(tmp_path, {"report.html": "two"}, [_curve("fe", 30.0)])
+        publish(tmp_path, "report", {"report.html": "two"}, [_curve("fe", 30.0)])
     assert [p.name for p in tmp_path.iterdir()] == ["curves"]
     (tmp_path / "curves").unlink()
     (tmp_path / "fields").symlink_to(tmp_path / "nowhere")
     with pytest.raises(InputError, match="is not a folder"):
-        publish(tmp_path, {"report.html": "two"}, [_curve("fe", 30.0)], {})
+        publish(
+            tmp_path, "report", {"report.html": "two"}, [_curve("fe", 30.0)], copies={"fields/a.vtu": tmp_path / "a"}
+        )
     assert [p.name for p in tmp_path.iterdir()] == ["fields"]
 
 

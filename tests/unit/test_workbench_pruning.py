@@ -77,7 +77,7 @@ def test_results_are_listed_with_what_was_recorded(tmp_path: Path) -> None:
     assert (found[keys[0]].task, found[keys[0]].study, found[keys[0]].fault) == ("a", "mine", "")
     assert found[keys[1]].fault == "x.txt has 1 of 10 bytes"
     assert found[keys[2]].fault == "manifest.json cannot be read"
-    assert {one.fault for one in results(store)} == {"", "manifest.json is missing or cannot be read"}
+    assert {one.fault for one in results(store)} == {"", "manifest.json cannot be read"}
 
 
 def _use(root: Path, keys: list[str], pipe: Connection) -> None:

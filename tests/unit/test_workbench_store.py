@@ -10,7 +10,9 @@ import pytest
 
 from contracts.errors import InputError
 from workbench.execution.fingerprint import canonical_json, source_hash, text_sha256
+from workbench.execution.integrity import sealed, unsealed
 from workbench.execution.store import MANIFEST, Store
+from workbench.execution.store_folder import MARKER
 
 KEY = text_sha256("a task")
 RECORD = {"task": "t", "wall_s": 1.5, "dofs": 7}
@@ -46,6 +48,7 @@ def test_what_is_put_is_found_again(tmp_path: Path) -> None:
         ("remove manifest", "manifest.json is missing"),
         ("cut manifest", "manifest.json cannot be read"),
         ("odd manifest", "manifest.json cannot be read"),
+        ("changed manifest", "manifest.json has been changed since it was stored"),
         ("foreign manifest", "manifest.json belongs to another result"),
     ],
 )
@@ -61,7 +64,11 @@ def test_a_damaged_entry_is_told_not_trusted_and_replaced(tmp_path: Path, damage
     elif damage == "append":
         (folder / "a.txt").write_text("results", encoding="utf-8")
     elif damage == "foreign manifest":
-        manifest.write_text(manifest.read_text(encoding="utf-8").replace(KEY, "0" * 64), encoding="utf-8")
+        content = unsealed(manifest.read_text(encoding="utf-8"))
+        assert content is not None
+        manifest.write_text(sealed(content | {"key": "0" * 64}), encoding="utf-8")
+    elif damage == "changed manifest":
+        manifest.write_text(manifest.read_text(encoding="utf-8").replace("1.5", "1.6"), encoding="utf-8")
     elif damage == "remove file":
         (folder / "sub" / "b.txt").unlink()
     elif damage == "remove manifest":
@@ -142,6 +149,7 @@ def test_source_hash_sees_a_changed_package(tmp_path: Path, monkeypatch: pytest.
 
 @pytest.mark.parametrize("name", ["tmp", "log"])
 def test_a_file_in_a_folder_s_place_is_one_message(tmp_path: Path, name: str) -> None:
+    (tmp_path / MARKER).touch()
     (tmp_path / name).write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match=rf"result store.*{name} cannot be a folder.*--store"):
         Store(tmp_path)

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from contracts.kept_arrays import write_kept
 from tests.end_to_end.small_study import ROOT, environment
 from tests.verification.wheel_process import DEFLECTIONS
 
@@ -61,7 +62,7 @@ def killed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndarray]:
 
 
 def _resume(kept: dict[str, np.ndarray], folder: Path) -> bytes:
-    np.savez(folder / "kept.npz", allow_pickle=False, **kept)  # type: ignore[arg-type]
+    write_kept(folder / "kept.npz", kept)
     assert _start(folder).wait(DEADLINE) == 0
     assert not (folder / "kept.npz").exists()
     return (folder / "curve.npz").read_bytes()

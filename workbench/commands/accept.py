@@ -6,29 +6,58 @@ Verified by tests/end_to_end/test_ci_gate.py.
 from __future__ import annotations
 
 import json
+import os
+import shutil
 from pathlib import Path
 
 from contracts.errors import InputError
-from workbench.commands.computing import console
+from workbench.commands.computing import console, tell_kept
 from workbench.comparison.baseline import SUMMARY, read_baseline
-from workbench.report.outputs import check_folder, copy_files
+from workbench.report.folders import check_folder, check_targets
+from workbench.report.own_files import plain_file
+from workbench.report.placing import keep_foreign
 
 __all__ = ["run_accept"]
 
 
 def run_accept(report: Path, baseline: Path) -> int:
-    """Copy the summary of a report whose gates passed; InputError for any other."""
-    source = report / SUMMARY
-    try:
-        content = json.loads(source.read_text(encoding="utf-8"))
-        study, status = str(content["study"]), content["status"]
-    except (OSError, ValueError, KeyError, TypeError):
-        rule = "is not there or no summary of a report"
-        raise InputError("report", source, rule, "give the folder that workbench report wrote") from None
+    """Copy the summary of a report whose gates passed; InputError for any other.
+
+    A summary that was accepted before is replaced; any other file in its place is kept aside.
+    """
+    source, target = report / SUMMARY, baseline / SUMMARY
+    study, status = _study_and_status(source)
     read_baseline(report, study)
     if status != "pass":
         raise InputError("report", f"{source} ({status})", "must have passed its gates", "mend what broke first")
     check_folder(baseline)
-    (written,) = copy_files(report, [SUMMARY], baseline)
-    console.print(f"accepted: {written}; keep it under version control", soft_wrap=True)
+    check_targets(baseline, [SUMMARY])
+    baseline.mkdir(parents=True, exist_ok=True)
+    fresh = baseline / f".{SUMMARY}.new-{os.getpid()}"
+    try:
+        shutil.copyfile(source, fresh)
+        if os.path.lexists(target) and not _is_summary(target):
+            tell_kept(keep_foreign(baseline, [SUMMARY]))
+        fresh.replace(target)
+    finally:
+        fresh.unlink(missing_ok=True)
+    console.print(f"accepted: {target}; keep it under version control", soft_wrap=True)
     return 0
+
+
+def _study_and_status(path: Path) -> tuple[str, str]:
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        return str(content["study"]), str(content["status"])
+    except (OSError, ValueError, KeyError, TypeError):
+        rule = "is not there or no summary of a report"
+        raise InputError("report", path, rule, "give the folder that workbench report wrote") from None
+
+
+def _is_summary(path: Path) -> bool:
+    try:
+        study, _ = _study_and_status(path)
+        read_baseline(path.parent, study)
+    except InputError:
+        return False
+    return plain_file(path)

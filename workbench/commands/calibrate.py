@@ -15,6 +15,7 @@ from rich.table import Table
 
 from contracts.curves import read_curve
 from contracts.errors import InputError
+from workbench.commands.computing import tell_kept
 from workbench.comparison.calibration import Calibration, Trial, calibrate, scaled_study, strip_thicknesses
 from workbench.comparison.results import CURVE, mean_curve
 from workbench.execution.errors import RunError
@@ -26,7 +27,8 @@ from workbench.execution.terminal import console
 from workbench.graph.fe import degrees, without_fields
 from workbench.graph.section import without_planar_model
 from workbench.graph.study_graph import stiffness_tasks
-from workbench.report.outputs import check_folder, check_targets, publish, to_json
+from workbench.report.folders import check_folder, check_targets
+from workbench.report.outputs import publish, to_json
 from workbench.study.model import Study
 from workbench.study.model_parameters import wheel_design
 from workbench.study.quantities import to_si
@@ -53,7 +55,7 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     note = f"strip thickness found by workbench calibrate for an initial tangent of {wanted * 1e-3:g} N/mm"
     thickness = strip_thicknesses(study, found.corrected.factor)
     text = rewritten_study(path.read_text(encoding="utf-8"), thickness, note, path.parent)
-    publish(out, {name: text, "calibration.json": to_json(_summary(study, found))})
+    tell_kept(publish(out, "calibrate", {name: text, "calibration.json": to_json(_summary(study, found))}))
     _check_rewritten(out / name, thickness)
     _print(study, found)
     console.print(f"study: {out / name}", soft_wrap=True)

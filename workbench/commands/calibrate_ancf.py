@@ -12,6 +12,7 @@ from typing import Any
 from rich.table import Table
 
 from contracts.errors import InputError
+from workbench.commands.computing import tell_kept
 from workbench.comparison.ancf_fit import FittedTire, read_fit
 from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
@@ -21,8 +22,9 @@ from workbench.execution.task import Task
 from workbench.execution.terminal import console
 from workbench.graph.fit import AS_IT_IS, fit_name, fit_tasks
 from workbench.graph.study_graph import report_tasks
+from workbench.report.folders import check_folder, check_targets
 from workbench.report.number_format import displayed
-from workbench.report.outputs import check_folder, check_targets, publish, to_json
+from workbench.report.outputs import publish, to_json
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset
 from workbench.study.reading import built_in_study, read_study
@@ -57,7 +59,7 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     summary["tires"] = [{"name": t.name, **t.numbers} for t in tires]
     curves = [curve for t in tires for curve in (*t.curves.values(), t.average)]
     text = rewritten_table(text, "ancf", _values(kept), without=["surfaces"])
-    publish(out, {name: text, "ancf_fit.json": to_json(summary)}, curves)
+    tell_kept(publish(out, "calibrate ancf", {name: text, "ancf_fit.json": to_json(summary)}, curves))
     _check_rewritten(out / name, kept)
     _print([own, *tires], kept)
     console.print(f"study: {out / name}", soft_wrap=True)

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 
 from contracts.errors import InputError
-from workbench.commands.computing import console
-from workbench.report.folders import check_folder, check_targets, put_files
+from workbench.commands.computing import console, tell_kept
+from workbench.report.folders import check_folder, check_targets
+from workbench.report.placing import put_files
 from workbench.study.curve_file import load_uncertainty, read_measured_curve
 
 if TYPE_CHECKING:
@@ -107,5 +108,5 @@ def _write(pair: CurvePair, out: Path) -> None:
         "compare.csv": compared_table(pair).encode(),
         "compare.json": to_json(compared_values(pair)).encode(),
     }
-    put_files(out, contents)
+    tell_kept(put_files(out, contents, "compare"))
     console.print(f"picture: {out / 'compare.html'}", soft_wrap=True)

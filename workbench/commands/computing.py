@@ -17,7 +17,7 @@ from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task
 from workbench.execution.terminal import Terminal, console
 
-__all__ = ["complain_of_early_ends", "computed", "console", "naming"]
+__all__ = ["complain_of_early_ends", "computed", "console", "naming", "tell_kept"]
 
 
 def computed(
@@ -47,3 +47,9 @@ def complain_of_early_ends(path: Path, reasons: Mapping[str, str]) -> None:
     if reasons:
         told = "; ".join(f"{task} did not converge, its curve is partial: {why}" for task, why in reasons.items())
         raise RunError(f"{path}: {told}")
+
+
+def tell_kept(sentences: Sequence[str], shown_on: Terminal = console) -> None:
+    """Say what was kept aside in the user's folder, a line each."""
+    for sentence in sentences:
+        shown_on.print(sentence, soft_wrap=True)

@@ -35,4 +35,4 @@ def _show(found: Examination, shown_on: Console) -> None:
         table.add_row(*map(Text, cells))  # what a library complains of is no markup
     shown_on.print(table)
     if found.packages:
-        shown_on.print(f"as root: {install_command(found.packages)}", highlight=False, markup=False, soft_wrap=True)
+        shown_on.print(f"as root: {install_command(found.packages)}", soft_wrap=True)

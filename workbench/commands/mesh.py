@@ -11,7 +11,7 @@ from pathlib import Path
 from pydantic_core import PydanticCustomError
 
 from contracts.errors import InputError
-from workbench.commands.computing import computed, console, naming
+from workbench.commands.computing import computed, console, naming, tell_kept
 from workbench.commands.stiffness import check_orientation
 from workbench.execution.progress import RunDisplay
 from workbench.execution.result_files import read_result
@@ -19,7 +19,8 @@ from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.graph.study_graph import mesh_tasks
 from workbench.graph.surfaces import surfaces_task
-from workbench.report.outputs import check_folder, copy_files
+from workbench.report.folders import check_folder
+from workbench.report.placing import copy_files
 from workbench.study.quantities import to_si
 from workbench.study.reading import read_study
 
@@ -46,8 +47,10 @@ def _run_mesh(study_path: Path, out: Path, store: Path) -> int:
     check_folder(out)
     entries = computed(study_path, mesh_tasks(study, with_files=True), store, Computing(workers=1))
     files = entries["mesh_files"]
-    for path in copy_files(files.path, sorted(files.manifest["files"]), out):
-        console.print(str(path), soft_wrap=True)
+    names = sorted(files.manifest["files"])
+    tell_kept(copy_files(files.path, names, out, "mesh"))
+    for name in names:
+        console.print(str(out / name), soft_wrap=True)
     return 0
 
 
@@ -59,8 +62,8 @@ def _run_surfaces(study_path: Path, orientation_deg: float, deflections: Sequenc
     with naming(study_path), RunDisplay(console, [task]) as display:
         entry = run_tasks([task], Store(store, study=study_path.stem), display, Computing(workers=1))[task.name]
     for name, deviation in read_result(entry.path)["read_back_m"].items():
-        (path,) = copy_files(entry.path, [f"{name}.step"], out)
-        text = f"{path} (read back: {1e9 * deviation:.2g} nm off at most)"
+        tell_kept(copy_files(entry.path, [f"{name}.step"], out, "mesh ancf"))
+        text = f"{out / name}.step (read back: {1e9 * deviation:.2g} nm off at most)"
         console.print(text, soft_wrap=True)
     return 0
 

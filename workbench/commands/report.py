@@ -12,14 +12,16 @@ from pathlib import Path
 from rich.table import Table
 
 from contracts.records import Check
-from workbench.commands.computing import complain_of_early_ends, computed, console, naming
+from workbench.commands.computing import complain_of_early_ends, computed, console, naming, tell_kept
 from workbench.commands.gate import GateChoices, gate_of, plain_console, tell
 from workbench.comparison.baseline import read_baseline
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.graph.study_graph import report_tasks
+from workbench.report.folders import check_folder
 from workbench.report.gate_summary import gate_markdown, gate_rows
-from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
+from workbench.report.outputs import curve_file, junit, publish, summary, to_json
+from workbench.report.series import MOTIONS_FOLDER
 from workbench.study.full import full_study
 from workbench.study.reading import built_in_study, read_study
 from workbench.tasks.field_file import POINTS_FILE
@@ -88,7 +90,7 @@ def run_report(
         "summary.md": gate_markdown(gate),
         "summary.json": to_json(summary(study.name, evidence, timings, origin) | gate_rows(gate)),
     }
-    publish(out, texts, curves, _field_files(entries), series, _motion_files(entries))
+    tell_kept(publish(out, "report", texts, curves, series, _field_files(entries) | _motion_files(entries)), shown_on)
     if choices.gate.ci:
         tell(gate, shown_on)
     else:
@@ -99,20 +101,20 @@ def run_report(
 
 
 def _field_files(entries: dict[str, Entry]) -> dict[str, Path]:
-    """``fe_phi000_200N.vtu``, ``fe_phi000_points.npz`` -> the file in the store."""
+    """``fields/fe_phi000_200N.vtu``, ``fields/fe_phi000_points.npz`` -> the file in the store."""
     patterns = ("fields_*N.vtu", POINTS_FILE)
     found = [(n, path) for n, entry in entries.items() for one in patterns for path in sorted(entry.path.glob(one))]
-    return {f"{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
+    return {f"fields/{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
 
 
 def _motion_files(entries: dict[str, Entry]) -> dict[str, Path]:
-    """``straight_brush.npz`` -> the file in the store of the task ``rover_straight``."""
+    """``motions/straight_brush.npz`` -> the file in the store of the task ``rover_straight``."""
     found = {}
     for name, entry in entries.items():
         scenario, path = name.removeprefix("rover_"), entry.path / "motion.npz"
         if path.exists():
             ancf = scenario.startswith("ancf_")
-            found[f"{scenario.removeprefix('ancf_')}_{'ancf' if ancf else 'brush'}.npz"] = path
+            found[f"{MOTIONS_FOLDER}/{scenario.removeprefix('ancf_')}_{'ancf' if ancf else 'brush'}.npz"] = path
     return found
 
 

@@ -22,6 +22,7 @@ from workbench.execution.inventory import Kept, leftovers, results
 from workbench.execution.progress import duration_text
 from workbench.execution.pruning import Rule, prune
 from workbench.execution.store import Store
+from workbench.execution.store_folder import holds_a_store
 from workbench.study.quantities import to_si
 
 __all__ = ["run_list", "run_prune", "run_show"]
@@ -117,8 +118,9 @@ def _told(manifest: Mapping[str, Any]) -> dict[str, Any]:
 
 def _existing(root: Path) -> Store:
     """The store, which must be there: looking at one does not make it."""
-    if not (root / "tmp").is_dir():
-        raise InputError("result store", root, "is not there", "give its folder with --store or WORKBENCH_STORE")
+    if not holds_a_store(root):
+        rule = "is no store of results" if root.exists() else "is not there"
+        raise InputError("result store", root, rule, "give its folder with --store or WORKBENCH_STORE")
     return Store(root)
 
 

@@ -22,8 +22,9 @@ from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console
+from workbench.report.folders import check_folder
 from workbench.report.number_format import displayed
-from workbench.report.outputs import check_folder, check_targets
+from workbench.report.placing import new_files
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, series_file
 
 __all__ = ["RoverChoices", "list_scenarios", "run_rover"]
@@ -84,19 +85,21 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
         run = run_scenario(scenario, design)
         series = scenario_series(run)
         file = f"{SERIES_FOLDER}/{series_file(series)}"
-        page = out / f"{scenario.name}.html"
         motion = f"{MOTIONS_FOLDER}/{Path(series_file(series)).stem}.npz"
-        check_targets(out, [file, motion, page.name] if choices.animate else [file, motion])
-        write_series(series, out / file)
-        _record(run, out / motion)
-        if choices.animate:
-            _animate(scenario, design, run, page)
+        page = f"{scenario.name}.html"
+        with new_files(out, "rover", [file, motion, page] if choices.animate else [file, motion]) as new:
+            write_series(series, new.folder / file)
+            _record(run, new.folder / motion)
+            if choices.animate:
+                _animate(scenario, design, run, new.folder / page)
         if run.stopped is None:
             outcomes = [*scenario.judge(run), *_more(scenario, design)]
+    for sentence in new.told:
+        console.print(sentence, soft_wrap=True)
     if run.stopped is not None:
         raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
     _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)
-    for what, path in [("series", out / file), *([("animation", page)] if choices.animate else [])]:
+    for what, path in [("series", out / file), *([("animation", out / page)] if choices.animate else [])]:
         console.print(f"{what}: {path}", soft_wrap=True)
     return 0
 
@@ -114,7 +117,8 @@ def _resumed(scenario: Scenario, design: RoverDesign, store: Path) -> Scenario:
         sources=("contracts", "ancf_reduced", "rover_dynamics"),
         libraries=("numpy", "numba", "scipy"),
     )
-    return resuming(scenario, Store(store).checkpoint(task.key({})))
+    kept = Store(store)
+    return resuming(scenario, kept.checkpoint(task.key({})) if kept.writable else None)
 
 
 def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:

@@ -10,13 +10,14 @@ from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
-from workbench.commands.computing import complain_of_early_ends, computed, console, naming
+from workbench.commands.computing import complain_of_early_ends, computed, console, naming, tell_kept
 from workbench.comparison.results import brush_curve, mean_curve
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.graph.study_graph import stiffness_tasks
-from workbench.report.outputs import check_folder, publish
+from workbench.report.folders import check_folder
+from workbench.report.outputs import publish
 from workbench.study.model import Study
 from workbench.study.reading import read_study
 
@@ -39,7 +40,7 @@ def run_stiffness(
     entries = computed(study_path, tasks, store, computing)
     with naming(study_path):
         curves = _curves(study, model, entries)
-    publish(out, {}, curves)
+    tell_kept(publish(out, f"stiffness {model}", {}, curves))
     for curve in curves:
         label = "average" if curve.orientation_deg is None else f"{curve.orientation_deg:g} deg"
         reach = f"{curve.deflection[-1] * 1e3:.1f} mm at {curve.load[-1]:.1f} N"

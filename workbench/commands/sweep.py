@@ -5,11 +5,9 @@ Verified by tests/end_to_end/test_sweep.py.
 
 from __future__ import annotations
 
-import os
-import shutil
 from pathlib import Path
 
-from workbench.commands.computing import console, naming
+from workbench.commands.computing import console, naming, tell_kept
 from workbench.comparison.sweep import Outcome, outcomes, references
 from workbench.comparison.sweep_table import SweepTable, sweep_table
 from workbench.execution.errors import RunError
@@ -17,8 +15,9 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_all
 from workbench.execution.store import Store
 from workbench.graph.sweep import sweep_graph
-from workbench.report.outputs import check_folder, check_targets
+from workbench.report.folders import check_folder, check_targets
 from workbench.report.parquet import write_parquet
+from workbench.report.placing import new_files
 from workbench.report.sweep_page import sweep_page
 from workbench.study.reading import read_study_table, study_of
 from workbench.study.sweep_points import sweep_points
@@ -53,16 +52,11 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
 
 def _publish(out: Path, table: SweepTable, page: str) -> None:
     """Put each file in place whole, the page last."""
-    fresh = out / f".new-{os.getpid()}"
-    try:
-        fresh.mkdir(parents=True)
-        (fresh / "sweep.csv").write_text(table.csv(), encoding="utf-8", newline="")
-        write_parquet(table, fresh / "sweep.parquet")
-        (fresh / "sweep.html").write_text(page, encoding="utf-8")
-        for name in _FILES:
-            (fresh / name).replace(out / name)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
+    with new_files(out, "sweep", _FILES) as new:
+        (new.folder / "sweep.csv").write_text(table.csv(), encoding="utf-8", newline="")
+        write_parquet(table, new.folder / "sweep.parquet")
+        (new.folder / "sweep.html").write_text(page, encoding="utf-8")
+    tell_kept(new.told)
 
 
 def _print(table: SweepTable, found: list[Outcome]) -> None:

@@ -31,7 +31,10 @@ class Claims:
 
     def take(self, key: str) -> bool:
         """Whether the key is ours now; False if another run that lives computes it."""
-        stream = (self._folder / key).open("a", encoding="utf-8")
+        try:
+            stream = (self._folder / key).open("a", encoding="utf-8")
+        except OSError:  # something stands in its place: both compute
+            return True
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:

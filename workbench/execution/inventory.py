@@ -6,14 +6,16 @@ Verified by tests/unit/test_workbench_pruning.py.
 from __future__ import annotations
 
 import contextlib
+import re
 import socket
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from workbench.execution.integrity import MANIFEST, examined, read_manifest
+from workbench.execution.integrity import examined, stated
 from workbench.execution.store import Store
+from workbench.execution.store_folder import CHECKPOINT, KEY, LOG, SCRATCH
 
 __all__ = ["Kept", "leftovers", "results"]
 
@@ -47,16 +49,13 @@ class Kept:
 
 def results(store: Store, *, check: bool = False) -> list[Kept]:
     """Every result, the newest first; with ``check``, every file is read and its checksum compared."""
-    found = [_result(path, check=check) for path in store.root.glob("[0-9a-f][0-9a-f]/*") if len(path.name) == 64]
+    folders = [path for path in store.root.glob("[0-9a-f][0-9a-f]/*") if KEY.fullmatch(path.name) and path.is_dir()]
+    found = [_result(path, check=check) for path in folders if path.name.startswith(path.parent.name)]
     return sorted(found, key=lambda kept: (-kept.stored_at, kept.name))
 
 
 def _result(path: Path, *, check: bool) -> Kept:
-    if check:
-        manifest, fault = examined(path, path.name)
-    else:
-        manifest = read_manifest(path) or {}
-        fault = "" if manifest else f"{MANIFEST} is missing or cannot be read"
+    manifest, fault = examined(path, path.name) if check else stated(path, path.name)
     made, size = _made_and_size(path)
     return Kept(
         kind="result",
@@ -72,25 +71,31 @@ def _result(path: Path, *, check: bool) -> Kept:
 
 
 def leftovers(store: Store) -> list[Kept]:
-    """Checkpoints, scratch and logs, but nothing that a run which lives on this machine is filling now."""
-    return [*_all(store, "checkpoints", "checkpoint"), *_all(store, "tmp", "scratch"), *_all(store, "log", "log")]
+    """Checkpoints, scratch and logs, but nothing that a run which lives on this machine is filling now.
+
+    What is not of the store's naming is nobody's business here.
+    """
+    found = [*_all(store, "checkpoints", "checkpoint", CHECKPOINT), *_all(store, "tmp", "scratch", SCRATCH)]
+    return [*found, *_all(store, "log", "log", LOG)]
 
 
-def _all(store: Store, folder: str, kind: Literal["checkpoint", "scratch", "log"]) -> Iterator[Kept]:
-    for path in sorted((store.root / folder).iterdir()):
-        if kind != "checkpoint" and _is_of_a_live_process(path):
+def _all(
+    store: Store, folder: str, kind: Literal["checkpoint", "scratch", "log"], naming: re.Pattern[str]
+) -> Iterator[Kept]:
+    for path in sorted((store.root / folder).glob("*")):
+        ours = naming.fullmatch(path.name)
+        if ours is None or path.is_symlink() or path.is_dir() != (kind == "scratch"):
+            continue
+        if kind != "checkpoint" and _lives(ours.groupdict()):
             continue
         made, size = _made_and_size(path)
-        name = path.name.partition(".")[0] if kind == "checkpoint" else path.name
+        name = ours[1] or ours[2] if kind == "checkpoint" else path.name
         yield Kept(kind=kind, name=name, path=path, stored_at=made, size=size)
 
 
-def _is_of_a_live_process(path: Path) -> bool:
+def _lives(owner: dict[str, str]) -> bool:
     """Whether scratch ``HOST-PID-xxxx`` or a log ``run-PID.log`` belongs to a process that lives on this machine."""
-    if path.suffix == ".log":
-        return Path(f"/proc/{path.stem.removeprefix('run-')}").exists()
-    owner, _, pid = path.name.rpartition("-")[0].rpartition("-")
-    return owner == socket.gethostname() and Path(f"/proc/{pid}").exists()
+    return owner.get("host", socket.gethostname()) == socket.gethostname() and Path(f"/proc/{owner['pid']}").exists()
 
 
 def _made_and_size(path: Path) -> tuple[float, int]:

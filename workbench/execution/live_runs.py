@@ -1,17 +1,15 @@
 """Which results the runs that live now use: pruning leaves them alone.
 
-Each process that runs tasks keeps one file in ``STORE/runs`` with the keys of its graphs, locked (flock) until the
-process ends, however it ends; a file nobody holds locked is a leftover. Whoever reads or writes these files holds the
-store's own lock, so that a run cannot begin to use a result while it is being removed.
+Each process that runs tasks keeps one file in ``STORE/runs`` with the keys of its graphs and a checksum, locked (flock)
+until the process ends, however it ends; a file nobody holds locked is a leftover. Whoever reads or writes these files
+holds the store's own lock, so that a run cannot begin to use a result while it is being removed.
 
 Verified by tests/unit/test_workbench_pruning.py.
 """
 
 from __future__ import annotations
 
-import contextlib
 import fcntl
-import json
 import os
 import socket
 from collections.abc import Iterable, Iterator
@@ -19,6 +17,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
+
+from contracts.errors import InputError
+from workbench.execution.integrity import sealed, unsealed
+from workbench.execution.store_folder import ANNOUNCEMENT, KEY
 
 __all__ = ["announce", "exclusive", "keys_in_use"]
 
@@ -40,7 +42,10 @@ _OURS: dict[Path, _Announcement] = {}
 
 @contextmanager
 def exclusive(root: Path) -> Iterator[None]:
-    """Hold the store's lock. Where a file system has no locks, nothing is held."""
+    """Hold the store's lock. Where a file system has no locks, or cannot be written, nothing is held."""
+    if not os.access(root, os.W_OK):
+        yield
+        return
     with (root / _LOCK).open("a", encoding="utf-8") as stream:
         _lock(stream, fcntl.LOCK_EX)
         yield
@@ -58,21 +63,40 @@ def announce(root: Path, keys: Iterable[str]) -> None:
         ours.keys.update(keys)
         ours.stream.seek(0)
         ours.stream.truncate()
-        json.dump(sorted(ours.keys), ours.stream)
+        ours.stream.write(sealed({"keys": sorted(ours.keys)}))
         ours.stream.flush()
 
 
 def keys_in_use(root: Path) -> frozenset[str]:
-    """Keys of all runs that live, this process' among them; leftovers are removed. Call it in ``exclusive``."""
+    """Keys of all runs that live, this process' among them; leftovers are removed. Call it in ``exclusive``.
+
+    Raises
+    ------
+    InputError
+        If a run lives and what it uses cannot be read: anything might be in use then.
+    """
     found: set[str] = set()
     for path in (root / _FOLDER).glob("*.json"):
-        with path.open("r", encoding="utf-8") as stream:
-            if _lock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB):
+        if not (ANNOUNCEMENT.fullmatch(path.name) and path.is_file()):
+            continue
+        with path.open("r", encoding="utf-8", errors="replace") as stream:
+            text, ended = stream.read(), _lock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            keys = _announced(text)
+            if ended and os.access(root, os.W_OK) and (keys is not None or not text):
                 path.unlink(missing_ok=True)
-            else:
-                with contextlib.suppress(ValueError):  # not yet written, where a file system has no locks
-                    found.update(json.load(stream))
+            elif not ended and keys is None:
+                rule = "says what a run that lives uses, and cannot be read"
+                raise InputError("file of the store", path, rule, "try again when that run has ended")
+            elif not ended:
+                found.update(keys or ())
     return frozenset(found)
+
+
+def _announced(text: str) -> list[str] | None:
+    """Keys in a file that `announce` wrote; None if it is damaged, or another's."""
+    content = unsealed(text)
+    keys = None if content is None else content.get("keys")
+    return keys if isinstance(keys, list) and all(isinstance(k, str) and KEY.fullmatch(k) for k in keys) else None
 
 
 def _lock(stream: IO[str], how: int) -> bool:

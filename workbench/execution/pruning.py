@@ -8,17 +8,16 @@ from __future__ import annotations
 import contextlib
 import fnmatch
 import os
-import shutil
 import socket
 import time
-import uuid
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from contracts.errors import InputError
 from workbench.execution.inventory import Kept, leftovers, results
 from workbench.execution.live_runs import exclusive, keys_in_use
-from workbench.execution.store import Store
+from workbench.execution.store import Store, discard
 
 __all__ = ["Pruned", "Rule", "chosen", "prune"]
 
@@ -92,24 +91,27 @@ def prune(store: Store, rule: Rule, *, dry_run: bool = False) -> Pruned:
     """Remove what a rule chooses, checkpoints, scratch and logs of runs that ended among it.
 
     Results and checkpoints of runs that live are kept; no run can begin to use a result while it is being removed. With
-    ``dry_run`` nothing is removed.
+    ``dry_run`` nothing is removed. What is not of the store's own naming is left alone.
+
+    Raises
+    ------
+    InputError
+        If the store cannot be written, or what a run that lives uses cannot be read; nothing is removed then.
     """
+    if not (dry_run or (store.writable and os.access(store.root, os.W_OK))):
+        raise InputError("result store", store.root, "cannot be written", "look with --dry-run, or ask its owner")
     with exclusive(store.root):
         kept, in_use, now = [*results(store), *leftovers(store)], keys_in_use(store.root), time.time()
         matched = chosen(kept, rule, now, in_use)
         held = sum(_is_used(one, in_use) and _matches(one, rule, now) for one in kept)
-        trash = [] if dry_run else [_set_aside(store.root, one.path) for one in matched]
-    for path in trash:
-        shutil.rmtree(path, ignore_errors=True)
+        for one in () if dry_run else matched:
+            _remove(store.root, one)
     return Pruned(removed=tuple(matched), in_use=held, size=sum(one.size for one in kept))
 
 
-def _set_aside(root: Path, path: Path) -> Path:
-    """Remove a file; move a folder out of the way by one rename and return where it is now."""
-    trash = root / "tmp" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+def _remove(root: Path, one: Kept) -> None:
     with contextlib.suppress(FileNotFoundError):
-        if path.is_dir():
-            path.replace(trash)
+        if one.kind in ("result", "scratch"):
+            discard(root, one.path)
         else:
-            path.unlink()
-    return trash
+            one.path.unlink()

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
+from contracts.errors import InputError
 from workbench.execution.claims import Claims
 from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
@@ -138,10 +139,13 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
     ------
     RunError
         If nobody can compute, a library cannot be loaded, or the user interrupts; what had finished stays in the store.
+    InputError
+        If something is to be computed and the store cannot be written.
     """
-    store.sweep()
     keys = task_keys(tuple(tasks))
-    announce(store.root, keys.values())
+    if store.writable:
+        store.sweep()
+        announce(store.root, keys.values())
     entries: dict[str, Entry] = {}
     for task in tasks:
         entry = store.get(keys[task.name])
@@ -153,6 +157,9 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
     waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -t.cost)
     if not waiting:
         return Ended(entries=entries, failures={})
+    if not store.writable:
+        rule = f"cannot be written, and {len(waiting)} of {len(tasks)} results are not in it"
+        raise InputError("result store", store.root, rule, "choose another with --store")
     log = store.root / "log" / f"run-{os.getpid()}.log"
     computing = computing or Computing()
     if computing.scheduler is None:

@@ -1,14 +1,14 @@
 """The result store: plain files under the hash of everything they depend on.
 
 An entry is the folder ``STORE/ab/abcdef.../`` with result files and ``manifest.json``, which holds the SHA-256 of each
-file. An entry appears by one rename, so that it is whole or absent; one that was damaged later is recognised by its
-checksums, told of and computed again. Verified by tests/unit/test_workbench_store.py.
+file and of itself. An entry appears by one rename, so that it is whole or absent; one that was damaged later is
+recognised by its checksums, told of and computed again. Nothing goes that is not the store's own by its name: foreign
+files stay where they are, those found in a result's folder go to ``STORE/kept``. Nothing goes by age unless a user
+prunes. Verified by tests/unit/test_workbench_store.py and tests/unit/test_workbench_store_folder.py.
 """
 
 from __future__ import annotations
 
-import contextlib
-import json
 import os
 import shutil
 import socket
@@ -20,13 +20,12 @@ from pathlib import Path
 from typing import Any
 
 from contracts.errors import InputError
+from contracts.kept_arrays import kept_fault
 from workbench.execution.fingerprint import file_sha256
-from workbench.execution.integrity import MANIFEST, SCHEMA, examined
+from workbench.execution.integrity import MANIFEST, SCHEMA, examined, sealed, stated
+from workbench.execution.store_folder import CHECKPOINT, KEPT, SCRATCH, make_store
 
-__all__ = ["MANIFEST", "Entry", "Store"]
-
-_FORGOTTEN_AFTER = 30 * 86400.0
-"""Age at which the checkpoint of a task that nobody started again is dropped [s]."""
+__all__ = ["MANIFEST", "Entry", "Store", "discard"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,18 +59,17 @@ class Store:
 
     Parameters
     ----------
-    root : the folder; made if it is not there
+    root : the folder; made if it is not there, refused if it holds anything but a store
     study : name of the study for which results are computed, recorded with them; says nothing about their keys
+
+    Attributes
+    ----------
+    writable : whether results can be put into it; those in it can be used in any case
     """
 
     def __init__(self, root: Path, study: str = "") -> None:
         self.root, self.study = root, study
-        try:
-            for name in ("tmp", "log", "checkpoints"):
-                (root / name).mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            rule = f"cannot be used: {error.filename} cannot be a folder ({error.strerror})"
-            raise InputError("result store", root, rule, "choose another with --store") from error
+        self.writable = make_store(root)
 
     def folder(self, key: str) -> Path:
         """Folder of the entry with this key, whether it exists or not."""
@@ -84,8 +82,14 @@ class Store:
         return None if fault else Entry(key=key, path=path, manifest=manifest)
 
     def fault(self, key: str) -> str:
-        """What is wrong with the entry, e.g. ``"curve.csv has 100 of 480 bytes"``; ``""`` if it is whole or absent."""
-        return examined(self.folder(key), key)[1] if self.folder(key).exists() else ""
+        """What is wrong with the entry, e.g. ``"curve.csv has 100 of 480 bytes"``; ``""`` if it is whole or absent.
+
+        Of an absent one, what is wrong with its checkpoint.
+        """
+        if self.folder(key).exists():
+            return examined(self.folder(key), key)[1]
+        fault = kept_fault(self.checkpoint(key))
+        return f"the checkpoint {fault}" if fault else ""
 
     def scratch(self) -> Path:
         """A new empty folder inside the store, to be filled and then handed to ``put``."""
@@ -107,7 +111,7 @@ class Store:
         sizes = {name: (filled / name).stat().st_size for name in files}
         about = {"schema": SCHEMA, "key": key, "files": files, "sizes": sizes, "stored_at": time.time()}
         manifest = {**record, "study": self.study, **about}
-        (filled / MANIFEST).write_text(json.dumps(manifest, indent=1, allow_nan=False), encoding="utf-8")
+        (filled / MANIFEST).write_text(sealed(manifest), encoding="utf-8")
         target = self.folder(key)
         target.parent.mkdir(parents=True, exist_ok=True)
         for _ in range(10):
@@ -125,27 +129,35 @@ class Store:
 
     def _set_aside(self, target: Path) -> None:
         """Move a damaged entry out of the way; another run may do so at the same moment."""
-        trash = self.root / "tmp" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
         try:
-            target.replace(trash)
+            discard(self.root, target)
         except OSError:
             return
-        shutil.rmtree(trash, ignore_errors=True)
 
     def _forget(self, key: str) -> None:
         """Remove the checkpoint of this key, with halves of it that a killed run left."""
         for path in (self.root / "checkpoints").glob(f"*{key}*"):
-            path.unlink(missing_ok=True)
+            if CHECKPOINT.fullmatch(path.name) and path.is_file():
+                path.unlink(missing_ok=True)
 
     def sweep(self) -> None:
-        """Remove scratch folders left by runs on this machine that no longer live, and checkpoints nobody resumed."""
-        for path in (self.root / "checkpoints").iterdir():
-            with contextlib.suppress(FileNotFoundError):
-                if time.time() - path.stat().st_mtime > _FORGOTTEN_AFTER:
-                    path.unlink()
+        """Remove scratch folders left by runs on this machine that no longer live."""
         host = socket.gethostname()
         for path in (self.root / "tmp").iterdir():
-            name, _, _ = path.name.rpartition("-")
-            owner, _, pid = name.rpartition("-")
-            if owner == host and pid.isdigit() and not Path(f"/proc/{pid}").exists():
+            owner = SCRATCH.fullmatch(path.name)
+            if owner and owner["host"] == host and not Path(f"/proc/{owner['pid']}").exists():
                 shutil.rmtree(path, ignore_errors=True)
+
+
+def discard(root: Path, path: Path) -> None:
+    """Remove an entry or a scratch folder by one rename; what others had put into an entry moves to ``STORE/kept``."""
+    trash = root / "tmp" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+    manifest, _ = stated(path, path.name)
+    path.replace(trash)
+    ours = {MANIFEST, *manifest.get("files", {})}
+    found = [one for one in sorted(trash.rglob("*")) if manifest and not (one.is_dir() and not one.is_symlink())]
+    for one in (one for one in found if one.relative_to(trash).as_posix() not in ours):
+        place = root / KEPT / f"{path.name}-{trash.name[-8:]}" / one.relative_to(trash)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        one.replace(place)
+    shutil.rmtree(trash, ignore_errors=True)

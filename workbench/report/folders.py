@@ -1,4 +1,4 @@
-"""The user's folder: checked before anything runs, files put into it whole.
+"""The user's folder, checked before anything runs.
 
 Verified by tests/unit/test_workbench_outputs.py and tests/end_to_end/test_compare.py.
 """
@@ -6,13 +6,12 @@ Verified by tests/unit/test_workbench_outputs.py and tests/end_to_end/test_compa
 from __future__ import annotations
 
 import os
-import shutil
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 from contracts.errors import InputError
 
-__all__ = ["check_folder", "check_targets", "copy_files", "put_files"]
+__all__ = ["check_folder", "check_targets"]
 
 
 def check_folder(out: Path) -> None:
@@ -37,29 +36,3 @@ def check_targets(out: Path, names: Iterable[str]) -> None:
             raise InputError("output file", target, "is a folder", hint)
         if (target.parent.exists() or target.parent.is_symlink()) and not target.parent.is_dir():
             raise InputError("output folder", target.parent, "is not a folder", hint)
-
-
-def copy_files(folder: Path, names: Sequence[str], out: Path) -> list[Path]:
-    """Copy a task's files into the user's folder, each put in place whole; returns where they are."""
-    out.mkdir(parents=True, exist_ok=True)
-    check_targets(out, names)
-    for name in names:
-        fresh = out / f".{name}.new-{os.getpid()}"
-        shutil.copyfile(folder / name, fresh)
-        fresh.replace(out / name)
-    return [out / name for name in names]
-
-
-def put_files(out: Path, contents: Mapping[str, bytes]) -> None:
-    """Write files by name into the user's folder, each put in place whole, the last one last."""
-    out.mkdir(parents=True, exist_ok=True)
-    check_targets(out, contents)
-    fresh = {name: out / f".{name}.new-{os.getpid()}" for name in contents}
-    try:
-        for name, content in contents.items():
-            fresh[name].write_bytes(content)
-        for name, path in fresh.items():
-            path.replace(out / name)
-    finally:
-        for path in fresh.values():
-            path.unlink(missing_ok=True)

@@ -6,9 +6,8 @@ Verified by tests/unit/test_workbench_outputs.py.
 from __future__ import annotations
 
 import json
-import os
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -20,20 +19,10 @@ from contracts.text import for_json, one_line
 from workbench.comparison.baseline import Change
 from workbench.comparison.comparison import overall_status
 from workbench.report.evidence import Evidence
-from workbench.report.folders import check_folder, check_targets, copy_files, put_files
-from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours, series_files
+from workbench.report.placing import new_files
+from workbench.report.series import SERIES_FOLDER, series_files
 
-__all__ = [
-    "check_folder",
-    "check_targets",
-    "copy_files",
-    "curve_file",
-    "junit",
-    "publish",
-    "put_files",
-    "summary",
-    "to_json",
-]
+__all__ = ["curve_file", "junit", "publish", "summary", "to_json"]
 
 
 def curve_file(curve: StiffnessCurve) -> str:
@@ -47,22 +36,26 @@ def curve_file(curve: StiffnessCurve) -> str:
 
 def publish(
     out: Path,
+    by: str,
     texts: Mapping[str, str | bytes],
     curves: Sequence[StiffnessCurve] = (),
-    fields: Mapping[str, Path] | None = None,
     series: Sequence[TimeSeries] = (),
-    motions: Mapping[str, Path] | None = None,
-) -> None:
+    copies: Mapping[str, Path] | None = None,
+) -> list[str]:
     """Write everything beside ``out`` first, then move it in; our files of an earlier run that are gone are removed.
 
     Parameters
     ----------
     out : the user's folder; other files in it stay
+    by : the command that publishes; what others wrote stays, too
     texts : file name -> content; the last one is moved last and so marks a complete set
     curves : written to ``out/curves``
-    fields : file name -> file to copy to ``out/fields``
     series : written to ``out/series``
-    motions : file name -> file to copy to ``out/motions``
+    copies : name in ``out``, ``fields/...`` or ``motions/...`` -> file to copy there
+
+    Returns
+    -------
+    told : sentences on files of the user's that stood in the way and were kept aside
 
     Raises
     ------
@@ -70,66 +63,20 @@ def publish(
         If a folder stands where a file belongs, or a file where a folder belongs, or two series have one name; nothing
         was moved then.
     """
-    named = series_files(series)
-    out.mkdir(parents=True, exist_ok=True)
-    names = [*texts, *(f"curves/{curve_file(curve)}" for curve in curves), *(f"fields/{name}" for name in fields or {})]
-    names += [*(f"{SERIES_FOLDER}/{name}" for name in named), *(f"{MOTIONS_FOLDER}/{name}" for name in motions or {})]
-    check_targets(out, names if fields is None else [*names, "fields/.vtu"])
-    _sweep(out)
-    fresh = out / f".new-{os.getpid()}"
-    try:
-        (fresh / "curves").mkdir(parents=True)
-        for curve in curves:
-            write_curve(curve, fresh / "curves" / curve_file(curve))
+    named, copies = series_files(series), copies or {}
+    lines = {f"curves/{curve_file(curve)}": curve for curve in curves}
+    names = [*copies, *lines, *(f"{SERIES_FOLDER}/{name}" for name in named), *texts]
+    with new_files(out, by, names, whole_set=True) as new:
+        for name, path in copies.items():
+            shutil.copyfile(path, new.folder / name)
+        for name, curve in lines.items():
+            write_curve(curve, new.folder / name)
         for name, one in named.items():
-            write_series(one, fresh / SERIES_FOLDER / name)
-        for folder, files in (("fields", fields), (MOTIONS_FOLDER, motions)):
-            (fresh / folder).mkdir()
-            for name, path in (files or {}).items():
-                shutil.copyfile(path, fresh / folder / name)
+            write_series(one, new.folder / SERIES_FOLDER / name)
         for name, text in texts.items():
-            if isinstance(text, bytes):
-                (fresh / name).write_bytes(text)
-            else:
-                (fresh / name).write_text(text, encoding="utf-8")
-        if curves:
-            _replace_files(fresh / "curves", out / "curves", _is_curve_or_field)
-        if named:
-            _replace_files(fresh / SERIES_FOLDER, out / SERIES_FOLDER, is_ours)
-        if fields is not None:
-            _replace_files(fresh / "fields", out / "fields", _is_curve_or_field)
-        if motions:
-            _replace_files(fresh / MOTIONS_FOLDER, out / MOTIONS_FOLDER, _is_motion)
-        for name in texts:
-            (fresh / name).replace(out / name)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
-
-
-def _sweep(out: Path) -> None:
-    """Remove what a run killed while publishing left behind."""
-    for left in out.glob(".new-*"):
-        if not Path(f"/proc/{left.name.removeprefix('.new-')}").exists():
-            shutil.rmtree(left, ignore_errors=True)
-
-
-def _is_curve_or_field(name: str) -> bool:
-    return name.startswith(("fe_", "section_", "ancf_", "brush_")) and name.endswith((".csv", ".vtu"))
-
-
-def _is_motion(name: str) -> bool:
-    return name.endswith(("_brush.npz", "_ancf.npz", "_rigid.npz"))
-
-
-def _replace_files(fresh: Path, target: Path, is_ours: Callable[[str], bool]) -> None:
-    """Move files in, then remove those of ours that the new set does not have."""
-    target.mkdir(exist_ok=True)
-    names = {path.name for path in fresh.iterdir()}
-    for path in fresh.iterdir():
-        path.replace(target / path.name)
-    for old in target.iterdir():
-        if is_ours(old.name) and old.name not in names:
-            old.unlink()
+            content = text if isinstance(text, bytes) else text.encode()
+            (new.folder / name).write_bytes(content)
+    return new.told
 
 
 def summary(
