@@ -74,6 +74,16 @@ def wait(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     return 0
 
 
+def gated(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Note that it began, wait until the gate opens, and write the sum as `add` does."""
+    with Path(inputs["log"]).open("a", encoding="utf-8") as log:
+        log.write(f"{inputs['name']}\n")
+    while not Path(inputs["gate"]).exists():
+        time.sleep(0.02)
+    (out / "sum.txt").write_text(repr(inputs["value"]), encoding="utf-8")
+    return 1
+
+
 def count_ranks(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """Write which of how many MPI processes this is; as many unknowns as processes."""
     from reference_fe.dolfinx_api import COMM

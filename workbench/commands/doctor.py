@@ -5,13 +5,12 @@ Verified by tests/end_to_end/test_commands.py.
 
 from __future__ import annotations
 
-from rich.console import Console
 from rich.table import Table
-from rich.text import Text
 
 from workbench.commands.computing import console
 from workbench.execution.doctor import Examination, examine, install
 from workbench.execution.load_checks import install_command
+from workbench.execution.terminal import Terminal
 
 __all__ = ["run_doctor"]
 
@@ -26,13 +25,13 @@ def run_doctor(*, mend: bool = False) -> int:
     return 0 if found.well else 2
 
 
-def _show(found: Examination, shown_on: Console) -> None:
+def _show(found: Examination, shown_on: Terminal) -> None:
     table = Table(title="workbench doctor", title_justify="left")
     for column in ("name", "found", "needed for", "advice"):
         table.add_column(column, overflow="fold")
     for finding in found.findings:
         cells = (finding.name, finding.found, finding.purpose, finding.advice or "ok")
-        table.add_row(*map(Text, cells))  # what a library complains of is no markup
+        table.add_row(*cells)
     shown_on.print(table)
     if found.packages:
         shown_on.print(f"as root: {install_command(found.packages)}", soft_wrap=True)

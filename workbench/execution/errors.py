@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contracts.errors import WorkbenchError
 
-__all__ = ["InterruptedRunError", "RunError"]
+__all__ = ["DiskFullError", "InterruptedRunError", "RunError"]
 
 
 class RunError(WorkbenchError):
@@ -13,3 +13,7 @@ class RunError(WorkbenchError):
 
 class InterruptedRunError(RunError):
     """The user interrupted the run: nothing is wrong with the study."""
+
+
+class DiskFullError(RunError):
+    """A disk is full: says which, and what to try."""

@@ -5,7 +5,10 @@ Imports nothing heavy itself; each task's module brings what it needs. Verified 
 
 from __future__ import annotations
 
+import errno
 import importlib
+import os
+import resource
 import sys
 import time
 import traceback
@@ -15,6 +18,8 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from contracts.errors import WorkbenchError
+from workbench.execution.disk import STORE, disk_full, no_room, where_full
+from workbench.execution.memory import limit_text, out_of_memory, size_text
 
 __all__ = ["Done", "Failed", "Job", "Lost", "Message", "Progressed", "run_job"]
 
@@ -31,6 +36,7 @@ class Job:
     checkpoint : file in which a resumable task keeps how far it came; None if the task keeps nothing
     origin : hashes of sources and versions of libraries, as in `workbench.execution.task.Task.origin`
     ranks : MPI processes that run it together
+    store : result store that ``folder`` is in, to name where its disk is full; None if it is elsewhere
     """
 
     name: str
@@ -41,6 +47,12 @@ class Job:
     origin: Mapping[str, Mapping[str, str]]
     checkpoint: Path | None = None
     ranks: int = 1
+    store: Path | None = None
+
+    @property
+    def places(self) -> Mapping[str, Path]:
+        """What the job writes to, beside temporary files."""
+        return {} if self.store is None else {STORE: self.store}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,26 +74,36 @@ class Done:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Failed:
-    """The task raised: the message, and the traceback for the log if it was not one of our own errors."""
+    """The task raised: the message, whether its traceback is in the log, and whether a disk is full."""
 
     last: ClassVar[bool] = True
     message: str
-    traceback: str = ""
+    logged: bool = False
+    disk_full: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lost:
-    """The worker died under the task: how, e.g. ``"signal 9 (SIGKILL)"``."""
+    """The worker died under the task, or had no memory for it.
+
+    Attributes
+    ----------
+    how : it ended, e.g. ``"signal 9 (SIGKILL)"``
+    memory : memory ran out
+    times : how often it died before this was told
+    """
 
     last: ClassVar[bool] = True
     how: str
+    memory: bool = False
+    times: int = 1
 
 
 type Message = Progressed | Done | Failed | Lost
 """News of a task; ``last`` where no more will follow."""
 
 
-def run_job(job: Job, report: Callable[[float], None]) -> Done | Failed:
+def run_job(job: Job, report: Callable[[float], None]) -> Done | Failed | Lost:
     """Run one task in this process; its errors become a message. ``report`` takes the fraction done."""
     start = time.perf_counter()
     try:
@@ -89,11 +111,29 @@ def run_job(job: Job, report: Callable[[float], None]) -> Done | Failed:
         call = getattr(importlib.import_module(module), function)
         kept = {} if job.checkpoint is None else {"checkpoint": job.checkpoint}
         dofs = call(job.inputs, job.needs, job.folder, report, **kept)
+        if no_room(job.folder):  # libraries that write in C do not always tell
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(job.folder))
     except WorkbenchError as error:
-        return Failed(message=str(error))
+        return _without_room(job, error) or Failed(message=str(error))
     except Exception as error:
-        text = traceback.format_exc()
-        sys.stderr.write(f"--- {job.name}\n{text}\n")
-        sys.stderr.flush()
-        return Failed(message=f"unexpected {type(error).__name__}: {error}", traceback=text)
+        return _without_room(job, error) or _unforeseen(job, error)
     return Done(dofs=int(dofs), wall_s=time.perf_counter() - start)
+
+
+def _without_room(job: Job, error: Exception) -> Failed | Lost | None:
+    """What is said of an error that came of a full disk or of memory that ran out; None of any other."""
+    if text := disk_full(error, job.places):
+        return Failed(message=text, disk_full=True)
+    if not isinstance(error, WorkbenchError) and out_of_memory(error):
+        held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+        said = f" ({error})" if str(error) else ""
+        return Lost(how=f"no memory left{said}: it held {size_text(held)}, of {limit_text()}", memory=True)
+    return None
+
+
+def _unforeseen(job: Job, error: Exception) -> Failed:
+    """An error nobody foresaw: its traceback goes to the log; a disk without room may be behind it and is named."""
+    text, room = f"unexpected {type(error).__name__}: {error}", where_full(job.places)
+    sys.stderr.write(f"--- {job.name}\n{traceback.format_exc()}\n")
+    sys.stderr.flush()
+    return Failed(message=f"{text}; {room}") if room else Failed(message=text, logged=True)

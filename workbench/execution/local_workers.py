@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import resource
 import signal
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -16,13 +17,18 @@ from multiprocessing.process import BaseProcess
 from multiprocessing.resource_tracker import ensure_running
 from pathlib import Path
 
+from workbench.execution.disk import where_full
 from workbench.execution.interrupts import put_off
-from workbench.execution.jobs import Job, Lost, Message
+from workbench.execution.jobs import Failed, Job, Lost, Message
+from workbench.execution.memory import KillCount, limit_text, out_of_memory, size_text
 from workbench.execution.worker import serve
 
 __all__ = ["LocalWorkers"]
 
 _SINGLE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+
+_LONGEST_PRINT = 1_000_000
+"""Of a log no more than this is looked through [bytes]."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -32,6 +38,8 @@ class _Slot:
     process: BaseProcess
     pipe: Connection
     job: Job | None = None
+    log_size: int = 0
+    """Of the log when the job began [bytes]."""
 
 
 class LocalWorkers:
@@ -44,7 +52,7 @@ class LocalWorkers:
     """
 
     def __init__(self, count: int, log: Path) -> None:
-        self.log = log
+        self.log, self._killed = log, KillCount()
         self._slots = [self._spawn() for _ in range(count)]
 
     @property
@@ -55,7 +63,7 @@ class LocalWorkers:
     def start(self, job: Job) -> None:
         """Hand a job to a free worker."""
         slot = next(slot for slot in self._slots if slot.job is None)
-        slot.job = job
+        slot.job, slot.log_size = job, self.log.stat().st_size if self.log.exists() else 0
         with suppress(OSError):  # a worker that died while idle is reported by the next `wait`
             slot.pipe.send(job)
 
@@ -88,22 +96,46 @@ class LocalWorkers:
         name = slot.job.name
         try:
             message: Message = slot.pipe.recv()
+            ended = isinstance(message, Lost)  # it had no memory left: a new process has more
         except (EOFError, OSError):
-            message = Lost(how=_end_of(slot.process))
+            slot.process.join(5.0)
+            message, ended = self._end(slot, slot.job), True
+        if ended:
             slot.pipe.close()
+            slot.process.kill()
             self._slots[number] = self._spawn()
-            return name, message
-        if message.last:
+        elif message.last:
             slot.job = None
         return name, message
 
+    def _end(self, slot: _Slot, job: Job) -> Message:
+        """What a worker that is dead died of."""
+        code = slot.process.exitcode
+        number = -code if code is not None and code < 0 else 0
+        if number == signal.SIGKILL and self._killed.one_more():
+            return Lost(how=f"the kernel killed it because memory ran out: {_held()}", memory=True)
+        if number == signal.SIGABRT and out_of_memory(self._printed_since(slot.log_size)):
+            return Lost(how=f"no memory left: {_held()}", memory=True)
+        if room := where_full(job.places):
+            return Failed(message=room, disk_full=True)
+        if number == 0:
+            return Lost(how=f"exit status {code}")
+        how = f"signal {number} ({signal.Signals(number).name})"
+        if number == signal.SIGKILL:
+            how += " from outside, not for want of memory" if self._killed.known else " from outside"
+        return Lost(how=how)
 
-def _end_of(process: BaseProcess) -> str:
-    process.join(5.0)
-    code = process.exitcode
-    if code is not None and code < 0:
-        return f"signal {-code} ({signal.Signals(-code).name})"
-    return f"exit status {code}"
+    def _printed_since(self, start: int) -> str:
+        """What workers printed after the log had this size [bytes]."""
+        with suppress(OSError), self.log.open("rb") as stream:
+            stream.seek(start)
+            return stream.read(_LONGEST_PRINT).decode("utf-8", "replace")
+        return ""
+
+
+def _held() -> str:
+    """The memory of the largest worker that died so far, and what there is."""
+    return f"it held {size_text(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)}, of {limit_text()}"
 
 
 @contextmanager

@@ -20,7 +20,9 @@ from pathlib import Path
 from typing import Any
 
 from contracts.errors import InputError
-from workbench.execution.jobs import Done, Failed, Job, run_job
+from workbench.execution.disk import disk_full, where_full
+from workbench.execution.jobs import Done, Failed, Job, Lost, run_job
+from workbench.execution.memory import KillCount, limit_text
 
 __all__ = ["die_with_parent", "mpiexec", "run_on_ranks"]
 
@@ -41,8 +43,19 @@ def mpiexec() -> str:
     return found
 
 
-def run_on_ranks(job: Job, report: Callable[[float], None]) -> Done | Failed:
-    """Run the job on its number of processes of this machine and wait for it."""
+def run_on_ranks(job: Job, report: Callable[[float], None]) -> Done | Failed | Lost:
+    """Run the job on its number of processes of this machine and wait for it; a full disk under it is named."""
+    try:
+        return _run(job, report)
+    except OSError as error:
+        text = disk_full(error, job.places)
+        if not text:
+            raise
+        return Failed(message=text, disk_full=True)
+
+
+def _run(job: Job, report: Callable[[float], None]) -> Done | Failed | Lost:
+    killed = KillCount()
     with tempfile.TemporaryDirectory(prefix="workbench-ranks-") as name:
         folder = Path(name)
         (folder / "job.json").write_text(json.dumps(asdict(job), default=str), encoding="utf-8")
@@ -62,14 +75,16 @@ def run_on_ranks(job: Job, report: Callable[[float], None]) -> Done | Failed:
                     report(float(line.removeprefix(_PROGRESS)))
                 else:
                     sys.stdout.write(line)
-        return _answer(folder / _ANSWER, process.returncode)
-
-
-def _answer(path: Path, status: int) -> Done | Failed:
-    if not path.exists():
-        return Failed(message=f"the MPI processes ended with status {status} (out of memory? use fewer)")
-    values: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-    return Done(**values) if "dofs" in values else Failed(**values)
+        if (folder / _ANSWER).exists():
+            values: dict[str, Any] = json.loads((folder / _ANSWER).read_text(encoding="utf-8"))
+            kind = Done if "dofs" in values else Lost if "how" in values else Failed
+            return kind(**values)
+    if killed.one_more():
+        how = f"the kernel killed one of {job.ranks} MPI processes because memory ran out, of {limit_text()}"
+        return Lost(how=how, memory=True)
+    if room := where_full(job.places):
+        return Failed(message=room, disk_full=True)
+    return Lost(how=f"its MPI processes ended with status {process.returncode}")
 
 
 def die_with_parent() -> None:
@@ -86,17 +101,17 @@ def main(path: Path) -> None:
     values = json.loads(path.read_text(encoding="utf-8"))
     values["needs"] = {name: Path(folder) for name, folder in values["needs"].items()}
     values["folder"] = Path(values["folder"])
-    values["checkpoint"] = Path(values["checkpoint"]) if values["checkpoint"] else None
+    values |= {name: Path(values[name]) if values[name] else None for name in ("checkpoint", "store")}
     job = Job(**values)
     with tempfile.TemporaryDirectory(prefix="workbench-rank-") as dropped:
         if COMM.rank > 0:
             job = replace(job, folder=Path(dropped))
         answer = run_job(job, _tell if COMM.rank == 0 else lambda fraction: None)
-    if COMM.rank == 0 or isinstance(answer, Failed):
+    if COMM.rank == 0 or not isinstance(answer, Done):
         fresh = path.with_name(f"answer-{os.getpid()}")
         fresh.write_text(json.dumps(asdict(answer)), encoding="utf-8")
         fresh.replace(path.with_name(_ANSWER))
-    if isinstance(answer, Failed):
+    if not isinstance(answer, Done):
         COMM.Abort(2)
 
 

@@ -12,12 +12,14 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from contracts.errors import InputError
 from workbench.execution.claims import Claims
-from workbench.execution.errors import InterruptedRunError, RunError
+from workbench.execution.disk import STORE, disk_full, naming_the_disk
+from workbench.execution.errors import DiskFullError, InterruptedRunError, RunError
 from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
+from workbench.execution.listening import Listener, Workers
 from workbench.execution.live_runs import announce
 from workbench.execution.load_checks import require_loadable
 from workbench.execution.local_workers import LocalWorkers
@@ -25,7 +27,7 @@ from workbench.execution.ranks import mpiexec
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task, bare_name, task_keys
 
-__all__ = ["RESTARTS", "Computing", "Ended", "Listener", "Workers", "run_all", "run_tasks"]
+__all__ = ["RESTARTS", "Computing", "Ended", "run_all", "run_tasks"]
 
 _LOOK_EVERY = 0.2
 """Time between looks at what another run computes [s]."""
@@ -55,50 +57,6 @@ class Ended:
 
     entries: dict[str, Entry]
     failures: dict[str, str]
-
-
-class Listener(Protocol):
-    """Hears what happens to tasks; the command line shows it."""
-
-    def damaged(self, name: str, fault: str) -> None:
-        """The stored result of the task is damaged, in these words; it will be computed again."""
-
-    def started(self, name: str) -> None:
-        """The task began to run."""
-
-    def progressed(self, name: str, fraction: float) -> None:
-        """The task is this far, 0 to 1."""
-
-    def finished(self, name: str, entry: Entry, reused: bool) -> None:
-        """The result is in the store, computed now or found there."""
-
-    def elsewhere(self, name: str) -> None:
-        """Nothing is left to do but to wait for this task, which another run on the same store computes now."""
-
-    def restarted(self, name: str, reason: str) -> None:
-        """The task's worker died; the task will run again, from its last checkpoint if it keeps one."""
-
-    def failed(self, name: str, message: str) -> None:
-        """The task failed; those that do not need it go on."""
-
-
-class Workers(Protocol):
-    """Whoever computes: processes of this machine, or a cluster."""
-
-    log: Path
-
-    @property
-    def free(self) -> int:
-        """How many more jobs can start now."""
-
-    def start(self, job: Job) -> None:
-        """Start a job."""
-
-    def wait(self) -> Sequence[tuple[str, Message]]:
-        """Block until there is news: task names and messages."""
-
-    def stop(self) -> None:
-        """End everything that still runs."""
 
 
 def run_tasks(
@@ -144,8 +102,9 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
     """
     keys = task_keys(tuple(tasks))
     if store.writable:
-        store.sweep()
-        announce(store.root, keys.values())
+        with naming_the_disk(STORE, store.root):
+            store.sweep()
+            announce(store.root, keys.values())
     entries: dict[str, Entry] = {}
     for task in tasks:
         entry = store.get(keys[task.name])
@@ -164,8 +123,9 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
     computing = computing or Computing()
     if computing.scheduler is None:
         require_loadable(waiting)
-    run = _Run(store, keys, listener, _workers(computing, len(waiting), log), computing.ranks)
-    run.run(waiting, entries)
+    with naming_the_disk(STORE, store.root):
+        run = _Run(store, keys, listener, _workers(computing, len(waiting), log), computing.ranks)
+        run.run(waiting, entries)
     return Ended(entries=entries, failures=run.failures)
 
 
@@ -187,7 +147,9 @@ class _Run:
         self.running: dict[str, tuple[Task, Path]] = {}
         self.claims, self.told = Claims(store.root), set[str]()
         self.restarts: Counter[str] = Counter()
+        self.alone: set[str] = set()
         self.failures: dict[str, str] = {}
+        self.disk_full = ""
 
     def run(self, waiting: list[Task], entries: dict[str, Entry]) -> None:
         """Dispatch until nothing can start and nothing runs; always ends the workers."""
@@ -195,6 +157,8 @@ class _Run:
             while self._dispatch(waiting, entries):
                 for name, message in self.workers.wait() if self.running else ():
                     self._hear(name, message, waiting, entries)
+            if self.disk_full:
+                raise DiskFullError(self.disk_full)
         except KeyboardInterrupt:
             raise InterruptedRunError("interrupted; finished results are kept, start again to go on") from None
         finally:
@@ -206,7 +170,7 @@ class _Run:
     def _dispatch(self, waiting: list[Task], entries: dict[str, Entry]) -> bool:
         """Start what can start; whether there is anything to wait for, here or in another run."""
         elsewhere, found = list[str](), False
-        for task in [t for t in waiting if all(n in entries for n in t.needs)]:
+        for task in self._ready(waiting, entries):
             if not self.workers.free:
                 break
             key = self.keys[task.name]
@@ -228,6 +192,14 @@ class _Run:
             time.sleep(_LOOK_EVERY)
         return bool(elsewhere or found or self.running)
 
+    def _ready(self, waiting: Sequence[Task], entries: Mapping[str, Entry]) -> list[Task]:
+        """Tasks that may start now; one for which memory ran out gets all of it, and on a full disk none begins."""
+        ready = [task for task in waiting if all(name in entries for name in task.needs)]
+        lonely = [task for task in ready if task.name in self.alone]
+        if self.disk_full or not self.alone.isdisjoint(self.running) or (lonely and self.running):
+            return []
+        return lonely[:1] or ready
+
     def _start(self, task: Task, entries: Mapping[str, Entry]) -> None:
         folder = self.store.scratch()
         self.running[task.name] = task, folder
@@ -240,6 +212,7 @@ class _Run:
             origin=task.origin(),
             checkpoint=self.store.checkpoint(self.keys[task.name]) if task.resumable else None,
             ranks=self.ranks if task.shared else 1,
+            store=self.store.root,
         )
         self.workers.start(job)
         self.listener.started(task.name)
@@ -250,29 +223,54 @@ class _Run:
             self.listener.progressed(name, message.fraction)
             return
         task, folder = self.running.pop(name)
-        if isinstance(message, Done):
-            record: dict[str, Any] = {"task": bare_name(name), "function": task.function, "inputs": task.inputs}
-            record |= {"wall_s": message.wall_s, "dofs": message.dofs, "origin": task.origin()}
-            record["needs"] = {bare_name(needed): self.keys[needed] for needed in task.needs}
-            entries[name] = self.store.put(self.keys[name], folder, record)
-            self.claims.give_back(self.keys[name])
+        end = self._keep(task, folder, message, entries) if isinstance(message, Done) else message
+        self.claims.give_back(self.keys[name])
+        if end is None:
             self.listener.finished(name, entries[name], reused=False)
             return
         shutil.rmtree(folder, ignore_errors=True)
-        self.claims.give_back(self.keys[name])
-        if isinstance(message, Lost) and self.restarts[name] < RESTARTS:
-            self.restarts[name] += 1
+        if isinstance(end, Lost) and self._again(name, end):
             waiting.insert(0, task)
-            self.listener.restarted(name, f"its worker ended with {message.how}")
+            self.listener.restarted(name, end.how if end.memory else f"its worker ended with {end.how}")
             return
-        self.failures[name] = self._failure(name, message)
+        self.failures[name] = self._failure(name, end)
         self.listener.failed(name, self.failures[name])
 
+    def _keep(self, task: Task, folder: Path, done: Done, entries: dict[str, Entry]) -> Failed | None:
+        """Put a finished task's result into the store; what is to be said where its disk is full."""
+        record: dict[str, Any] = {"task": bare_name(task.name), "function": task.function, "inputs": task.inputs}
+        record |= {"wall_s": done.wall_s, "dofs": done.dofs, "origin": task.origin()}
+        record["needs"] = {bare_name(needed): self.keys[needed] for needed in task.needs}
+        try:
+            entries[task.name] = self.store.put(self.keys[task.name], folder, record)
+        except OSError as error:
+            text = disk_full(error, {STORE: self.store.root})
+            if not text:
+                raise
+            return Failed(message=text, disk_full=True)
+        return None
+
+    def _again(self, name: str, message: Lost) -> bool:
+        """Whether a task that lost its worker is to start again: after a want of memory once, and then alone."""
+        self.restarts[name] += message.times
+        if message.memory:
+            first = name not in self.alone
+            self.alone.add(name)
+            return first
+        return self.restarts[name] <= RESTARTS
+
     def _failure(self, name: str, message: Failed | Lost) -> str:
+        if isinstance(message, Failed) and message.disk_full:
+            self.disk_full = self.disk_full or message.message
         if isinstance(message, Failed):
-            where = f"; the traceback is in {self.workers.log}" if message.traceback else ""
+            where = f"; the traceback is in {self.workers.log}" if message.logged else ""
             return f"task {name} failed: {message.message}{where}"
+        if message.memory:
+            return (
+                f"task {name} failed twice, the second time alone: {message.how}; finished results are kept, start "
+                "again with more memory, or ask for less: a coarser mesh"
+            )
         return (
-            f"the worker of task {name} ended with {message.how}, {RESTARTS + 1} times; finished results are kept, "
-            f"start again to go on (out of memory? use --workers 1); its output is in {self.workers.log}"
+            f"the worker of task {name} ended with {message.how}, {self.restarts[name]} times; finished results are "
+            f"kept, start again to go on; its output is in {self.workers.log}"
         )

@@ -39,13 +39,36 @@ def _report(pipe: Connection, fraction: float) -> None:
 
 
 def _redirect_output(log: Path) -> None:
-    """Send what solvers print to a log file, so that the user's terminal shows our messages only."""
-    log.parent.mkdir(parents=True, exist_ok=True)
-    descriptor = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
+    """Send what solvers print to a log file, so that the user's terminal shows our messages only.
+
+    Where no log can be written, what is printed is lost and nothing else: a full disk fails no task by that.
+    """
     sys.stdout.flush()
     sys.stderr.flush()
+    try:
+        log.parent.mkdir(parents=True, exist_ok=True)
+        descriptor = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
+    except OSError:
+        descriptor = os.open(os.devnull, os.O_WRONLY)
     os.dup2(descriptor, 1)
     os.dup2(descriptor, 2)
     os.close(descriptor)
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(line_buffering=True)  # what was printed before a crash must reach the log
+    sys.stdout, sys.stderr = (_Log(number) for number in (1, 2))
+
+
+class _Log(io.TextIOWrapper):
+    """A stream that drops what cannot be written; a line is written at once, so that a crash finds it in the log."""
+
+    def __init__(self, descriptor: int) -> None:
+        super().__init__(io.FileIO(descriptor, "w", closefd=False), "utf-8", "backslashreplace", write_through=True)
+
+    def write(self, text: str) -> int:
+        """Write or drop the text."""
+        with contextlib.suppress(OSError):
+            super().write(text)
+        return len(text)
+
+    def flush(self) -> None:
+        """Nothing is held back."""
+        with contextlib.suppress(OSError):
+            super().flush()
