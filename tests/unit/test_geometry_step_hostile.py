@@ -1,6 +1,6 @@
-"""STEP files that are damaged, endless or made to do harm: each ends in one InputError, in time in proportion to its size.
+"""STEP files that are damaged, endless or made to do harm: each ends in one InputError, in time proportional to its size.
 
-Claim: a file of a user's is read by our own reader, which follows no reference to other files and never hands the file to
+Claim: a user's file is read by our own reader, which follows no reference to other files and never hands the file to
 OpenCASCADE, whose crashes nobody could catch. The negative control of the counts is the file all cases are made from.
 """
 
@@ -95,7 +95,10 @@ CASES: dict[str, tuple[Callable[[str], str], str]] = {
     "ten megabytes of numbers that begin": (_data(2_500_000 * "#1=("), "cannot be understood"),
     "ten megabytes of quotes": (_data("#9001 = A(" + 10_000_000 * "'" + ");"), "cannot be understood"),
     "ten megabytes of blanks": (_data("#9001 " + 10_000_000 * " " + "x;"), "cannot be understood"),
-    "ten megabytes of brackets": (_swap(r"\(0.,1.,0.\)", 5_000_000 * "(" + 5_000_000 * ")"), "cannot be understood"),
+    "ten megabytes of brackets": (
+        _swap(SURFACE, "B_SPLINE_SURFACE_WITH_KNOTS('',3," + 5_000_000 * "(" + 5_000_000 * ")"),
+        "cannot be understood",
+    ),
     "a few thousand brackets": (
         _swap(SURFACE, f"B_SPLINE_SURFACE_WITH_KNOTS('',{5000 * '('}3{5000 * ')'},1"),
         "cannot be understood",
@@ -126,8 +129,8 @@ CASES: dict[str, tuple[Callable[[str], str], str]] = {
         _swap(r"#\d+ = CARTESIAN_POINT\('',\(300", "#9999 = CARTESIAN_POINT('',(300"),
         "not there",
     ),
-    "1e300": (_swap(r"CARTESIAN_POINT\('',\(300", "CARTESIAN_POINT('',(1.E+300"), "beyond 1000 m"),
-    "beyond all numbers": (_swap(r"CARTESIAN_POINT\('',\(300", "CARTESIAN_POINT('',(1.E+999"), "beyond 1000 m"),
+    "1e300": (_swap(r"CARTESIAN_POINT\('',\(300\.", "CARTESIAN_POINT('',(1.E+300"), "beyond 1000 m"),
+    "beyond all numbers": (_swap(r"CARTESIAN_POINT\('',\(300\.", "CARTESIAN_POINT('',(1.E+999"), "beyond 1000 m"),
     "no number": (_swap(r"CARTESIAN_POINT\('',\(300\.", "CARTESIAN_POINT('',(NAN"), "cannot be understood"),
     "nothing for a number": (
         _swap(r"CARTESIAN_POINT\('',\(300\.", "CARTESIAN_POINT('',($"),
@@ -145,14 +148,13 @@ CASES: dict[str, tuple[Callable[[str], str], str]] = {
     "knots beyond all numbers": (_swap(r"\(0.,0.4,1.\)", "(-1.E+308,0.4,1.E+308)"), "knots"),
     "knots that touch": (_swap(r"\(0.,0.4,1.\)", "(0.,1.E-310,1.)"), "too close"),
     "a knot too few": (_swap(r"\(0.,0.4,1.\)", "(0.,1.)"), "fit its name|knots"),
-    "no points": (_swap(r"\(\(#\d+,#\d+,#\d+\),(?:\(#\d+,#\d+,#\d+\),?\s*)+\)", "()"), "fit its name"),
-    "too few values": (_swap(SURFACE + r".*?;", "B_SPLINE_SURFACE_WITH_KNOTS('',3);"), "fit its name|understood"),
+    "no points": (_swap(r"(?s)\(\s*\(#33.*?\)\)", "()"), "fit its name"),
+    "too few values": (_swap(r"(?s)(?<=_SURFACE_WITH_KNOTS)\('',3,1.*?;", "('',3);"), "fit its name"),
     "a name of a million letters": (_swap(r"PRODUCT\('rim 0'", f"PRODUCT('rim{900_000 * ' '}x'"), "no line of text"),
     "a name of two lines": (_swap(r"PRODUCT\('rim 0'", "PRODUCT('rim\n\033[31m0'"), "no line of text"),
     "a hundred thousand faces": (_many_faces, "holds 100001 faces"),
     "inches": (_swap(r"SI_UNIT\(\.MILLI\.,\.METRE\.\)", "CONVERSION_BASED_UNIT('INCH',#1)"), "unit of length"),
     "two units": (_data("#9001 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT($,.METRE.) );"), "unit of length"),
-    "units without end": (_data("#9001 = (" + 60_000 * "LENGTH_UNIT() " + ");"), "one SI unit|again"),
     "no faces": (_swap("ADVANCED_FACE", "ADVANCED_FACES", 0), "no face"),
     "another file": (_data("#9001 = DOCUMENT_FILE('/etc/passwd','',$,#9002,'',$);"), "refers to another file"),
     "another file by its address": (
@@ -164,8 +166,6 @@ CASES: dict[str, tuple[Callable[[str], str], str]] = {
         "refers to other files",
     ),
 }
-READ = {"units without end"}
-"""Cases that are odd, and yet whole: read as they are."""
 
 
 def test_the_file_all_are_made_from_is_read(good: str, tmp_path: Path) -> None:
@@ -181,9 +181,6 @@ def test_every_hostile_file_is_one_message(case: str, good: str, tmp_path: Path)
     change, rule = CASES[case]
     path = tmp_path / "hostile.step"
     path.write_text(change(good), encoding="utf-8")
-    if case in READ:
-        assert len(read_surfaces_step(path)) == 1
-        return
     with pytest.raises(InputError, match=rule) as found:
         read_surfaces_step(path)
     assert len(str(found.value)) < 800
