@@ -1,14 +1,13 @@
 """B-spline surfaces out of STEP files (ISO 10303-21): control points and knots, which gmsh does not give away.
 
 Read are the ADVANCED_FACEs on a B_SPLINE_SURFACE_WITH_KNOTS (ISO 10303-42), whichever way the face is turned. A
-rational surface, a plane, a trimmed face or a part moved by its assembly is refused by name, not passed over.
+rational surface, a plane, a trimmed face or a part moved by its assembly is refused by name, not passed over, and so is
+what no tire has: counts, degrees, places and knots are judged before anything is made of them.
 """
 
 from __future__ import annotations
 
-import ast
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,16 +16,26 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from geometry.spline_surface import SplineSurface
+from geometry.step_records import StepRecords, read_step_records
 
 __all__ = ["read_surfaces_step"]
 
-_INSTANCE = re.compile(r"#(\d+)\s*=\s*((?:'[^']*'|[^';])*);")
-_RECORD = re.compile(r"([A-Z_0-9]+)\s*\((.*)\)", re.DOTALL)
-_TOKEN = re.compile(r"('[^']*')|#(\d+)|\.[A-Z_0-9]+\.|[$*]|\s+")
 _METRE = re.compile(r"LENGTH_UNIT\s*\(\s*\).*SI_UNIT\s*\(\s*(?:\$|\.([A-Z]+)\.)\s*,\s*\.METRE\.\s*\)", re.DOTALL)
 _PREFIXES = {None: 1.0, "DECI": 1e-1, "CENTI": 1e-2, "MILLI": 1e-3, "MICRO": 1e-6}
 _CORNER_TOLERANCE = 1e-6
 """A face whose vertices lie further than this from its surface's corners is trimmed; relative to the surface's size."""
+_MOST_FACES = 3000
+"""A tire of a thousand plates, each with both faces and the one between."""
+_MOST_POINTS = 100_000
+"""Control points of all surfaces."""
+_HIGHEST_DEGREE = 25
+"""Of CAD systems; OpenCASCADE's own limit."""
+_FARTHEST = 1000.0
+"""Largest coordinate [m]."""
+_LARGEST_KNOT, _SMALLEST_SPAN = 1e9, 1e-9
+"""Largest knot [-], and smallest distance of two that differ, relative to the range of all."""
+_LONGEST_NAME, _LONGEST_UNIT = 200, 1000
+"""Characters."""
 
 
 def read_surfaces_step(path: Path) -> tuple[SplineSurface, ...]:
@@ -48,85 +57,48 @@ def read_surfaces_step(path: Path) -> tuple[SplineSurface, ...]:
 
     Verified by tests/unit/test_geometry_step_surfaces.py and tests/verification/test_ancf_spline_step.py.
     """
+    records = read_step_records(path)
     try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise InputError("STEP file", path, f"cannot be read ({error.strerror})", "check the path") from error
-    if not text.lstrip().startswith("ISO-10303-21"):
-        raise InputError("STEP file", path, "does not begin with ISO-10303-21", "export it as STEP, AP203 or AP214")
-    text = re.sub(r"/\*.*?\*/", "", text.partition("DATA;")[2], flags=re.DOTALL)
-    model = _Model(path=path, instances={int(n): record.strip() for n, record in _INSTANCE.findall(text)})
+        return _surfaces(records)
+    except InputError:
+        raise
+    except (IndexError, TypeError, ValueError, OverflowError) as error:  # a record with other parameters than its name
+        rule = f"has a record that does not fit its name ({str(error)[:80]})"
+        raise records.error(rule, "export it again") from error
+
+
+def _surfaces(model: StepRecords) -> tuple[SplineSurface, ...]:
+    """The surface of every face."""
     scale = _scale(model)
     _refuse_moved_parts(model)
-    names = _names(model)
-    surfaces: list[SplineSurface] = []
-    for face in model.of("ADVANCED_FACE"):
+    faces = model.of("ADVANCED_FACE")
+    if not faces:
+        raise model.error("holds no face", "export the surfaces, not a wireframe")
+    if len(faces) > _MOST_FACES:
+        rule = f"holds {len(faces)} faces, more than {_MOST_FACES}"
+        raise model.error(rule, "export the surfaces of the tire alone")
+    names, surfaces, points = _names(model), list[SplineSurface](), 0
+    for face in faces:
         surface = _surface(model, model.values(face)[2], names.get(face, f"surface {len(surfaces)}"), scale)
+        points += surface.control_points.size // 3
+        if points > _MOST_POINTS:
+            raise model.error(f"holds more than {_MOST_POINTS} control points", "approximate it by coarser surfaces")
         _refuse_trim(model, face, surface, scale)
         surfaces.append(surface)
-    if not surfaces:
-        raise model.error("holds no face", "export the surfaces, not a wireframe")
     return tuple(surfaces)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Model:
-    """One file: instance number -> text of its record."""
-
-    path: Path
-    instances: dict[int, str]
-
-    def keyword(self, number: int) -> str:
-        """Name of an instance's entity; empty for a complex one."""
-        found = _RECORD.fullmatch(self.instances[number])
-        return found[1] if found else ""
-
-    def values(self, number: int) -> tuple[Any, ...]:
-        """Parameters: numbers, texts, lists, and references as numbers; enumerations and blanks as None."""
-        found = _RECORD.fullmatch(self.instances[number])
-        values: tuple[Any, ...] = ast.literal_eval(f"({_TOKEN.sub(_python, found[2])},)") if found else ()
-        return values
-
-    def of(self, keyword: str) -> list[int]:
-        """Instances of one entity, in the order of the file."""
-        return [number for number, text in self.instances.items() if re.match(rf"{keyword}\s*\(", text)]
-
-    def reached(self, start: int, keyword: str) -> list[int]:
-        """Instances of one entity that another leads to, through whatever lies between."""
-        seen, waiting, found = {start}, [start], []
-        while waiting:
-            number = waiting.pop()
-            if self.keyword(number) == keyword:
-                found.append(number)
-                continue
-            text = re.sub(r"'[^']*'", "", self.instances[number])
-            new = {int(n) for n in re.findall(r"#(\d+)", text)} & self.instances.keys() - seen
-            seen |= new
-            waiting += new
-        return sorted(found)
-
-    def error(self, rule: str, hint: str) -> InputError:
-        """What is wrong with this file."""
-        return InputError("STEP file", self.path, rule, hint)
-
-
-def _python(token: re.Match[str]) -> str:
-    """One token as Python: texts stay, references become numbers, enumerations and blanks None."""
-    if token[1] is not None:
-        return repr(token[1][1:-1])
-    return token[2] or ("None" if token[0].strip() else "")
-
-
-def _scale(model: _Model) -> float:
+def _scale(model: StepRecords) -> float:
     """Metres in the file's unit of length."""
-    found = {match[1] for text in model.instances.values() if (match := _METRE.search(text))}
-    inch = any("CONVERSION_BASED_UNIT" in text and "LENGTH_UNIT" in text for text in model.instances.values())
+    units = [text for text in model.instances.values() if "LENGTH_UNIT" in text and len(text) < _LONGEST_UNIT]
+    found = {match[1] for text in units if (match := _METRE.search(text))}
+    inch = any("CONVERSION_BASED_UNIT" in text for text in units)
     if inch or len(found) != 1 or not found <= _PREFIXES.keys():
         raise model.error("must have one SI unit of length", "export it in millimetres or metres")
     return _PREFIXES[found.pop()]
 
 
-def _refuse_moved_parts(model: _Model) -> None:
+def _refuse_moved_parts(model: StepRecords) -> None:
     """Raise InputError if an assembly moves a part: its surfaces would land elsewhere."""
     for transformation in model.of("ITEM_DEFINED_TRANSFORMATION"):
         start, end = (model.values(place)[1:] for place in model.values(transformation)[2:4])
@@ -134,7 +106,7 @@ def _refuse_moved_parts(model: _Model) -> None:
             raise model.error("moves a part in an assembly", "export the assembly as one part, or its parts alone")
 
 
-def _names(model: _Model) -> dict[int, str]:
+def _names(model: StepRecords) -> dict[int, str]:
     """Face -> name of its product, with a number where the product has several faces."""
     names: dict[int, str] = {}
     for link in model.of("SHAPE_DEFINITION_REPRESENTATION"):
@@ -143,23 +115,47 @@ def _names(model: _Model) -> dict[int, str]:
         faces = [face for face in model.reached(representation, "ADVANCED_FACE") if face not in names]
         for k, face in enumerate(faces if products else []):
             product = model.values(products[0])[0]
+            if not isinstance(product, str) or len(product) > _LONGEST_NAME or not product.isprintable():
+                rule = f"has a product whose name is no line of text: {str(product)[:60]!r}"
+                raise model.error(rule, f"name it with 1 to {_LONGEST_NAME} letters")
             names[face] = f"{product} {k}" if len(faces) > 1 else product
     return names
 
 
-def _surface(model: _Model, number: int, name: str, scale: float) -> SplineSurface:
+def _surface(model: StepRecords, number: int, name: str, scale: float) -> SplineSurface:
     """The surface of one face."""
     kind = model.keyword(number)
     if kind != "B_SPLINE_SURFACE_WITH_KNOTS":
         rule = f"holds {name!r} on a {kind or 'rational B-spline surface'}"
         raise model.error(rule, "convert it to B-spline surfaces without weights")
     _, p, q, points, _, _, _, _, *repeats, knots_u, knots_v, _ = model.values(number)
-    ends = [np.repeat(np.asarray(k, dtype=np.float64), n) for k, n in zip((knots_u, knots_v), repeats, strict=True)]
-    P = np.array([[model.values(point)[1] for point in row] for row in points], dtype=np.float64)
-    return SplineSurface(name=name, control_points=scale * P, degrees=(p, q), knots=(ends[0], ends[1]))
+    count = len(points) * len(points[0])
+    if count > _MOST_POINTS or not all(type(d) is int and 1 <= d <= _HIGHEST_DEGREE for d in (p, q)):
+        rule = f"holds {name!r} with {count} control points of degrees {p}, {q}"
+        hint = f"use at most {_MOST_POINTS} points and degrees 1 to {_HIGHEST_DEGREE}"
+        raise model.error(rule, hint)
+    ends = [_knots(model, name, k, n) for k, n in zip((knots_u, knots_v), repeats, strict=True)]
+    P = scale * np.array([[model.values(point)[1] for point in row] for row in points], dtype=np.float64)
+    if not np.all(np.abs(P) <= _FARTHEST):
+        rule = f"holds {name!r} with a control point beyond {_FARTHEST:g} m"
+        raise model.error(rule, "check its unit of length")
+    return SplineSurface(name=name, control_points=P, degrees=(p, q), knots=(ends[0], ends[1]))
 
 
-def _refuse_trim(model: _Model, face: int, surface: SplineSurface, scale: float) -> None:
+def _knots(model: StepRecords, name: str, distinct: Any, repeats: Any) -> NDArray[np.float64]:
+    """Every knot as often as it is repeated."""
+    values = np.asarray(distinct, dtype=np.float64)
+    spans = np.diff(values)
+    if not np.all(np.abs(values) <= _LARGEST_KNOT) or np.any(spans <= _SMALLEST_SPAN * np.ptp(values)):
+        rule = f"holds {name!r} with knots that do not increase, lie too close or are no numbers"
+        raise model.error(rule, "export it again with knots from 0 to 1")
+    if not all(type(n) is int and 1 <= n <= _HIGHEST_DEGREE + 1 for n in repeats):
+        rule = f"holds {name!r} with knots repeated {repeats} times"
+        raise model.error(rule, f"repeat each 1 to {_HIGHEST_DEGREE + 1} times")
+    return np.repeat(values, repeats)
+
+
+def _refuse_trim(model: StepRecords, face: int, surface: SplineSurface, scale: float) -> None:
     """Raise InputError unless the face's vertices are its surface's corners."""
     bounds = [vertex for bound in model.values(face)[1:2] for vertex in _vertices(model, bound)]
     vertices = scale * np.array(bounds, dtype=np.float64).reshape(-1, 3)
@@ -171,7 +167,7 @@ def _refuse_trim(model: _Model, face: int, surface: SplineSurface, scale: float)
         raise model.error(f"holds {surface.name!r}, which is trimmed", "export whole B-spline surfaces")
 
 
-def _vertices(model: _Model, bounds: Any) -> list[NDArray[np.float64]]:
+def _vertices(model: StepRecords, bounds: Any) -> list[NDArray[np.float64]]:
     """Positions of a face's vertices, in the file's unit; one bound reads as a number, several as a list."""
     loops = bounds if isinstance(bounds, tuple) else (bounds,)
     vertices = [vertex for loop in loops for vertex in model.reached(loop, "VERTEX_POINT")]

@@ -106,7 +106,7 @@ def test_a_tire_survives_as_inputs() -> None:
 
 
 BAD = {
-    "no file": (None, (), "ancf.surfaces = cad/tire.step: cannot be read"),
+    "no file": (None, (), "ancf.surfaces = cad/tire.step: does not exist"),
     "not STEP": ("solid tire", (), "ancf.surfaces = cad/tire.step: does not begin with ISO-10303-21"),
     "another size": (
         "exported",

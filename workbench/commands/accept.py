@@ -11,6 +11,7 @@ import shutil
 from pathlib import Path
 
 from contracts.errors import InputError
+from contracts.input_file import input_text
 from workbench.commands.computing import console, tell_kept
 from workbench.comparison.baseline import SUMMARY, read_baseline
 from workbench.report.folders import check_folder, check_targets
@@ -47,9 +48,9 @@ def run_accept(report: Path, baseline: Path) -> int:
 
 def _study_and_status(path: Path) -> tuple[str, str]:
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(input_text(path, "report"))
         return str(content["study"]), str(content["status"])
-    except (OSError, ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError):
         rule = "is not there or no summary of a report"
         raise InputError("report", path, rule, "give the folder that workbench report wrote") from None
 
