@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from contracts.input_file import input_text
 
 __all__ = ["CsvTable", "TableRule", "read_table", "table_text"]
 
@@ -68,15 +69,10 @@ def read_table(path: Path, rule: TableRule) -> CsvTable:
     Raises
     ------
     InputError
-        If the file is missing, empty, no UTF-8, without the first names, holds text where a number belongs, or has rows
+        If `input_text` refuses the file; if it is empty, without the first names, holds text where a number belongs, or has rows
         that do not match its header, with the number of the line. Two rows or more; one is enough for a partial run.
     """
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError as error:
-        raise InputError(rule.what, path, "is no text in UTF-8", "save it as CSV in UTF-8") from error
-    except OSError as error:
-        raise InputError(rule.what, path, f"cannot be read ({type(error).__name__})", "check the path") from error
+    lines = input_text(path, rule.what).splitlines()
     comments = [line[1:].strip() for line in lines if line.startswith("#")]
     partial = "partial: True" in comments
     numbered = [(n, line) for n, line in enumerate(lines, start=1) if line.strip() and not line.startswith("#")]

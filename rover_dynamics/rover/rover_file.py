@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from contracts.errors import InputError
+from contracts.input_file import input_text
 
 __all__ = [
     "EXOMARS_ROVER",
@@ -117,8 +118,10 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
         For a file that cannot be read, a key that is missing or unknown, or a number that is none.
     """
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:  # also numbers of thousands of digits, brackets in thousands
+        content = tomllib.loads(input_text(path, "rover file"))
+    except InputError:
+        raise
+    except (ValueError, RecursionError) as error:  # also numbers of thousands of digits, brackets in thousands
         raise InputError(
             "rover file", path, f"cannot be read ({error})", "copy rover_dynamics' own and edit it"
         ) from error

@@ -64,7 +64,7 @@ def test_rows_must_be_tables(tmp_path: Path) -> None:
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="does not exist"):
         read_rover(tmp_path / "none.toml")
 
 

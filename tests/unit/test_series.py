@@ -85,5 +85,5 @@ def test_bad_files_are_refused(text: str, rule: str, tmp_path: Path) -> None:
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="does not exist"):
         read_series(tmp_path / "none.csv", "drop", "ancf")

@@ -261,9 +261,9 @@ def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     path = tmp_path / "study.toml"
     path.write_text(TEXT, encoding="utf-8")
 
-    def refuse(self: Path, encoding: str | None = None) -> str:
-        raise PermissionError(13, "Permission denied", str(self))
+    def refuse(*_: object) -> int:
+        raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr(Path, "read_text", refuse)
+    monkeypatch.setattr("contracts.input_file.os.open", refuse)
     with pytest.raises(StudyError, match="cannot be read"):
         read_study(path)

@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 
 from contracts.errors import InputError
+from contracts.input_file import input_text
 from workbench.commands.computing import console
 from workbench.comparison.baseline import SUMMARY, read_baseline
 from workbench.report.outputs import check_folder, copy_files
@@ -20,9 +21,9 @@ def run_accept(report: Path, baseline: Path) -> int:
     """Copy the summary of a report whose gates passed; InputError for any other."""
     source = report / SUMMARY
     try:
-        content = json.loads(source.read_text(encoding="utf-8"))
+        content = json.loads(input_text(source, "report"))
         study, status = str(content["study"]), content["status"]
-    except (OSError, ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError):
         rule = "is not there or no summary of a report"
         raise InputError("report", source, rule, "give the folder that workbench report wrote") from None
     read_baseline(report, study)

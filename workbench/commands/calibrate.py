@@ -16,6 +16,7 @@ from rich.table import Table
 
 from contracts.curves import read_curve
 from contracts.errors import InputError
+from contracts.input_file import input_text
 from workbench.comparison.calibration import Calibration, Trial, calibrate, scaled_study, strip_thicknesses
 from workbench.comparison.results import CURVE, mean_curve
 from workbench.execution.errors import RunError
@@ -53,7 +54,7 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     found = calibrate(wanted, runs.tangent("section"), runs.tangent("fe"))
     note = f"strip thickness found by workbench calibrate for an initial tangent of {wanted * 1e-3:g} N/mm"
     thickness = strip_thicknesses(study, found.corrected.factor)
-    text = rewritten_study(path.read_text(encoding="utf-8"), thickness, note, path.parent)
+    text = rewritten_study(input_text(path, "study file"), thickness, note, path.parent)
     publish(out, {name: text, "calibration.json": to_json(_summary(study, found))})
     _check_rewritten(out / name, thickness)
     _print(study, found)

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from contracts.errors import InputError
+from contracts.input_file import input_text
 from workbench.comparison.ancf_fit import FittedTire, read_fit
 from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
@@ -53,7 +54,7 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     tires = [read_fit(t.name, entries[fit_name(t.name)].path) for t in section.tires]
     kept = next(t for t in tires if t.name == section.kept.name)
     note = f"ANCF tire fitted to the FE curves by workbench calibrate ancf: {kept.name}"
-    text = rewritten_study(path.read_text(encoding="utf-8"), {}, note, path.parent)
+    text = rewritten_study(input_text(path, "study file"), {}, note, path.parent)
     summary = {"schema": 1, "study": study.name, "kept": kept.name, "own": dict(own.numbers)}
     summary["tires"] = [{"name": t.name, **t.numbers} for t in tires]
     curves = [curve for t in tires for curve in (*t.curves.values(), t.average)]

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from contracts.errors import InputError
+from contracts.input_file import input_text
 from contracts.records import Check
 
 __all__ = ["NOISE", "SUMMARY", "Baseline", "Change", "Kept", "Kind", "changes_since", "read_baseline"]
@@ -115,7 +116,7 @@ def read_baseline(folder: Path, study: str) -> Baseline:
     """The accepted report in a folder; InputError if there is none, or one of another study."""
     path, hint = folder / SUMMARY, "accept a report first: workbench accept DIR"
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(input_text(path, "baseline"))
         checks = [_kept(row) for row in content["checks"]]
         origin = content["provenance"]
         found = Baseline(
@@ -124,8 +125,8 @@ def read_baseline(folder: Path, study: str) -> Baseline:
             created=str(origin.get("created", "")),
             checks={check.id: check for check in checks},
         )
-    except FileNotFoundError:
-        raise InputError("baseline", path, "is not there", hint) from None
+    except InputError as error:
+        raise InputError("baseline", path, error.rule, hint) from None
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError("baseline", path, f"is no summary of a report ({type(error).__name__})", hint) from None
     if found.study != study:

@@ -19,6 +19,7 @@ from pydantic_core import PydanticCustomError
 from contracts.csv_table import CsvTable, TableRule, read_table, table_text
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
+from contracts.input_file import input_text
 from workbench.study.deformation import DEFORMATIONS, Deformation, Kind, deformation_named
 from workbench.study.quantities import to_si
 
@@ -123,7 +124,7 @@ def in_si(path: Path) -> str:
         raise InputError(_WHAT, path, rule, "compare it with a curve of its own kind (workbench compare)")
     names, remarks = _head(path)
     if names[:2] == _OWN and "deformation" not in remarks:
-        return path.read_text(encoding="utf-8")
+        return input_text(path, _WHAT)
     curve = found.curve
     values = np.column_stack([curve.deflection, curve.load])
     return table_text(CsvTable(names=_OWN, values=values, source=curve.source, partial=curve.partial))
@@ -147,8 +148,8 @@ def load_uncertainty(text: str, load: NDArray[np.float64], what: str = "uncertai
 def _head(path: Path) -> tuple[tuple[str, ...], dict[str, str]]:
     """Names of the header, and what comments say by their word before the colon; nothing of a file not readable."""
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError):
+        lines = input_text(path, _WHAT).splitlines()
+    except InputError:
         return (), {}
     remarks: dict[str, str] = {}
     for line in lines:

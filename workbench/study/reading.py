@@ -14,6 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from contracts.errors import InputError, StudyError
+from contracts.input_file import input_text
 from workbench.study.curve_file import in_si
 from workbench.study.model import Study
 from workbench.study.model_parameters import SectionInputError, ancf_mesh, ancf_preset, brush_parameters, wheel_design
@@ -75,16 +76,10 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
 def read_study_table(path: Path) -> dict[str, Any]:
     """The content of a study file as TOML has it; raises StudyError for a file that is no readable TOML."""
     example = "copy studies/exomars.toml and change it"
-    if path.is_dir():
-        raise StudyError(path, "", "", "is a folder, not a study file", "give the path of a .toml file")
     try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError as error:
-        raise StudyError(path, "", "", "does not exist", "check the path of the study file") from error
-    except UnicodeDecodeError as error:
-        raise StudyError(path, "", "", f"is not UTF-8 text (byte {error.start})", "save the file as UTF-8") from error
-    except OSError as error:
-        raise StudyError(path, "", "", f"cannot be read ({error.strerror})", "check its permissions") from error
+        text = input_text(path, "study file")
+    except InputError as error:
+        raise StudyError(path, "", "", error.rule, error.hint) from error
     if not text.strip():
         raise StudyError(path, "", "", "is empty", example)
     try:
