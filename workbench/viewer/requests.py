@@ -1,6 +1,6 @@
 """What a page may ask of its session, checked before anything is done: a browser sends what it likes.
 
-Verified by tests/unit/test_viewer_requests.py and tests/end_to_end/test_view_nonsense.py.
+Verified by tests/unit/test_viewer_requests.py and tests/end_to_end/test_view_safety.py.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What is answered at the page's address: its files, and a connection for each window.
 
-Verified by tests/end_to_end/test_view_access.py.
+Verified by tests/end_to_end/test_view_safety.py.
 """
 
 from __future__ import annotations
