@@ -107,7 +107,17 @@ CALL = msgpack.packb({"id": "a", "method": "b"})
 @pytest.mark.parametrize(
     "message",
     [
-        *(b"", b"123", framed(b""), framed(b"\xc1"), framed(b"\x91" * 9000), framed(CALL + b"\x00")),
+        *(
+            b"",
+            b"123",
+            bytes(8),
+            bytes(11),
+            bytes(12),
+            framed(b""),
+            framed(b"\xc1"),
+            framed(b"\x91" * 9000),
+            framed(CALL + b"\x00"),
+        ),
         *(framed(CALL, size=2**31), framed(CALL, offset=1), framed(CALL, size=0), framed(b"\x00" * (5 * 2**20))),
         *(framed(msgpack.packb(one)) for one in (None, [], "x", {}, {"id": "a"}, {"id": 1, "method": "b"})),
         *(framed(msgpack.packb({"id": "a", "method": "b", "args": one})) for one in (None, {}, "x")),
