@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-__all__ = ["heard_beyond", "heard_while", "listening"]
+__all__ = ["family", "heard_beyond", "heard_while", "listening"]
 
 _TABLES = {"tcp": "0A", "tcp6": "0A", "udp": "07", "udp6": "07"}
 """Table -> state of a socket that anybody may speak to."""
@@ -17,7 +17,7 @@ _TABLES = {"tcp": "0A", "tcp6": "0A", "udp": "07", "udp6": "07"}
 
 def listening(root: int) -> set[tuple[str, str]]:
     """Kind and address of every socket on which a process, or one it started, can be spoken to."""
-    own = {inode for pid in _family(root) for inode in _sockets(pid)}
+    own = {inode for pid in family(root) for inode in _sockets(pid)}
     found = set()
     for table, state in _TABLES.items():
         for line in Path("/proc/net", table).read_text(encoding="ascii").splitlines()[1:]:
@@ -41,7 +41,8 @@ def heard_while(process: subprocess.Popen[str]) -> set[tuple[str, str]]:
     return found
 
 
-def _family(root: int) -> set[int]:
+def family(root: int) -> set[int]:
+    """A process and all it started."""
     parents = {}
     for folder in Path("/proc").iterdir():
         if folder.name.isdecimal():

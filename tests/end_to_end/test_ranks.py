@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
+import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from contracts.curves import read_curve
-from tests.end_to_end.small_study import run
+from tests.end_to_end.small_study import environment, run
+from tests.listening import family
 from tests.unit.test_workbench_runner import PROBE, Recorder
 from workbench.execution.errors import RunError
+from workbench.execution.ranks import mpiexec
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
@@ -50,3 +56,40 @@ def test_a_task_that_cannot_be_shared_runs_once(tmp_path: Path) -> None:
     task = Task(name="t", function=f"{PROBE}:count_ranks", inputs={"log": str(tmp_path / "log")})
     entry = run_tasks([task], Store(tmp_path / "store"), Recorder(), Computing(ranks=2))["t"]
     assert (entry.path / "rank.txt").read_text(encoding="utf-8") == "0 of 1"
+
+
+def test_processes_end_with_their_launcher(tmp_path: Path) -> None:
+    """A worker that is killed takes its launcher along, and that must leave nobody computing."""
+    told = tmp_path / "pid"
+    job = {
+        "name": "t",
+        "function": f"{PROBE}:wait",
+        "inputs": {"pid": str(told)},
+        "needs": {},
+        "origin": {},
+        "ranks": 2,
+    }
+    places = {"folder": str(tmp_path), "checkpoint": None}
+    (tmp_path / "job.json").write_text(json.dumps(job | places), encoding="utf-8")
+    command = [mpiexec(), "-n", "2", sys.executable, "-m", "workbench.execution.ranks", str(tmp_path / "job.json")]
+    with subprocess.Popen(command, env=environment()) as launcher:
+        _until(told.exists)  # by one of them, after MPI's start, at which they wait for each other
+        processes = family(launcher.pid) - {launcher.pid}
+        assert len(processes) >= 2
+        launcher.kill()
+    _until(lambda: not any(_runs(pid) for pid in processes))
+
+
+def _until(true: Callable[[], bool]) -> None:
+    end = time.monotonic() + 300.0
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def _runs(pid: int) -> bool:
+    """Whether it is there, and no zombie."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False

@@ -20,6 +20,7 @@ import aiohttp
 import pytest
 
 from tests.end_to_end.test_view import ARGUMENTS, CHROMIUM, PATIENCE, start
+from tests.listening import listening
 from tests.small_report_folder import write_small_report
 from tests.viewer_client import Client, browser
 from workbench.viewer.windows import MOST
@@ -92,6 +93,7 @@ def address(folder: Path) -> Iterator[str]:
     assert process.stdout is not None
     line = process.stdout.readline().strip()
     assert line.startswith("http://127.0.0.1:"), process.communicate()[1]
+    assert listening(process.pid) == {("tcp", "127.0.0.1")}
     yield line
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=300)

@@ -45,3 +45,16 @@ def test_a_series_is_drawn_by_quantity() -> None:
     lean = series_chart(series, "body_lean_rad")
     assert lean["data"][0]["y"] == pytest.approx([0.0, 1.0])
     assert lean["layout"]["yaxis"]["title"]["text"] == "body lean [°]"
+
+
+def test_names_are_no_markup() -> None:
+    """Plotly draws tags such as <b> and <a href> in names and titles; entities it draws as what they stand for."""
+    name = "<a href='x'>mine</a>&amp;.csv"
+    (line,) = curves_chart({name: CURVE}, [name], None)["data"]
+    assert line["name"] == "&lt;a href='x'&gt;mine&lt;/a&gt;&amp;amp;.csv"
+    (long,) = curves_chart({"x" * 250: CURVE}, [], None)["data"]
+    assert len(long["name"]) == 60
+    column = "<b>\n_m"
+    series = TimeSeries(scenario="s", tire="brush", time=np.array([0.0, 1.0]), columns={column: np.array([0.0, 1.0])})
+    assert quantities(series) == {column: "<b>\\n [mm]"}  # text of a list
+    assert series_chart(series, column)["layout"]["yaxis"]["title"]["text"] == "&lt;b&gt;\\n [mm]"

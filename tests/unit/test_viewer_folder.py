@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -50,3 +51,54 @@ def test_a_damaged_summary_or_curve_is_named(tmp_path: Path) -> None:
     (tmp_path / "curves" / "fe_phi000.csv").write_text("a,b\n1,x\n", encoding="utf-8")
     with pytest.raises(InputError, match=r"fe_phi000\.csv"):
         read_folder(tmp_path)
+
+
+HOSTILE = ("two\nlines", "\x1b[31mred", "\udcff\udcfe", "\u202egnp", "<b>bold", "' \" {{ x }}", "long" * 60)
+
+
+def test_names_are_plain_and_told_apart(tmp_path: Path) -> None:
+    write_small_report(tmp_path)
+    text = (tmp_path / "curves" / "fe_phi000.csv").read_text(encoding="utf-8")
+    for name in (*HOSTILE, "two\\nlines"):  # the last is written as the first is shown
+        (tmp_path / "curves" / f"{name}.csv").write_text(text, encoding="utf-8")
+    (tmp_path / "fields" / "fe_phi000_100N.vtu").rename(tmp_path / "fields" / "a\n\udcff_phi045_100N.vtu")
+    (tmp_path / "motions" / "straight_brush.npz").rename(tmp_path / "motions" / "st\nraight_brush.npz")
+    (tmp_path / "summary.json").write_text('{"study": "\\ud800\\n", "status": "\\u001b"}', encoding="utf-8")
+    found = read_folder(tmp_path)
+    assert len(found.curves) == 3 + len(HOSTILE) + 1
+    assert {"two\\nlines", "two\\nlines (2)", "\\x1b[31mred", "\\udcff\\udcfe", "\\u202egnp"} <= set(found.curves)
+    models = {one.model for one in found.fields}
+    assert models == {"fe", "a\\n\\udcff"}
+    assert set(found.motions) == {("st\\nraight", "brush")}
+    assert (found.study, found.status) == ("\\ud800\\n", "\\x1b")
+    for name in (*found.curves, *models, found.study):
+        assert name.isprintable()
+        assert name.encode("utf-8")
+    assert found.left_out == ()
+
+
+def test_links_out_of_the_folder_are_not_followed(tmp_path: Path) -> None:
+    outside, path = tmp_path / "outside", tmp_path / "report"
+    outside.mkdir()
+    path.mkdir()
+    write_small_report(path)
+    curve = (path / "curves" / "fe_phi000.csv").read_text(encoding="utf-8")
+    (outside / "secret.csv").write_text(curve, encoding="utf-8")
+    (path / "curves" / "out.csv").symlink_to(outside / "secret.csv")
+    (path / "curves" / "up.csv").symlink_to(Path("..") / ".." / "outside" / "secret.csv")
+    (path / "curves" / "round.csv").symlink_to("round.csv")
+    (path / "curves" / "nowhere.csv").symlink_to("missing")
+    (path / "curves" / "folder.csv").mkdir()
+    os.mkfifo(path / "curves" / "pipe.csv")
+    (path / "curves" / "within.csv").symlink_to("fe_phi000.csv")
+    (path / "series").rename(outside / "series")
+    (path / "series").symlink_to(outside / "series")
+    (path / "summary.json").rename(outside / "summary.json")
+    (path / "summary.json").symlink_to(outside / "summary.json")
+    (tmp_path / "link").symlink_to(path)  # the folder itself may be reached by one
+    found = read_folder(tmp_path / "link")
+    assert "within" in found.curves
+    assert set(found.curves) == {"fe_phi000", "fe_phi030", "fe_average", "within"}
+    assert (found.study, dict(found.series)) == ("", {})
+    left = ("folder.csv", "nowhere.csv", "out.csv", "pipe.csv", "round.csv", "up.csv")
+    assert set(found.left_out) == {*(f"curves/{name}" for name in left), "series/straight_brush.csv", "summary.json"}

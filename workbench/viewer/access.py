@@ -1,7 +1,7 @@
 """Who may look: the page answers the one browser that was given the address, and no page of another site.
 
 The address holds a token, new at each start; the first visit exchanges it for a cookie, so that reloading and further
-windows do without. Verified by tests/end_to_end/test_view_access.py.
+windows do without. Verified by tests/unit/test_viewer_access.py and tests/end_to_end/test_view_safety.py.
 """
 
 from __future__ import annotations

@@ -84,7 +84,7 @@ def read_folder(path: Path) -> ReportFolder:
         raise InputError("report folder", path, "is not a folder" if path.exists() else "does not exist", _HINT)
     inside = _Inside(path)
     summary = path / "summary.json"
-    study, status = _summary(summary) if inside.has(summary) else ("", "")
+    study, status = _summary(summary) if next(inside.files("", summary.name), None) else ("", "")
     motions = {_named(one): one for one in inside.files(MOTIONS_FOLDER, "*_*.npz")}
     series = {_named(one): one for one in inside.files(SERIES_FOLDER, "*.csv") if is_ours(one.name)}
     fields, points = inside.matches("fields", _FIELDS, ".vtu"), inside.matches("fields", _POINTS, "_points.npz")
@@ -132,7 +132,7 @@ class _Inside:
             if self.has(path):
                 yield path
             else:
-                self.left_out.append(plain(f"{folder}/{path.name}"))
+                self.left_out.append(plain(str(path.relative_to(self.root))))
 
     def matches(self, folder: str, pattern: re.Pattern[str], ending: str) -> Iterator[tuple[Path, re.Match[str]]]:
         """Those whose name matches as a whole."""

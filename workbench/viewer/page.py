@@ -13,9 +13,10 @@ from trame.app import get_server  # type: ignore[import-untyped]
 from trame.ui.html import DivLayout  # type: ignore[import-untyped]
 from trame.widgets import vtk  # type: ignore[import-untyped]
 
+from workbench.viewer.first_state import first_state
 from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
-from workbench.viewer.session import Session, initial_state
+from workbench.viewer.session import Session
 from workbench.viewer.window import Window
 
 __all__ = ["open_page"]
@@ -45,7 +46,7 @@ async def open_page(results: Results, secret: str, number: int) -> Window:
     scripts, styles = ["plotly/plotly.min.js", "workbench/viewer.js"], ["workbench/viewer.css"]
     server.enable_module({"serve": static, "scripts": scripts, "styles": styles, "vue_use": ["workbench"]})
     state, scene = server.state, Scene()
-    state.update(initial_state(results.folder))
+    state.update(first_state(results.folder))
     state.trame__title = f"{state.study} - wheel workbench"
     state.trame__favicon = ""
     with DivLayout(server) as layout:

@@ -1,6 +1,6 @@
 """What a page may ask of its session, checked before anything is done: a browser sends what it likes.
 
-Verified by tests/unit/test_viewer_requests.py and tests/end_to_end/test_view_nonsense.py.
+Verified by tests/unit/test_viewer_requests.py and tests/end_to_end/test_view_safety.py.
 """
 
 from __future__ import annotations
@@ -41,7 +41,8 @@ class Request:
 
 def read_request(message: bytes) -> Request:
     """A message as wslink's client sends it, in one piece; raises Refused."""
-    if len(message) > LONGEST or message[4:8] != bytes(4) or message[8:12] != (len(message) - 12).to_bytes(4, "little"):
+    place, size = int.from_bytes(message[4:8], "little"), int.from_bytes(message[8:_HEADER], "little")
+    if not _HEADER < len(message) <= LONGEST or place != 0 or size != len(message) - _HEADER:
         raise Refused("a message is one piece of at most 4 MB")
     try:
         call = msgpack.unpackb(message[_HEADER:])

@@ -18,13 +18,14 @@ import numpy as np
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.viewer.charts import curves_chart, quantities, series_chart
-from workbench.viewer.folder import ReportFolder, spoken
+from workbench.viewer.first_state import first_state
+from workbench.viewer.folder import spoken
 from workbench.viewer.names import plain
 from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
 from workbench.viewer.stages import QUANTITIES, RoverStage, WheelStage
 
-__all__ = ["SPEEDS", "Session", "initial_state"]
+__all__ = ["SPEEDS", "Session"]
 
 _LOAD_SHOWN = 0.9
 """Longest time a load is shown while they are played [s]."""
@@ -36,46 +37,6 @@ _MOST_OWN = 50
 """Curves that a window may be given."""
 SPEEDS = (0.1, 0.5, 1, 2, 5, 10)
 """At which a rover may be played, those of ``page.html``."""
-
-
-def initial_state(folder: ReportFolder) -> dict[str, Any]:
-    """Every key of the page, with nothing chosen yet but the curves that average a model."""
-    models = sorted({one.model for one in folder.fields}, key=lambda name: (name != "fe", name))
-    averages = [n for n in ("fe_average", "ancf_average", "brush_average") if n in folder.curves]
-    scenarios = list(dict.fromkeys(scenario for scenario, _ in folder.motions))
-    first = "straight" if "straight" in scenarios else next(iter(scenarios), "")
-    return {
-        "study": folder.study or plain(folder.path.name),
-        "verdict": folder.status,
-        "tab": "wheel" if models or not scenarios else "rover",
-        "models": [{"value": name, "text": spoken(name)} for name in models],
-        "model": models[0] if models else "",
-        "orientations": [],
-        "orientation": 0.0,
-        "loads": [],
-        "load": 0,
-        "quantity": "stress",
-        "scenarios": scenarios,
-        "scenario": first,
-        "tires": [],
-        "tire": "",
-        "rover_title": "",
-        "series": "load_N",
-        "series_choices": {},
-        "curves": [{"value": name, "text": spoken(name)} for name in sorted(folder.curves, key=_rank)],
-        "chosen": averages or list(folder.curves)[:3],
-        "probe": None,
-        "message": "",
-        "caption": "",
-        "bar": None,
-        "last_frame": 0,
-        "frame": 0,
-        "moment": "",
-        "playing": False,
-        "speed": 1,
-        "figure": None,
-        "cursor": None,
-    }
 
 
 class Session:
@@ -104,7 +65,7 @@ class Session:
         self.wheel = self.rover = None
         self.scene.mark(None, 0.0)
         with self.state:
-            self.state.update(initial_state(self.folder))
+            self.state.update(first_state(self.folder))
         with self.state:
             self.open()
 
@@ -294,13 +255,6 @@ class Session:
         times = self.rover.times
         moment = times[first] + elapsed * float(self.state.speed)
         return int(np.clip(np.searchsorted(times, moment), self.state.frame + 1, len(times) - 1))
-
-
-def _rank(name: str) -> tuple[bool, int, str]:
-    """Averages first, then FE, ANCF and the rest."""
-    models = ("fe", "ancf", "brush", "section")
-    model = name.split("_")[0]
-    return not name.endswith("_average"), models.index(model) if model in models else len(models), name
 
 
 def _millimetres(vector: Any) -> str:

@@ -1,6 +1,6 @@
 """What is answered at the page's address: its files, and a connection for each window.
 
-Verified by tests/end_to_end/test_view_access.py.
+Verified by tests/end_to_end/test_view_safety.py.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def _guard(access: Access) -> Any:
     @web.middleware
     async def ours(request: web.Request, handler: _Handler) -> web.StreamResponse:
         """Nothing for another site's script, and nothing without a key."""
-        if not access.asked_of_us(request.host, request.headers.get("Origin")):
+        if not access.asked_of_us(request.headers.get("Host", ""), request.headers.get("Origin")):
             raise web.HTTPForbidden(text="this page is for its own machine only")
         if request.path == "/" and access.opens(request.query.get("token", "")):
             answer = web.Response(text=entry_page(), content_type="text/html")

@@ -1,6 +1,6 @@
 """One browser window: its connection is read, what makes sense is done by its own session, the rest answered in words.
 
-Verified by tests/end_to_end/test_view.py and tests/end_to_end/test_view_nonsense.py.
+Verified by tests/end_to_end/test_view.py and tests/end_to_end/test_view_safety.py.
 """
 
 from __future__ import annotations

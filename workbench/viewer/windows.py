@@ -1,6 +1,6 @@
 """Windows that are open, each with a page of its own, and pages that wait for the next.
 
-Verified by tests/end_to_end/test_view_windows.py.
+Verified by tests/end_to_end/test_view_safety.py.
 """
 
 from __future__ import annotations

@@ -1,0 +1,60 @@
+"""What the page's state is before anything is chosen; its keys are those of ``page.html``.
+
+Verified by tests/end_to_end/test_view.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from workbench.viewer.folder import ReportFolder, spoken
+from workbench.viewer.names import plain
+
+__all__ = ["first_state"]
+
+
+def first_state(folder: ReportFolder) -> dict[str, Any]:
+    """Every key of the page, with nothing chosen yet but the curves that average a model."""
+    models = sorted({one.model for one in folder.fields}, key=lambda name: (name != "fe", name))
+    averages = [n for n in ("fe_average", "ancf_average", "brush_average") if n in folder.curves]
+    scenarios = list(dict.fromkeys(scenario for scenario, _ in folder.motions))
+    first = "straight" if "straight" in scenarios else next(iter(scenarios), "")
+    return {
+        "study": folder.study or plain(folder.path.name),
+        "verdict": folder.status,
+        "tab": "wheel" if models or not scenarios else "rover",
+        "models": [{"value": name, "text": spoken(name)} for name in models],
+        "model": models[0] if models else "",
+        "orientations": [],
+        "orientation": 0.0,
+        "loads": [],
+        "load": 0,
+        "quantity": "stress",
+        "scenarios": scenarios,
+        "scenario": first,
+        "tires": [],
+        "tire": "",
+        "rover_title": "",
+        "series": "load_N",
+        "series_choices": {},
+        "curves": [{"value": name, "text": spoken(name)} for name in sorted(folder.curves, key=_rank)],
+        "chosen": averages or list(folder.curves)[:3],
+        "probe": None,
+        "message": "",
+        "caption": "",
+        "bar": None,
+        "last_frame": 0,
+        "frame": 0,
+        "moment": "",
+        "playing": False,
+        "speed": 1,
+        "figure": None,
+        "cursor": None,
+    }
+
+
+def _rank(name: str) -> tuple[bool, int, str]:
+    """Averages first, then FE, ANCF and the rest."""
+    models = ("fe", "ancf", "brush", "section")
+    model = name.split("_")[0]
+    return not name.endswith("_average"), models.index(model) if model in models else len(models), name
