@@ -168,9 +168,8 @@ def test_what_a_killed_run_left_goes_and_what_only_looks_like_it_stays(tmp_path:
 def test_an_error_while_filling_leaves_all_as_it_was(tmp_path: Path) -> None:
     publish(tmp_path, {"c/a.csv": "1", "page": "1"})
     before = sorted(p.name for p in tmp_path.rglob("*"))
-    with pytest.raises(RuntimeError), new_files(tmp_path, "test", ["c/a.csv", "page"], whole_set=True) as new:
-        (new.folder / "c" / "a.csv").write_text("2", encoding="utf-8")
-        raise RuntimeError
+    with pytest.raises(FileNotFoundError), new_files(tmp_path, "test", ["c/a.csv", "page"], whole_set=True) as new:
+        (new.folder / "c" / "a.csv").write_text("2", encoding="utf-8")  # and no page
     assert sorted(p.name for p in tmp_path.rglob("*")) == before
     assert _texts(tmp_path) == {"c/a.csv": "1", "page": "1"}
 
