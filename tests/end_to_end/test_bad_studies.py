@@ -42,7 +42,7 @@ def earlier(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "report/summary.json",
         "report/report.html",
         "report/curves/fe_phi000.csv",
-        "store/ab/x/manifest.json",
+        f"store/ab/{'ab' * 32}/manifest.json",
     ):
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)

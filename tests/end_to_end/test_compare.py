@@ -62,7 +62,7 @@ def test_pages_and_numbers(files: tuple[Path, Path], tmp_path: Path) -> None:
     out = tmp_path / "out put"
     ended = run("compare", *files, "--tolerance", "5 %", "--uncertainty", "1 %", "--out", out)
     assert ended.returncode == 1, ended.stderr
-    assert sorted(p.name for p in out.iterdir()) == ["compare.csv", "compare.html", "compare.json", "compare.png"]
+    assert sorted(p.name for p in out.glob("[!.]*")) == ["compare.csv", "compare.html", "compare.json", "compare.png"]
     found = json.loads((out / "compare.json").read_text(encoding="utf-8"))
     assert found["reference"] == {"name": "Prüfstand", "source": "lab B"}
     assert found["judgement"]["outcome"] == "failed"

@@ -61,7 +61,7 @@ def test_a_full_disk_under_the_store(tmp_path: Path) -> None:
     study.write_text(small_study_text(), encoding="utf-8")
     store = tmp_path / "store"
     arguments = command("stiffness", study, "--model", "brush", "--out", tmp_path / "o", "--store", store)
-    fill = 'head -c 300000 /dev/zero > "$1/filler" 2>/dev/null || true;'
+    fill = 'touch "$1/.workbench-store"; head -c 300000 /dev/zero > "$1/filler" 2>/dev/null || true;'
     _refused(_on("rw", store, arguments, before=fill), "No space left on device")
     assert not (tmp_path / "o").exists()
 

@@ -18,6 +18,7 @@ import pytest
 from contracts.curves import read_curve
 from tests.end_to_end.small_study import run, small_study_text
 from workbench.execution.fingerprint import file_sha256
+from workbench.execution.integrity import sealed, unsealed
 from workbench.execution.result_files import FAILURE, read_result
 from workbench.tasks.fe import solve_orientation
 
@@ -42,7 +43,8 @@ def _statuses(summary: dict[str, Any]) -> dict[str, str]:
 
 def _fail(entry: Path) -> None:
     """Put the result of a solve that truly fails into the place of a stored one."""
-    record = json.loads((entry / "manifest.json").read_text(encoding="utf-8"))
+    record = unsealed((entry / "manifest.json").read_text(encoding="utf-8"))
+    assert record is not None
     for name in record["files"]:
         (entry / name).unlink()
     mesh = next(p for p in entry.parents[1].glob(f"??/{record['needs']['mesh']}"))
@@ -50,7 +52,7 @@ def _fail(entry: Path) -> None:
     solve_orientation(inputs, {"mesh": mesh}, entry, lambda fraction: None)
     kept = [p for p in entry.iterdir() if p.name != "manifest.json"]
     record |= {"files": {p.name: file_sha256(p) for p in kept}, "sizes": {p.name: p.stat().st_size for p in kept}}
-    (entry / "manifest.json").write_text(json.dumps(record), encoding="utf-8")
+    (entry / "manifest.json").write_text(sealed(record), encoding="utf-8")
 
 
 @pytest.fixture(scope="module")

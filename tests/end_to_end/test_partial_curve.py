@@ -25,6 +25,7 @@ from reference_fe.verification.structured_hexahedra import block_mesh
 from tests.end_to_end.small_study import run
 from tests.unit.test_workbench_runner import Recorder
 from workbench.execution.fingerprint import file_sha256
+from workbench.execution.integrity import sealed, unsealed
 from workbench.execution.result_files import FAILURE, read_result, write_result
 from workbench.execution.runner import run_tasks
 from workbench.execution.store import Store
@@ -107,7 +108,8 @@ def cut_off(workspace: Path, first_report: Finished, tmp_path_factory: pytest.Te
     folder = tmp_path_factory.mktemp("cut")
     shutil.copytree(workspace / "store", folder / "store")
     for manifest in (folder / "store").glob("??/*/manifest.json"):
-        record = json.loads(manifest.read_text(encoding="utf-8"))
+        record = unsealed(manifest.read_text(encoding="utf-8"))
+        assert record is not None
         if record["task"] in ("metrics", "pictures"):
             shutil.rmtree(manifest.parent)
         if record["task"] == "fe_phi000":
@@ -125,7 +127,7 @@ def _cut(entry: Path, record: dict[str, object]) -> None:
     assert isinstance(names, dict)
     record["files"] = {name: file_sha256(entry / name) for name in names}
     record["sizes"] = {name: (entry / name).stat().st_size for name in names}
-    (entry / "manifest.json").write_text(json.dumps(record), encoding="utf-8")
+    (entry / "manifest.json").write_text(sealed(record), encoding="utf-8")
 
 
 def test_the_report_is_written_and_then_complains(cut_off: tuple[Finished, Path]) -> None:

@@ -1,0 +1,175 @@
+"""A store is a folder of its own: others are refused untouched, foreign files in one stay, clocks may be wrong."""
+
+from __future__ import annotations
+
+import os
+import socket
+import time
+from pathlib import Path
+
+import pytest
+
+from contracts.errors import InputError
+from workbench.execution.fingerprint import text_sha256
+from workbench.execution.inventory import leftovers, results
+from workbench.execution.live_runs import announce
+from workbench.execution.pruning import Rule, prune
+from workbench.execution.store import Store
+from workbench.execution.store_folder import MARKER, holds_a_store
+
+KEY = text_sha256("a task")
+DAY = 86400.0
+FOREIGN = (
+    "checkpoints/model.pt",
+    f"checkpoints/{KEY}.pt",
+    f"checkpoints/x{KEY}.npz",
+    f"checkpoints/{KEY}.npz.bak",
+    "checkpoints/old/model.npz",
+    "tmp/mine/notes.txt",
+    "tmp/host-1-zzzzzzzz/notes.txt",
+    "tmp/notes-1-01234567",
+    "log/server.log",
+    "log/run-1.log/notes.txt",
+    "runs/settings.json",
+    "runs/host-1.json",
+    "claims/notes.txt",
+    "ab/notes.txt",
+    f"ab/{KEY}/notes.txt",
+    "notes.txt",
+    "kept/notes.txt",
+)
+
+
+def _filled(root: Path) -> Store:
+    store = Store(root)
+    folder = store.scratch()
+    (folder / "a.txt").write_text("result", encoding="utf-8")
+    store.put(KEY, folder, {"task": "t", "wall_s": 1.0})
+    return store
+
+
+def _write(path: Path, text: str = "mine", days: float = 60.0) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    for one in (path, path.parent):
+        os.utime(one, (time.time() - days * DAY,) * 2)
+
+
+def _texts(root: Path) -> dict[str, str]:
+    return {p.relative_to(root).as_posix(): p.read_text(encoding="utf-8") for p in root.rglob("*") if p.is_file()}
+
+
+@pytest.mark.parametrize(
+    "name", ["checkpoints/model.pt", "notes.txt", "tmp/a", "ab/notes.txt", ".hidden", "log/server.log", "src/main.c"]
+)
+def test_a_folder_of_something_else_is_refused_untouched(tmp_path: Path, name: str) -> None:
+    for empty in ("tmp", "log", "checkpoints"):
+        (tmp_path / empty).mkdir()
+    _write(tmp_path / name)
+    before = sorted(tmp_path.rglob("*"))
+    assert not holds_a_store(tmp_path)
+    with pytest.raises(InputError, match=rf"is not empty, and {name.partition('/')[0]} in it is not of a store; give"):
+        Store(tmp_path)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_new_empty_and_half_made_folders_become_stores(tmp_path: Path) -> None:
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "half" / "tmp").mkdir(parents=True)
+    (tmp_path / "marked").mkdir()
+    (tmp_path / "marked" / MARKER).touch()
+    for name in ("new/deep", "empty", "half", "marked"):
+        assert Store(tmp_path / name).writable
+        assert (tmp_path / name / MARKER).is_file()
+    assert not holds_a_store(tmp_path / "nowhere")
+
+
+@pytest.mark.parametrize("foreign", [(), ("notes.txt", "checkpoints/model.pt")])
+def test_a_store_of_an_earlier_version_is_recognised_and_marked(tmp_path: Path, foreign: tuple[str, ...]) -> None:
+    store = _filled(tmp_path)
+    announce(tmp_path, [KEY])
+    (tmp_path / "claims").mkdir()
+    (tmp_path / "claims" / KEY).touch()
+    (tmp_path / "log" / "run-12.log").touch()
+    (tmp_path / MARKER).unlink()
+    for name in foreign:
+        _write(tmp_path / name)
+    assert holds_a_store(tmp_path)
+    assert Store(tmp_path).get(KEY) is not None
+    assert (tmp_path / MARKER).is_file()
+    assert all((tmp_path / name).is_file() for name in foreign)
+    assert store.fault(KEY) == ""
+
+
+def test_foreign_files_in_a_store_stay(tmp_path: Path) -> None:
+    """Sixty days old, in every folder: a run leaves them, and so does pruning everything; the store goes on working."""
+    store = _filled(tmp_path)
+    for name in FOREIGN:
+        path = name.replace("ab/", f"{KEY[:2]}/")
+        _write(tmp_path / path)
+    store.sweep()
+    store._forget(KEY)
+    found = prune(store, Rule(larger_than=0.0), dry_run=True)
+    assert [one.name for one in found.removed] == [KEY]
+    prune(store, Rule(larger_than=0.0))
+    texts = _texts(tmp_path)
+    moved = f"{KEY[:2]}/{KEY}/notes.txt"
+    for name in FOREIGN:
+        path = name.replace("ab/", f"{KEY[:2]}/")
+        assert path == moved or texts[path] == "mine", path
+    (kept,) = [name for name in texts if name.startswith(f"kept/{KEY}")]
+    assert texts[kept] == "mine"
+    assert results(store) == []
+    assert leftovers(store) == []
+    _filled(tmp_path)
+    assert store.get(KEY) is not None
+
+
+def test_what_others_put_into_a_damaged_result_is_kept(tmp_path: Path) -> None:
+    store = _filled(tmp_path)
+    _write(store.folder(KEY) / "notes.txt")
+    _write(store.folder(KEY) / "a.txt", "damaged")
+    _filled(tmp_path)
+    assert store.fault(KEY) == ""
+    assert [text for name, text in _texts(tmp_path).items() if name.startswith("kept/")] == ["mine"]
+
+
+@pytest.mark.parametrize("days", [-4000.0, -1.0, 0.0, 400.0, 20000.0])
+def test_a_clock_that_was_changed_removes_nothing(tmp_path: Path, days: float) -> None:
+    """Files from the future, or older than they can be: a run removes none of them, ages stay ages."""
+    store = _filled(tmp_path)
+    checkpoint, half = store.checkpoint("0" * 64), tmp_path / "checkpoints" / f".{'0' * 64}-host-1.npz"
+    for path in (checkpoint, half):
+        _write(path, "half", days)
+    for path in (store.folder(KEY) / "a.txt", store.folder(KEY) / "manifest.json", store.folder(KEY)):
+        os.utime(path, (time.time() - days * DAY,) * 2)
+    again = Store(tmp_path)
+    again.sweep()
+    assert checkpoint.exists()
+    assert half.exists()
+    assert again.get(KEY) is not None
+    if days < 0.0:
+        prune(again, Rule(older_than=0.0, task="nothing"))
+        prune(again, Rule(older_than=DAY))
+        assert checkpoint.exists()
+        assert again.get(KEY) is not None
+
+
+def test_a_result_stored_by_a_clock_ahead_is_used_and_listed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ahead = time.time() + 5000 * DAY
+    with monkeypatch.context() as patch:
+        patch.setattr(time, "time", lambda: ahead)
+        store = _filled(tmp_path)
+    assert store.get(KEY) is not None
+    (kept,) = results(store, check=True)
+    assert kept.fault == ""
+    assert kept.stored_at == ahead
+    assert prune(store, Rule(older_than=0.0)).removed == ()
+
+
+def test_a_killed_run_s_scratch_goes_whatever_the_clock_says(tmp_path: Path) -> None:
+    store = _filled(tmp_path)
+    dead = tmp_path / "tmp" / f"{socket.gethostname()}-99999999-0123abcd"
+    _write(dead / "half.txt", days=-4000.0)
+    store.sweep()
+    assert not dead.exists()
