@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated
 
@@ -27,6 +28,7 @@ from workbench.commands.options import (
     computing,
 )
 from workbench.commands.results_app import results_app
+from workbench.execution.disk import OUT, STORE, disk_full
 from workbench.execution.interrupts import came, hear_no_more, interrupt_safely
 
 __all__ = ["app", "main"]
@@ -279,12 +281,23 @@ def _ended(arguments: list[str]) -> tuple[int, str]:
     except WorkbenchError as error:
         return 2, str(error)
     except OSError as error:
-        return 2, f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights"
+        other = f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights"
+        return 2, disk_full(error, _places(arguments)) or other
     except Exception as error:
         if os.environ.get("WORKBENCH_TRACEBACK"):
             raise
         text = f"{type(error).__name__}: {error}; this is a defect of the workbench, please report it"
         return 2, f"{text} (set WORKBENCH_TRACEBACK=1 to see where)"
+
+
+def _places(arguments: list[str]) -> dict[str, Path]:
+    """Where the command writes to by its arguments, to name the disk that is full."""
+    found = {OUT: Path("build"), STORE: Path(os.environ.get("WORKBENCH_STORE") or DEFAULT_STORE)}
+    for name, following in pairwise([*arguments, ""]):
+        option, _, joined = name.partition("=")
+        if option in ("--out", "--store") and (joined or following):
+            found[OUT if option == "--out" else STORE] = Path(joined or following)
+    return found
 
 
 def _complain(message: str) -> int:

@@ -73,11 +73,14 @@ class Checkpoint:
         for folder, part in {"recorded": recorded, **{f"process{i}": s for i, s in enumerate(states)}}.items():
             arrays |= {f"{folder}/{name}": value for name, value in part.items()}
         fresh = self.path.with_name(f".{self.path.stem}-{socket.gethostname()}-{os.getpid()}.npz")
-        with fresh.open("wb") as stream:
-            np.savez(stream, allow_pickle=False, **arrays)
-            stream.flush()
-            os.fsync(stream.fileno())
-        fresh.replace(self.path)
+        try:
+            with fresh.open("wb") as stream:
+                np.savez(stream, allow_pickle=False, **arrays)
+                stream.flush()
+                os.fsync(stream.fileno())
+            fresh.replace(self.path)
+        finally:
+            fresh.unlink(missing_ok=True)  # half of it, where the disk is full
 
     def discard(self) -> None:
         """Remove the file: the run has ended."""

@@ -57,11 +57,14 @@ class MotionCheckpoint:
         """Keep these; the last file stays whole until this one is."""
         self.path.parent.mkdir(parents=True, exist_ok=True)
         fresh = self.path.with_name(f".{self.path.stem}-{os.getpid()}.npz")
-        with fresh.open("wb") as stream:
-            np.savez(stream, allow_pickle=False, key=np.array(self.key), **arrays)
-            stream.flush()
-            os.fsync(stream.fileno())
-        fresh.replace(self.path)
+        try:
+            with fresh.open("wb") as stream:
+                np.savez(stream, allow_pickle=False, key=np.array(self.key), **arrays)
+                stream.flush()
+                os.fsync(stream.fileno())
+            fresh.replace(self.path)
+        finally:
+            fresh.unlink(missing_ok=True)  # half of it, where the disk is full
 
     def discard(self) -> None:
         """Remove the file: the motion has ended."""

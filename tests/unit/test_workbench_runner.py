@@ -199,7 +199,10 @@ def test_what_stands_before_a_slash_is_no_part_of_a_key(tmp_path: Path) -> None:
     [
         ("refuse", r"task bad failed: load = -1 N: must be > 0; press harder"),
         ("crash", r"task bad failed: unexpected ZeroDivisionError: by zero; the traceback is in .*\.log"),
-        ("die", r"worker of task bad ended with signal 9 \(SIGKILL\) from outside.*, 3 times; finished results are kept"),
+        (
+            "die",
+            r"worker of task bad ended with signal 9 \(SIGKILL\) from outside.*, 3 times; finished results are kept",
+        ),
     ],
 )
 def test_a_failure_is_one_message_and_keeps_finished_results(
