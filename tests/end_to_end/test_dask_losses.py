@@ -189,9 +189,8 @@ def test_a_scheduler_that_stands_still(cluster: Cluster, tmp_path: Path, noticed
 def test_what_does_not_come_back_ends_the_run_with_one_message(
     cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, who: str, message: str
 ) -> None:
-    monkeypatch.setattr(dask_workers, "PATIENCE", 2.0)
-
     def disturb(recorder: Recorder) -> None:
+        monkeypatch.setattr(dask_workers, "PATIENCE", 2.0)
         os.kill((cluster.scheduler if who == "scheduler" else cluster.workers[0]).pid, signal.SIGKILL)
 
     with pytest.raises(RunError, match=message):

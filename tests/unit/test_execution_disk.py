@@ -48,6 +48,11 @@ def test_an_error_that_names_its_file_is_about_that_disk(places: dict[str, Path]
     assert "choose another with --out" in text
 
 
+def test_of_a_copy_the_target_counts(places: dict[str, Path]) -> None:
+    error = OSError(errno.ENOSPC, "No space left on device", str(places[STORE] / "a"), None, str(places[OUT] / "a"))
+    assert f"the output folder {places[OUT]}" in disk_full(error, places)
+
+
 def test_an_error_that_names_none_is_about_the_place_with_the_least_room(places: dict[str, Path]) -> None:
     text = disk_full(_full(), places)
     assert f"the result store {places[STORE]} (0 bytes of 5 MB free); make room, or choose another with --store" in text
