@@ -28,7 +28,6 @@ from workbench.commands.options import (
     computing,
 )
 from workbench.commands.results_app import results_app
-from workbench.execution.disk import OUT, STORE, disk_full
 from workbench.execution.interrupts import came, hear_no_more, interrupt_safely
 
 __all__ = ["app", "main"]
@@ -282,7 +281,7 @@ def _ended(arguments: list[str]) -> tuple[int, str]:
         return 2, str(error)
     except OSError as error:
         other = f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights"
-        return 2, disk_full(error, _places(arguments)) or other
+        return 2, _full_disk(error, arguments) or other
     except Exception as error:
         if os.environ.get("WORKBENCH_TRACEBACK"):
             raise
@@ -290,14 +289,16 @@ def _ended(arguments: list[str]) -> tuple[int, str]:
         return 2, f"{text} (set WORKBENCH_TRACEBACK=1 to see where)"
 
 
-def _places(arguments: list[str]) -> dict[str, Path]:
-    """Where the command writes to by its arguments, to name the disk that is full."""
+def _full_disk(error: OSError, arguments: list[str]) -> str:
+    """Which disk is full, of those the command writes to by its arguments; ``""`` if the error is another."""
+    from workbench.execution.disk import OUT, STORE, disk_full
+
     found = {OUT: Path("build"), STORE: Path(os.environ.get("WORKBENCH_STORE") or DEFAULT_STORE)}
     for name, following in pairwise([*arguments, ""]):
         option, _, joined = name.partition("=")
         if option in ("--out", "--store") and (joined or following):
             found[OUT if option == "--out" else STORE] = Path(joined or following)
-    return found
+    return disk_full(error, found)
 
 
 def _complain(message: str) -> int:
