@@ -11,6 +11,7 @@ import numpy as np
 
 from contracts.mesh import TaggedMesh
 from geometry.gmsh_session import gmsh_session
+from geometry.written import check_written
 
 __all__ = ["write_msh"]
 
@@ -24,6 +25,11 @@ def write_msh(mesh: TaggedMesh, path: Path) -> None:
     ----------
     mesh : the mesh
     path : file to write (``.msh``); its folder is made if needed
+
+    Raises
+    ------
+    OSError
+        If the disk is full; gmsh itself would leave a file cut off, and not say so.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     groups = [(2, tag, name, mesh.facets[mesh.facet_tags == tag]) for name, tag in mesh.faces.items()] + [
@@ -42,3 +48,4 @@ def write_msh(mesh: TaggedMesh, path: Path) -> None:
             first += len(nodes)
         gmsh.model.mesh.reclassifyNodes()
         gmsh.write(str(path))
+    check_written(path, b"$EndElements")

@@ -19,6 +19,7 @@ from geometry.resolution import MeshSize, Ring, cone_joints, hub_ring, part_band
 from geometry.section import build_section
 from geometry.solids import draw_faces, draw_frustum_section
 from geometry.wheel import WheelDesign
+from geometry.written import check_written
 
 __all__ = ["in_metres", "write_named", "write_step"]
 
@@ -49,6 +50,7 @@ def write_named(gmsh: Any, path: Path, names: list[str]) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     with in_metres(gmsh), _silenced_stdout():
         gmsh.write(str(path))
+    check_written(path, b"END-ISO-10303-21;")
     text = path.read_text(encoding="utf-8")
     path.write_text(_PRODUCT.sub(lambda m: _named(m, names), text), encoding="utf-8")
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated
 
@@ -288,12 +289,25 @@ def _ended(arguments: list[str]) -> tuple[int, str]:
     except WorkbenchError as error:
         return 2, str(error)
     except OSError as error:
-        return 2, f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights"
+        other = f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights"
+        return 2, _full_disk(error, arguments) or other
     except Exception as error:
         if os.environ.get("WORKBENCH_TRACEBACK"):
             raise
         text = f"{type(error).__name__}: {error}; this is a defect of the workbench, please report it"
         return 2, f"{text} (set WORKBENCH_TRACEBACK=1 to see where)"
+
+
+def _full_disk(error: OSError, arguments: list[str]) -> str:
+    """Which disk is full, of those the command writes to by its arguments; ``""`` if the error is another."""
+    from workbench.execution.disk import OUT, STORE, disk_full
+
+    found = {OUT: Path("build"), STORE: Path(os.environ.get("WORKBENCH_STORE") or DEFAULT_STORE)}
+    for name, following in pairwise([*arguments, ""]):
+        option, _, joined = name.partition("=")
+        if option in ("--out", "--store") and (joined or following):
+            found[OUT if option == "--out" else STORE] = Path(joined or following)
+    return disk_full(error, found)
 
 
 def _complain(message: str) -> int:

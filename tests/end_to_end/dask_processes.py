@@ -48,10 +48,18 @@ class Cluster:
         self.address = f"tcp://{_LOOPBACK}:{self.port}"
         self.workers: list[subprocess.Popen[bytes]] = []
         self.scheduler = self._started_scheduler()
+        wait_for(self._answers, "the scheduler")
 
     def start_scheduler(self) -> None:
         """Another scheduler in the place of the one that was killed."""
+        self.scheduler.wait(HANGING)
         self.scheduler = self._started_scheduler()
+
+    def _answers(self) -> bool:
+        with suppress(OSError):
+            socket.create_connection((_LOOPBACK, self.port)).close()
+            return True
+        return False
 
     def add_worker(self) -> subprocess.Popen[bytes]:
         """One more worker."""

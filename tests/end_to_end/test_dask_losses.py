@@ -48,7 +48,7 @@ def noticed(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
 
     monkeypatch.setattr(DaskWorkers, "_connect_again", connect_again)
     monkeypatch.setattr(dask_workers, "_LOOK_EVERY", 0.5)
-    monkeypatch.setattr(dask_workers, "_ANSWER", 5.0)
+    monkeypatch.setattr(dask_workers, "_ANSWER", 10.0)
     return event
 
 
@@ -66,12 +66,13 @@ def _last(common: dict[str, str]) -> Task:
 
 def _run(folder: Path, address: str, disturb: Callable[[Recorder], None]) -> dict[str, Entry]:
     """Run the tasks, while the disturbance comes as soon as the task behind the gate runs; it opens the gate."""
-    recorder, failed = Recorder(), list[BaseException]()
+    recorder, failed, ended = Recorder(), list[BaseException](), threading.Event()
 
     def watch() -> None:
         try:
-            wait_for(lambda: "g" in _begun(folder), "the task behind the gate")
-            disturb(recorder)
+            wait_for(lambda: "g" in _begun(folder) or ended.is_set(), "the task behind the gate")
+            if not ended.is_set():
+                disturb(recorder)
         except BaseException as error:
             failed.append(error)
         finally:
@@ -80,10 +81,12 @@ def _run(folder: Path, address: str, disturb: Callable[[Recorder], None]) -> dic
     thread = threading.Thread(target=watch)
     thread.start()
     try:
-        return run_tasks(_tasks(folder), Store(folder / "store"), recorder, Computing(scheduler=address))
+        entries = run_tasks(_tasks(folder), Store(folder / "store"), recorder, Computing(scheduler=address))
     finally:
+        ended.set()
         thread.join()
-        assert failed == []
+    assert failed == []
+    return entries
 
 
 def _begun(folder: Path) -> list[str]:
@@ -186,9 +189,8 @@ def test_a_scheduler_that_stands_still(cluster: Cluster, tmp_path: Path, noticed
 def test_what_does_not_come_back_ends_the_run_with_one_message(
     cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, who: str, message: str
 ) -> None:
-    monkeypatch.setattr(dask_workers, "PATIENCE", 2.0)
-
     def disturb(recorder: Recorder) -> None:
+        monkeypatch.setattr(dask_workers, "PATIENCE", 2.0)
         os.kill((cluster.scheduler if who == "scheduler" else cluster.workers[0]).pid, signal.SIGKILL)
 
     with pytest.raises(RunError, match=message):

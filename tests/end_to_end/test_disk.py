@@ -94,3 +94,46 @@ def test_paths_with_blanks_and_letters_of_other_alphabets(tmp_path: Path) -> Non
     ended = run("compare", "é 1.csv", "é 1.csv", "--out", "sortie 1", folder=folder)
     assert (ended.returncode, ended.stderr) == (0, "")
     assert (folder / "sortie 1" / "compare.html").exists()
+
+
+def _small_disk(folder: Path, size: str, arguments: list[str], **more: str) -> subprocess.CompletedProcess[str]:
+    """Run a command with a small file system of its own at a folder."""
+    if os.geteuid() != 0 or subprocess.run(["unshare", "-m", "true"], check=False, capture_output=True).returncode:
+        if os.environ.get("CI") == "true":
+            pytest.fail("mounting needs root and mount namespaces")
+        pytest.skip("mounting a small file system needs root and mount namespaces")
+    folder.mkdir(exist_ok=True)
+    script = 'set -e; mount -t tmpfs -o size="$2" none "$1"; shift 2; exec "$@"'
+    whole = ["unshare", "-m", "bash", "-c", script, "bash", str(folder), size, *arguments]
+    return subprocess.run(whole, env=environment() | more, capture_output=True, text=True, check=False, timeout=900)
+
+
+def test_each_full_disk_is_named(tmp_path: Path) -> None:
+    """The store's, while a worker writes its result or the log; the output's; never said to be a want of memory."""
+    study = tmp_path / "study.toml"
+    study.write_text(small_study_text(), encoding="utf-8")
+    small, roomy = tmp_path / "small", tmp_path / "roomy"
+    on_store = command("mesh", study, "--out", roomy / "out", "--store", small / "store")
+    ended = _small_disk(small, "100k", on_store)
+    _refused(ended, f"the disk mounted at {small}, which holds the result store {small / 'store'}", "of 102 kB free")
+    assert "memory" not in ended.stderr
+    assert "its output is in" not in ended.stderr
+    on_out = command("mesh", study, "--out", small / "out", "--store", roomy / "store")
+    ended = _small_disk(small, "100k", on_out)
+    _refused(ended, f"the disk mounted at {small}, which holds the output folder {small / 'out'}", "--out")
+    again = run(*on_out[3:])
+    assert (again.returncode, again.stderr) == (0, "")
+    assert "0 tasks computed" in again.stdout  # everything was kept
+
+
+def test_full_temporary_files_and_caches(tmp_path: Path) -> None:
+    """A C compiler that can write neither its temporary files nor what it makes: the disk is named, or not needed."""
+    study = tmp_path / "study.toml"
+    study.write_text(small_study_text(), encoding="utf-8")
+    small = tmp_path / "small"
+    for name, told in (("TMPDIR", "temporary files"), ("XDG_CACHE_HOME", "cache")):
+        cache = {"XDG_CACHE_HOME": str(tmp_path / f"cache of {name}")} | {name: str(small)}
+        places = ("--out", tmp_path / "out", "--store", tmp_path / f"store of {name}")
+        ended = _small_disk(small, "4k", command("stiffness", study, *places), **cache)
+        _refused(ended, f"which holds the {told} {small}", f"set {name} to another folder")
+        assert len(list((tmp_path / f"store of {name}").glob("??/*"))) == 1  # the mesh

@@ -8,7 +8,7 @@ from __future__ import annotations
 import socket
 import tempfile
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,12 +17,11 @@ from workbench.execution.fingerprint import library_versions, source_hash
 from workbench.execution.jobs import Done, Failed, Job, Lost, run_job
 from workbench.execution.ranks import run_on_ranks
 
-__all__ = ["TOPIC", "Files", "read_files", "run_remote", "write_files"]
+__all__ = ["Files", "read_files", "run_remote", "write_files"]
 
 type Files = dict[str, bytes]
 """Relative path -> content."""
 
-TOPIC = "workbench-progress"
 _ONE_AT_A_TIME = threading.Lock()
 
 
@@ -33,9 +32,10 @@ def write_files(folder: Path, files: Files) -> None:
         (folder / name).write_bytes(content)
 
 
-def run_remote(job: Job, needs: Mapping[str, Files], token: str) -> tuple[Done | Failed | Lost, Files]:
-    """Run a job on a cluster's worker: its message, and the files it made."""
-    report = _Report(token)
+def run_remote(
+    job: Job, needs: Mapping[str, Files], report: Callable[[float], None]
+) -> tuple[Done | Failed | Lost, Files]:
+    """Run a job on a cluster's worker: its message, and the files it made; ``report`` tells that it began, too."""
     report(0.0)
     different = _differences(job.origin)
     if different:
@@ -62,18 +62,6 @@ def _of_this_machine(message: Done | Failed | Lost) -> Done | Failed | Lost:
     if isinstance(message, Failed) and message.disk_full:
         return Failed(message=f"on {socket.gethostname()}: {message.message}")
     return message
-
-
-class _Report:
-    """Sends a task's progress to whoever listens on the topic."""
-
-    def __init__(self, token: str) -> None:
-        self.token = token
-
-    def __call__(self, fraction: float) -> None:
-        from distributed import get_worker
-
-        get_worker().log_event(TOPIC, (self.token, float(fraction)))
 
 
 def _differences(origin: Mapping[str, Mapping[str, str]]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Workers of a Dask cluster, given by the address of its scheduler.
+"""Workers of a Dask cluster, given by the address of its scheduler. The one module that imports Dask.
 
 Nothing is shared but the network: a job takes along the files it needs and brings its own back, into the local store. A
 worker must have the same source text and libraries; it compares them before it computes. Where it sees the store's
@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.execution.dask_remote import TOPIC, Files, read_files, run_remote, write_files
+from workbench.execution.dask_remote import Files, read_files, run_remote, write_files
 from workbench.execution.disk import disk_full
 from workbench.execution.errors import RunError
 from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
@@ -40,6 +40,7 @@ _LOOK_EVERY = 5.0
 """When nothing was heard for so long, the scheduler is asked whether it is there [s]."""
 _LOSSES = 10
 """How often an attempt may be lost by no fault of its task before it counts as its worker's death."""
+_TOPIC = "workbench-progress"
 
 
 @dataclass(slots=True, kw_only=True)
@@ -126,7 +127,7 @@ class DaskWorkers:
         """A client of the scheduler; raises OSError or ValueError if nobody answers."""
         with warnings.catch_warnings(action="ignore", category=UserWarning):  # versions are compared for each job
             client = self._distributed.Client(self._address, timeout=_ANSWER, set_as_default=False)
-        client.subscribe_topic(TOPIC, self._progressed)
+        client.subscribe_topic(_TOPIC, self._progressed)
         return client
 
     def _leave(self) -> None:
@@ -138,7 +139,7 @@ class DaskWorkers:
         token = f"{job.name}-{job.folder.name}-{self._handed_in}"  # unlike any other on the cluster
         needs = {name: read_files(folder) for name, folder in job.needs.items()}
         with warnings.catch_warnings(action="ignore", category=UserWarning):  # "large graph": meshes are megabytes
-            future = self._client.submit(run_remote, job, needs, token, key=token, pure=False)
+            future = self._client.submit(run_remote, job, needs, _Report(token), key=token, pure=False)
         self._attempts[token] = _Attempt(job=job, future=future, losses=losses)
         future.add_done_callback(self._ended)
 
@@ -232,3 +233,15 @@ def _fetched(job: Job, message: Done | Failed | Lost, files: Files) -> Done | Fa
             raise
         return Failed(message=text, disk_full=True)
     return message
+
+
+class _Report:
+    """Sends a task's progress to whoever listens on the topic."""
+
+    def __init__(self, token: str) -> None:
+        self.token = token
+
+    def __call__(self, fraction: float) -> None:
+        from distributed import get_worker
+
+        get_worker().log_event(_TOPIC, (self.token, float(fraction)))

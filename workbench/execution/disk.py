@@ -74,7 +74,7 @@ def disk_full(error: BaseException, places: Mapping[str, Path] | None = None) ->
 
 def where_full(places: Mapping[str, Path] | None = None) -> str:
     """The disk among the places that has no room left, in words; ``""`` if there is room on each."""
-    full = [disk for disk in _disks(places or {}) if disk.free < _ROOM and disk.free < disk.total]
+    full = [disk for disk in _disks(places or {}) if disk.free < _ROOM and disk.total > 0]
     return f"there is no room on {full[0]}; {_advice(full[0])}" if full else ""
 
 
@@ -107,8 +107,9 @@ def _full_error(error: BaseException | None) -> OSError | None:
 def _blamed(error: OSError, places: Mapping[str, Path]) -> _Disk:
     """The disk an error is about."""
     disks = _disks(places)
-    if isinstance(error.filename, str):
-        named = Path(error.filename).absolute()
+    name = error.filename2 or error.filename  # of a copy, where to
+    if isinstance(name, str):
+        named = Path(name).absolute()
         for disk in disks:
             if named.is_relative_to(disk.path):
                 return disk
