@@ -5,11 +5,10 @@ Verified by tests/end_to_end/test_ci_gate.py.
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 from contracts.errors import InputError
-from contracts.input_file import input_text
+from contracts.foreign_folder import read_json
 from workbench.commands.computing import console
 from workbench.comparison.baseline import SUMMARY, read_baseline
 from workbench.report.outputs import check_folder, copy_files
@@ -19,13 +18,13 @@ __all__ = ["run_accept"]
 
 def run_accept(report: Path, baseline: Path) -> int:
     """Copy the summary of a report whose gates passed; InputError for any other."""
-    source = report / SUMMARY
+    source, hint = report / SUMMARY, "give the folder that workbench report wrote"
     try:
-        content = json.loads(input_text(source, "report"))
+        content = read_json(source, "report", hint)
         study, status = str(content["study"]), content["status"]
-    except (ValueError, KeyError, TypeError):
+    except (KeyError, TypeError):
         rule = "is not there or no summary of a report"
-        raise InputError("report", source, rule, "give the folder that workbench report wrote") from None
+        raise InputError("report", source, rule, hint) from None
     read_baseline(report, study)
     if status != "pass":
         raise InputError("report", f"{source} ({status})", "must have passed its gates", "mend what broke first")

@@ -5,7 +5,6 @@ Verified by tests/unit/test_viewer_folder.py.
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
+from contracts.foreign_folder import read_json, require_inside
 from contracts.series import TimeSeries, read_series
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours
 
@@ -21,6 +21,7 @@ __all__ = ["FieldFile", "ReportFolder", "read_folder", "spoken"]
 _FIELDS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_(?P<load>\d+)N\.vtu")
 _POINTS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_points\.npz")
 _MODELS = {"fe": "FE", "ancf": "ANCF", "brush": "brush", "section": "section"}
+_FOLDERS = ("fields", "curves", SERIES_FOLDER, MOTIONS_FOLDER)
 _HINT = "give the folder that `workbench report --out` wrote, such as build/report"
 
 
@@ -77,6 +78,8 @@ def read_folder(path: Path) -> ReportFolder:
     """
     if not path.is_dir():
         raise InputError("report folder", path, "is not a folder" if path.exists() else "does not exist", _HINT)
+    for one in [*path.glob("*"), *(one for name in _FOLDERS for one in (path / name).glob("*"))]:
+        require_inside(one, path, "file of a report")
     study, status = _summary(path / "summary.json")
     series = {
         _named(one): read_series(one, *_named(one))
@@ -125,10 +128,7 @@ def _named(path: Path) -> tuple[str, str]:
 
 
 def _summary(path: Path) -> tuple[str, str]:
-    if not path.exists():
+    if not path.exists() and not path.is_symlink():
         return "", ""
-    try:
-        summary = json.loads(path.read_text(encoding="utf-8"))
-        return str(summary["study"]), str(summary["status"])
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError("summary", path, f"cannot be read ({type(error).__name__})", "run the report again") from error
+    summary = read_json(path, "summary", "run the report again")
+    return str(summary.get("study", "")), str(summary.get("status", ""))
