@@ -58,6 +58,7 @@ ABSURD: dict[str, tuple[str, Any]] = {
     "friction in degrees": ("fe.friction", "30 deg"),
     "plates of titanium": ("ancf.young_modulus", "113.8 GPa"),
     "elements as large as the wheel": ("mesh.element_size", "140 mm"),
+    "ground on its side": ("fe.camber", "80 deg"),
     "steps without end": ("full.orientation_step", "1e-12 deg"),
 }
 
