@@ -69,8 +69,9 @@ def read_table(path: Path, rule: TableRule) -> CsvTable:
     Raises
     ------
     InputError
-        If `input_text` refuses the file; if it is empty, without the first names, holds text where a number belongs, or has rows
-        that do not match its header, with the number of the line. Two rows or more; one is enough for a partial run.
+        If `input_text` refuses the file; if it is empty, without the first names, holds text where a number belongs, or
+        has rows that do not match its header, with the number of the line. Two rows or more; one is enough for a
+        partial run.
     """
     lines = input_text(path, rule.what).splitlines()
     comments = [line[1:].strip() for line in lines if line.startswith("#")]

@@ -47,7 +47,7 @@ def input_bytes(path: Path, what: str, most: int = _MOST) -> bytes:
     """
     require_ordinary_file(path, what, most)
     try:  # not blocking, and never more than ``most``: the file may have become a pipe or have grown since
-        with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as stream:
+        with os.fdopen(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as stream:
             content = stream.read(most + 1) or b""
     except OSError as error:
         raise _unreadable(path, what, error) from error

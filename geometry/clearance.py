@@ -1,7 +1,8 @@
 """Whether springs keep clear of the rings they join, of themselves and of each other.
 
-Strips are compared by their centrelines, sampled at a quarter of the thinner strip: two strips overlap where the
-centrelines come closer than the mean of their thicknesses. Verified by tests/unit/test_geometry_validation.py.
+Strips are compared by their centrelines as polylines: two strips overlap where these come closer than the mean of their
+thicknesses. What that costs depends on the number of strips only, not on any dimension. Verified by
+tests/unit/test_geometry_validation.py.
 """
 
 from __future__ import annotations
@@ -10,16 +11,20 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+import shapely  # type: ignore[import-untyped]
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from contracts.errors import InputError
 from geometry.parts import SpringSet
-from geometry.springs import leg_sides, polar, spring_leg, station_angles, weld_angle
+from geometry.springs import Leg, leg_sides, polar, spring_leg, station_angles, weld_angle
 
 __all__ = ["require_clear_of_rings", "require_clear_sets"]
 
 Array = NDArray[np.float64]
+
+_MOST_PIECES = 2048
+"""Pieces of a centreline that are held against each other."""
+_WELD_STEP = math.radians(1.0)
 
 
 def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float]) -> None:
@@ -42,27 +47,20 @@ def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float]) -> None
     if bend.max() * half >= 1.0:
         text = f"smallest bend radius {1e3 / bend.max():.4g} mm"
         raise InputError(what, text, f"must exceed half the thickness, {half * 1e3:.4g} mm", "smooth the spline")
-    line = _densify(leg.points, 0.25 * springs.thickness)
-    pairs = cKDTree(line).query_pairs(springs.thickness, output_type="ndarray")
-    spacing = leg.length / (len(line) - 1)
-    if np.any(np.abs(np.diff(pairs, axis=1)) * spacing > 3.0 * springs.thickness):
+    if _overlaps_itself(leg, springs.thickness):
         raise InputError(what, springs.shape, "the strip overlaps itself", "move the spline's points apart")
 
 
 def require_clear_sets(sets: Sequence[SpringSet], gap: tuple[float, float]) -> None:
     """Raise InputError if springs of one set overlap, or those of two sets that share (or touch) an axial band."""
-    for i, first in enumerate(sets):
-        lines = _set_lines(first, gap, 0.25 * first.thickness)
-        if len(lines) > 1 and _distance(lines[0], np.concatenate(lines[1:])) < first.thickness * (1.0 - 1e-9):
+    strips = [_strips(springs, gap) for springs in sets]
+    for i, (first, own) in enumerate(zip(sets, strips, strict=True)):
+        if _any_within(own[:1], own[1:], first.thickness):
             rule = "springs of the set overlap each other"
             raise InputError(f"{first.name} count", first.count, rule, "use fewer springs, or an arc instead of a hoop")
-        for second in sets[i + 1 :]:
+        for second, others in zip(sets[i + 1 :], strips[i + 1 :], strict=True):
             thickness = 0.5 * (first.thickness + second.thickness)
-            step = 0.25 * min(first.thickness, second.thickness)
-            if not _share_band(first, second):
-                continue
-            a, b = (np.concatenate(_set_lines(springs, gap, step)) for springs in (first, second))
-            if _distance(a, b) < thickness * (1.0 - 1e-9):
+            if _share_band(first, second) and _any_within(own, others, thickness):
                 rule = "their springs overlap or cross in a shared or touching axial band"
                 hint = "turn one set (phase) or separate their bands"
                 raise InputError("spring sets", f"{first.name} and {second.name}", rule, hint)
@@ -72,27 +70,36 @@ def _share_band(a: SpringSet, b: SpringSet) -> bool:
     return any(y0 <= z1 and z0 <= y1 for y0, y1 in a.bands for z0, z1 in b.bands)
 
 
-def _distance(a: Array, b: Array) -> float:
-    distance, _ = cKDTree(b).query(a)
-    return float(np.min(distance))
+def _any_within(strips: Sequence[shapely.Geometry], others: Sequence[shapely.Geometry], thickness: float) -> bool:
+    """Whether one of the ``strips`` comes closer than ``thickness`` [m] to one of the ``others``."""
+    tree, limit = shapely.STRtree(others), thickness * (1.0 - 1e-9)
+    return any(len(tree.query(strip, predicate="dwithin", distance=limit)) for strip in strips)
 
 
-def _densify(points: Array, step: float) -> Array:
+def _overlaps_itself(leg: Leg, thickness: float) -> bool:
+    """Whether two places of a strip, three thicknesses [m] apart along it, come closer than one thickness."""
+    line = _divided(leg.points, max(0.25 * thickness, leg.length / _MOST_PIECES))
+    pieces = shapely.linestrings(np.stack([line[:-1], line[1:]], axis=1))
+    first, second = shapely.STRtree(pieces).query(pieces, predicate="dwithin", distance=thickness)
+    between = (second - first - 1) * leg.length / len(pieces)
+    return bool(np.any(between > 3.0 * thickness))
+
+
+def _divided(points: Array, step: float) -> Array:
     """Points along the polyline, spaced at most ``step`` [m]."""
     at = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     new = np.linspace(0.0, at[-1], max(2, math.ceil(at[-1] / step) + 1))
     return np.column_stack([np.interp(new, at, points[:, 0]), np.interp(new, at, points[:, 1])])
 
 
-def _set_lines(springs: SpringSet, gap: tuple[float, float], step: float) -> list[Array]:
-    """Centreline points of each spring of a set, its two weld layers included."""
+def _strips(springs: SpringSet, gap: tuple[float, float]) -> list[shapely.Geometry]:
+    """Centrelines of each spring of a set, its two weld layers included: the first one's, turned."""
     hub, rim = gap
     half_angle = 0.5 * weld_angle(springs, rim)
-    lines = []
-    for station in station_angles(springs):
-        pieces = [_densify(spring_leg(springs, gap, station, side).points, step) for side in leg_sides(springs)]
-        for radius in (rim - 0.5 * springs.thickness, hub + 0.5 * springs.thickness):
-            angles = np.linspace(station - half_angle, station + half_angle, math.ceil(springs.weld_length / step) + 1)
-            pieces.append(np.array([polar(radius, angle) for angle in angles]))
-        lines.append(np.concatenate(pieces))
-    return lines
+    station, *_ = stations = station_angles(springs)
+    on_weld = np.linspace(station - half_angle, station + half_angle, 2 + math.ceil(2.0 * half_angle / _WELD_STEP))
+    pieces = [spring_leg(springs, gap, station, side).points for side in leg_sides(springs)]
+    for radius in (rim - 0.5 * springs.thickness, hub + 0.5 * springs.thickness):
+        pieces.append(np.array([polar(radius, angle) for angle in on_weld]))
+    turns = [(math.cos(angle), math.sin(angle)) for angle in stations - station]
+    return [shapely.MultiLineString([p @ np.array([[c, s], [-s, c]]) for p in pieces]) for c, s in turns]

@@ -6,8 +6,8 @@ Verified by tests/unit/test_rover_file.py.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from contracts.errors import InputError
 from contracts.input_file import input_text
+from contracts.ranges import Key, dotted, oddities, range_table
 
 __all__ = [
     "EXOMARS_ROVER",
@@ -29,6 +30,7 @@ __all__ = [
 ]
 
 EXOMARS_ROVER = Path(__file__).with_name("exomars_rover.toml")
+_RANGES = Path(__file__).with_name("ranges.toml")
 SIDES = {"left": 1.0, "right": -1.0}
 """Sign of y on each side."""
 GRAVITIES = {"mars": 3.711, "earth": 9.81}
@@ -85,6 +87,7 @@ class RoverDesign:
     wheel_radius, wheel_width : [m]
     bodies, pivots, legs : see there
     leg_bodies : arm, spindle and wheel of every leg; x and y of their positions are the drive's, z counts from the axle
+    warnings : what is unusual in the file, a line each
     """
 
     name: str
@@ -95,6 +98,7 @@ class RoverDesign:
     pivots: tuple[PivotRow, ...]
     legs: tuple[Leg, ...]
     leg_bodies: tuple[BodyRow, ...]
+    warnings: tuple[str, ...] = field(default=(), repr=False)
 
     @property
     def mass(self) -> float:
@@ -115,7 +119,7 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
     Raises
     ------
     InputError
-        For a file that cannot be read, a key that is missing or unknown, or a number that is none.
+        For a file that cannot be read, a key that is missing or unknown, or a number that is none or that no rover has.
     """
     try:
         content = tomllib.loads(input_text(path, "rover file"))
@@ -126,8 +130,10 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
             "rover file", path, f"cannot be read ({error})", "copy rover_dynamics' own and edit it"
         ) from error
     rover = _Reader(str(path), content)
+    warnings = _unusual(path, content)
     wheel, legs = rover.table("wheel"), rover.some_rows("legs")
     design = RoverDesign(
+        warnings=warnings,
         name=rover.word("name"),
         gravity=rover.gravity("gravity"),
         wheel_radius=wheel.number("radius"),
@@ -139,6 +145,25 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
     )
     rover.finished()
     return design
+
+
+def _unusual(path: Path, content: Mapping[str, Any]) -> tuple[str, ...]:
+    """What is unusual, a line each; raises InputError for what is impossible."""
+    found = []
+    for odd in oddities(dict(_numbers((), content)), range_table(_RANGES)):
+        if odd.impossible:
+            raise InputError(f"{path}: {dotted(odd.key)}", odd.value or "its size", odd.rule, odd.hint)
+        found.append(f"{dotted(odd.key)}{f' = {odd.value}' * bool(odd.value)} {odd.rule}; {odd.hint}")
+    return tuple(found)
+
+
+def _numbers(key: Key, value: object) -> Iterator[tuple[Key, float]]:
+    """Every finite number by its path; what is none is found where it is asked for."""
+    if isinstance(value, dict | list):
+        for part, content in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from _numbers((*key, part), content)
+    elif isinstance(value, int | float) and not isinstance(value, bool) and _finite(value):
+        yield key, float(value)
 
 
 class _Reader:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from contracts.errors import InputError
@@ -130,3 +131,27 @@ def test_arcs_of_equal_direction_may_stand_closer_than_hoops() -> None:
 def test_spring_sets_of_separate_bands_may_share_positions() -> None:
     same = replace(WHEEL, spring_sets=(OUTER, replace(INNER, phase=0.0)))
     assert isinstance(same.spring_sets[0], SpringSet)
+
+
+@pytest.mark.parametrize(("radius", "thickness"), [(142.5, 0.609e-3), (0.1425, 1e-9), (1e6, 1e-6)])
+def test_looking_for_clearance_costs_the_same_whatever_the_dimensions(
+    radius: float, thickness: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Points made on the centrelines; once they lay a quarter of the thickness apart, so that millimetres read as
+    metres, a thousandfold wheel of the same strips, took minutes."""
+    made, interp = 0, np.interp
+
+    def counted(x: Any, *rest: Any) -> Any:
+        nonlocal made
+        made += len(x)
+        assert made < 100_000
+        return interp(x, *rest)
+
+    monkeypatch.setattr(np, "interp", counted)
+    scale = radius / WHEEL.tire.outer_radius
+    hub = replace(WHEEL.outer_hub, outer_radius=scale * WHEEL.outer_hub.outer_radius)
+    sets = tuple(replace(one, thickness=thickness) for one in WHEEL.spring_sets)
+    replace(WHEEL, tire=replace(WHEEL.tire, outer_radius=radius), outer_hub=hub, spring_sets=sets)
+    turned = replace(sets[0], bands=((-60e-3, 60e-3),), phase=math.radians(40.0))
+    with pytest.raises(InputError, match="cross"):
+        replace(WHEEL, tire=replace(WHEEL.tire, outer_radius=radius), outer_hub=hub, spring_sets=(turned, sets[1]))

@@ -11,8 +11,10 @@ from contracts.records import Check
 from workbench.comparison.agreement import Agreement
 from workbench.report.contents import contents, section_of
 from workbench.report.opening import check_groups, opening
+from workbench.study.reading import built_in_study, read_study
 from workbench.topics.registry import TOPICS
 
+STUDY = read_study(built_in_study())
 TITLES = {topic.name: topic.title for topic in TOPICS} | {
     name: name for name in ("models", "wheel", "fe", "ancf", "checks", "numerics", "origin", "reading", "new")
 }
@@ -72,7 +74,7 @@ def test_checks_are_grouped_in_the_order_of_the_sections() -> None:
 
 def test_the_first_screen_shows_all_that_did_not_pass_gates_first() -> None:
     made = [_check("fe.yield", "fail"), _check("fe.reach"), _check("mesh.mass", "error", "gate", value=None)]
-    found = opening(made, {"brush": _agreement(0.2, 0.01, "differs")}, (), TITLES)
+    found = opening(STUDY, made, {"brush": _agreement(0.2, 0.01, "differs")}, TITLES)
     assert [(o.check.id, o.section, o.value) for o in found.outside] == [
         ("mesh.mass", "wheel", "–"),
         ("fe.yield", "strength", "1 N"),
@@ -82,7 +84,7 @@ def test_the_first_screen_shows_all_that_did_not_pass_gates_first() -> None:
 
 def test_a_rating_draws_its_doubt_inside_the_scale() -> None:
     rating, unknown = (
-        opening([], {"brush": one}, (), TITLES).ratings[0]
+        opening(STUDY, [], {"brush": one}, TITLES).ratings[0]
         for one in (_agreement(0.2, 0.03, "differs"), _agreement(0.02, None, "not known"))
     )
     assert (rating.name, rating.tone, unknown.tone) == ("Brush tire", "fail", "error")

@@ -17,6 +17,7 @@ from rich.table import Table
 from contracts.curves import read_curve
 from contracts.errors import InputError
 from contracts.input_file import input_text
+from workbench.commands.computing import read_and_warn
 from workbench.comparison.calibration import Calibration, Trial, calibrate, scaled_study, strip_thicknesses
 from workbench.comparison.results import CURVE, mean_curve
 from workbench.execution.errors import RunError
@@ -28,6 +29,7 @@ from workbench.graph.fe import degrees, without_fields
 from workbench.graph.section import without_planar_model
 from workbench.graph.study_graph import stiffness_tasks
 from workbench.report.outputs import check_folder, check_targets, publish, to_json
+from workbench.study.magnitudes import require_possible
 from workbench.study.model import Study
 from workbench.study.model_parameters import wheel_design
 from workbench.study.quantities import to_si
@@ -43,7 +45,7 @@ _NAMES = {"section": "section model", "fe": "solid model"}
 def run_calibrate(study_path: Path | None, target: str | None, out: Path, store: Path, computing: Computing) -> int:
     """Find the strip thickness for a target tangent; 0 if the solid model confirms it within the study's tolerance."""
     path = study_path or built_in_study()
-    study = read_study(path)
+    study = read_and_warn(path)
     if (reason := without_planar_model(study)) is not None:
         raise reason
     wanted = study.reference.initial_tangent if target is None else _target(target)
@@ -70,6 +72,7 @@ def _target(text: str) -> float:
         raise InputError("target", repr(text), str(context["rule"]), str(context["hint"])) from error
     if not value > 0.0:
         raise InputError("target", repr(text), "must be greater than zero", "write it like '8.25 N/mm'")
+    require_possible("target", value, "reference.initial_tangent")
     return value
 
 

@@ -14,6 +14,7 @@ from rich.table import Table
 
 from contracts.errors import InputError
 from contracts.input_file import input_text
+from workbench.commands.computing import read_and_warn
 from workbench.comparison.ancf_fit import FittedTire, read_fit
 from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
@@ -41,7 +42,7 @@ _COUNTS = ("circumferential_plates", "spokes")
 def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, store: Path, computing: Computing) -> int:
     """Fit the study's tires, or one of them; 0 if the kept one follows the FE average within the study's tolerance."""
     path = study_path or built_in_study()
-    study = _chosen(read_study(path), tire)
+    study = _chosen(read_and_warn(path), tire)
     section = study.ancf_fit
     assert section is not None
     check_folder(out)

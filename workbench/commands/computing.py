@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_commands.py and tests/end_to_end/test_comm
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,10 +18,26 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task
+from workbench.study.magnitudes import warnings_of
+from workbench.study.model import Study
+from workbench.study.reading import read_study
 
-__all__ = ["complain_of_early_ends", "computed", "console", "naming"]
+__all__ = ["complain_of_early_ends", "computed", "console", "naming", "read_and_warn", "warn"]
 
 console = Console()
+
+
+def read_and_warn(path: Path) -> Study:
+    """The study of a file, as `read_study`; what is unusual about it goes to stderr."""
+    study = read_study(path)
+    warn(path, warnings_of(study))
+    return study
+
+
+def warn(path: Path, warnings: Sequence[str]) -> None:
+    """One line on stderr for each warning about a file."""
+    for warning in warnings:
+        sys.stderr.write(f"workbench: warning: {' '.join(f'{path}: {warning}'.split())}\n")
 
 
 def computed(

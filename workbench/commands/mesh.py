@@ -11,7 +11,7 @@ from pathlib import Path
 from pydantic_core import PydanticCustomError
 
 from contracts.errors import InputError
-from workbench.commands.computing import computed, console, naming
+from workbench.commands.computing import computed, console, naming, read_and_warn
 from workbench.commands.stiffness import check_orientation
 from workbench.execution.progress import RunDisplay
 from workbench.execution.result_files import read_result
@@ -20,8 +20,8 @@ from workbench.execution.store import Store
 from workbench.graph.study_graph import mesh_tasks
 from workbench.graph.surfaces import surfaces_task
 from workbench.report.outputs import check_folder, copy_files
+from workbench.study.magnitudes import require_possible
 from workbench.study.quantities import to_si
-from workbench.study.reading import read_study
 
 __all__ = ["deflections_si", "run_mesh_of"]
 
@@ -42,7 +42,7 @@ def run_mesh_of(
 
 def _run_mesh(study_path: Path, out: Path, store: Path) -> int:
     """Mesh files, summary and picture of a study's wheel."""
-    study = read_study(study_path)
+    study = read_and_warn(study_path)
     check_folder(out)
     entries = computed(study_path, mesh_tasks(study, with_files=True), store, Computing(workers=1))
     files = entries["mesh_files"]
@@ -53,7 +53,7 @@ def _run_mesh(study_path: Path, out: Path, store: Path) -> int:
 
 def _run_surfaces(study_path: Path, orientation_deg: float, deflections: Sequence[str], out: Path, store: Path) -> int:
     """One STEP file of the unloaded tire, one for each deflection; says how far what is read back lies off."""
-    study = read_study(study_path)
+    study = read_and_warn(study_path)
     task = surfaces_task(study, orientation_deg, deflections_si(deflections))
     check_folder(out)
     with naming(study_path), RunDisplay(console, [task]) as display:
@@ -76,5 +76,6 @@ def deflections_si(texts: Sequence[str]) -> tuple[float, ...]:
             raise InputError("deflection", repr(text), str(context["rule"]), str(context["hint"])) from error
         if not value > 0.0:
             raise InputError("deflection", repr(text), "must be greater than zero", "write it like '10 mm'")
+        require_possible("deflection", value, "ancf.max_deflection")
         found.add(value)
     return tuple(sorted(found))

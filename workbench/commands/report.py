@@ -12,7 +12,7 @@ from pathlib import Path
 from rich.table import Table
 
 from contracts.records import Check
-from workbench.commands.computing import complain_of_early_ends, computed, console, naming
+from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn
 from workbench.commands.gate import GateChoices, gate_of, plain_console, tell
 from workbench.comparison.baseline import read_baseline
 from workbench.execution.runner import Computing
@@ -21,7 +21,9 @@ from workbench.graph.study_graph import report_tasks
 from workbench.report.gate_summary import gate_markdown, gate_rows
 from workbench.report.outputs import check_folder, curve_file, junit, publish, summary, to_json
 from workbench.study.full import full_study
-from workbench.study.reading import built_in_study, read_study
+from workbench.study.loosened import loosened
+from workbench.study.magnitudes import warnings_of
+from workbench.study.reading import built_in_study
 from workbench.tasks.field_file import POINTS_FILE
 
 __all__ = ["ReportChoices", "run_report"]
@@ -40,7 +42,7 @@ def run_report(
 ) -> int:
     """Everything a study asks for, or its full study, then the report."""
     path, choices = study_path or built_in_study(), choices or ReportChoices()
-    study = read_study(path)
+    study = read_and_warn(path)
     if choices.full:
         with naming(path):
             study = full_study(study)
@@ -79,20 +81,23 @@ def run_report(
         evidence=evidence,
         curves=curve_links(curves),
     )
-    gate = gate_of(study.name, verdict(found.checks), found.checks, accepted)
+    gate = gate_of(study.name, verdict(found.checks, loosened(study)), found.checks, accepted)
     page = rendered_sections(content)
     texts: dict[str, str | bytes] = {
         "report.pdf": document_pdf(page),
         "report.html": render(page),
         "junit.xml": junit(study.name, found.checks, gate.given_up),
         "summary.md": gate_markdown(gate),
-        "summary.json": to_json(summary(study.name, evidence, timings, origin) | gate_rows(gate)),
+        "summary.json": to_json(
+            summary(study.name, evidence, timings, origin) | {"warnings": warnings_of(study)} | gate_rows(gate)
+        ),
     }
     publish(out, texts, curves, _field_files(entries), series, _motion_files(entries))
     if choices.gate.ci:
         tell(gate, shown_on)
     else:
         _print_checks(found.checks)
+        shown_on.print(gate.verdict_now, highlight=False, markup=False, soft_wrap=True)
     shown_on.print(f"report: {out / 'report.html'}", highlight=False, markup=False, soft_wrap=True)
     complain_of_early_ends(path, origin["partial"])
     return exit_status(found.checks) or int(not gate.holds)

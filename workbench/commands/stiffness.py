@@ -10,14 +10,13 @@ from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
-from workbench.commands.computing import complain_of_early_ends, computed, console, naming
+from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn
 from workbench.comparison.results import mean_curve
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.graph.study_graph import stiffness_tasks
 from workbench.report.outputs import check_folder, publish
-from workbench.study.reading import read_study
 
 __all__ = ["check_orientation", "run_stiffness"]
 
@@ -32,7 +31,7 @@ def run_stiffness(
         raise InputError("model", model, "is not known", f"give one of {', '.join(_MODELS)}")
     for orientation in orientations:
         check_orientation(orientation)
-    study = read_study(study_path)
+    study = read_and_warn(study_path)
     check_folder(out)
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
     entries = computed(study_path, tasks, store, computing)

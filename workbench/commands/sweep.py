@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import os
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 
-from workbench.commands.computing import console, naming
+from workbench.commands.computing import console, naming, warn
 from workbench.comparison.sweep import Outcome, outcomes, references
 from workbench.comparison.sweep_table import SweepTable, sweep_table
 from workbench.execution.errors import RunError
@@ -20,12 +21,15 @@ from workbench.graph.sweep import sweep_graph
 from workbench.report.outputs import check_folder, check_targets
 from workbench.report.parquet import write_parquet
 from workbench.report.sweep_page import sweep_page
+from workbench.study.magnitudes import warnings_of
+from workbench.study.model import Study
 from workbench.study.reading import read_study_table, study_of
-from workbench.study.sweep_points import sweep_points
+from workbench.study.sweep_points import Point, sweep_points
 
 __all__ = ["run_sweep"]
 
 _FILES = ("sweep.csv", "sweep.parquet", "sweep.html")
+_MOST_WARNINGS = 20
 
 
 def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) -> int:
@@ -34,6 +38,7 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
     points = sweep_points(study_path, content)
     study = study_of(study_path, content)
     assert study.sweep is not None
+    warn(study_path, _warnings(study, points))
     check_folder(out)
     check_targets(out, _FILES)
     with naming(study_path):
@@ -49,6 +54,15 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
     console.print(f"sweep: {out / 'sweep.html'}", highlight=False, markup=False, soft_wrap=True)
     _complain(study_path, out, found)
     return 0
+
+
+def _warnings(study: Study, points: Sequence[Point]) -> list[str]:
+    """What is unusual about the study, then what is so about some of its points only; the first of each kind."""
+    found = dict.fromkeys(warnings_of(study), "")
+    for point in points:
+        for warning in warnings_of(point.study):
+            found.setdefault(warning, f"[sweep] point {point.number} ({point.label}): ")
+    return [where + warning for warning, where in found.items()][:_MOST_WARNINGS]
 
 
 def _publish(out: Path, table: SweepTable, page: str) -> None:

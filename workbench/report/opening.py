@@ -12,6 +12,9 @@ from contracts.records import Check
 from workbench.comparison.agreement import Agreement
 from workbench.report.contents import section_of
 from workbench.report.number_format import displayed
+from workbench.study.loosened import loosened
+from workbench.study.magnitudes import unusual
+from workbench.study.model import Study
 
 __all__ = ["Opening", "Outside", "Rating", "check_groups", "counts", "opening", "verdict"]
 
@@ -63,7 +66,8 @@ class Opening:
 
     Attributes
     ----------
-    verdict : one sentence
+    verdict : what the gates say, and which of them the study has made easier
+    warnings : what is unusual about the study
     counts : role, status, number
     ratings : models beside the continuum
     band : checks of the reference band
@@ -71,6 +75,7 @@ class Opening:
     """
 
     verdict: str
+    warnings: Sequence[str]
     counts: Sequence[tuple[str, str, int]]
     ratings: Sequence[Rating]
     band: Sequence[Check]
@@ -78,17 +83,18 @@ class Opening:
 
 
 def opening(
-    checks: Sequence[Check], judged: Mapping[str, Agreement], users: Sequence[str], titles: Mapping[str, str]
+    study: Study, checks: Sequence[Check], judged: Mapping[str, Agreement], titles: Mapping[str, str]
 ) -> Opening:
-    """Choose it; ``users`` are the labels of the user's curves, ``titles`` those of the sections by name."""
+    """Choose it; ``titles`` are those of the sections by name."""
     names = {"ancf_average": "ANCF tire", "brush": "Brush tire"}
-    names |= {f"user_{k}": label for k, label in enumerate(users)}
+    names |= {f"user_{k}": user.label for k, user in enumerate(study.compare.curves)}
     ratings = [
         Rating(name=n, found=judged[k], words=_WORDS[judged[k].verdict]) for k, n in names.items() if k in judged
     ]
     bad = sorted((c for c in checks if c.status != "pass"), key=lambda c: c.role != "gate")
     return Opening(
-        verdict=verdict(checks),
+        verdict=verdict(checks, loosened(study)),
+        warnings=unusual(study),
         counts=counts(checks),
         ratings=ratings,
         band=[c for c in checks if c.id == "fe.initial_tangent" or c.id.startswith("fe.deflection_at_")],
@@ -98,8 +104,16 @@ def opening(
     )
 
 
-def verdict(checks: Sequence[Check]) -> str:
-    """One sentence: what the gates say, and how many findings lie outside or are unknown."""
+def verdict(checks: Sequence[Check], easier: Sequence[str] = ()) -> str:
+    """What the gates say, how many findings lie outside or are unknown; then the gates that are ``easier`` to pass
+    than the project's own, if any (`loosened`)."""
+    if not easier:
+        return _of_checks(checks)
+    number = "1 gate tolerance is" if len(easier) == 1 else f"{len(easier)} gate tolerances are"
+    return f"{_of_checks(checks)} {number} the study's own: {'; '.join(easier)}."
+
+
+def _of_checks(checks: Sequence[Check]) -> str:
     gates = [c for c in checks if c.role == "gate"]
     findings = [c for c in checks if c.role == "finding"]
     bad = sum(c.status != "pass" for c in gates)

@@ -81,7 +81,7 @@ def rendered_sections(content: PageContent) -> Rendered:
         "groups": contents(titles),
         "study": study,
         "found": found,
-        "opening": opening(found.checks, found.agreements, [user.label for user in found.users], titles),
+        "opening": opening(study, found.checks, found.agreements, titles),
         "status": overall_status(found.checks),
         "check_groups": check_groups(found.checks, titles),
         "figures": figures,

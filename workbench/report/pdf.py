@@ -105,6 +105,7 @@ def _first_page(found: Opening, status: str) -> dict[str, Any]:
         "word": {"pass": "Pass", "fail": "Fail", "error": "Error"}[status],
         "tone": "pass" if status == "pass" else "fail",
         "verdict": found.verdict,
+        "warnings": list(found.warnings),
         "counts": [{"words": _counted(*row), "tone": _tone(row[0], row[1])} for row in found.counts],
         "ratings": ratings,
         "band": [_row(c) | {"title": _short(c.title)} for c in found.band],

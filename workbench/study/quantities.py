@@ -113,12 +113,26 @@ def _from_text(text: str, unit: str) -> float:
     if not given or not math.isfinite(number):
         return number
     try:
-        number = float(_registry().Quantity(number, given).to(unit or "dimensionless").magnitude)
+        quantity = _registry().Quantity(number, given)
+        _refuse_another_kind(quantity, unit)
+        number = float(quantity.to(unit or "dimensionless").magnitude)
         return number if unit == "rad" else float(f"{number:.15g}")  # 142.5 mm is 0.1425 m to the last digit
+    except PydanticCustomError:
+        raise
     except pint.DimensionalityError as error:
         raise _refuse(f"must be {kind}, not {error.dim1 or 'a plain number'}", f"write it like {example!r}") from error
     except Exception as error:  # pint raises many kinds for text it cannot read
         raise _refuse(f"cannot be read as {kind} ({error})", f"write it like {example!r}") from error
+
+
+def _refuse_another_kind(quantity: pint.Quantity[float], unit: str) -> None:
+    """pint counts an angle as a plain number: percent and counts are no angle to us, degrees no plain number."""
+    wanted = {"rad": "radian", "": "dimensionless"}.get(unit)
+    root = str(quantity.to_root_units().units)
+    if wanted is not None and quantity.dimensionless and root != wanted:
+        kind, example = _KINDS[unit]
+        other = {"radian": "an angle", "dimensionless": "a plain number"}.get(root, root)
+        raise _refuse(f"must be {kind}, not {other}", f"write it like {example!r}")
 
 
 def _split(text: str, unit: str) -> tuple[float, str]:

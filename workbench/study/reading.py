@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,9 @@ from pydantic import ValidationError
 
 from contracts.errors import InputError, StudyError
 from contracts.input_file import input_text
+from contracts.ranges import Key, dotted
 from workbench.study.curve_file import in_si
+from workbench.study.magnitudes import impossible
 from workbench.study.model import Study
 from workbench.study.model_parameters import SectionInputError, ancf_mesh, ancf_preset, brush_parameters, wheel_design
 from workbench.study.rules import broken_rules
@@ -58,6 +60,10 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         study = Study.model_validate(table)
     except ValidationError as error:
         raise _study_error(path, error) from error
+    odd = impossible(study)
+    if odd is not None:
+        value = _shown(_at(table, odd.key)) if _at(table, odd.key) is not None else odd.value
+        raise StudyError(path, dotted(odd.key), value, odd.rule, odd.hint)
     study = _with_surfaces_from(study, path.parent)
     try:
         wheel_design(study)
@@ -95,7 +101,7 @@ def read_study_table(path: Path) -> dict[str, Any]:
 def _study_error(path: Path, error: ValidationError) -> StudyError:
     """Turn pydantic's first complaint into our message; an unknown key comes before a missing one (a misspelling)."""
     first = min(error.errors(), key=lambda e: e["type"] != "extra_forbidden" and e["type"] == "missing")
-    key = _dotted(first["loc"])
+    key = dotted(first["loc"])
     value = "" if first["type"] == "missing" else _shown(first["input"])
     if first["type"] in _HINTS:
         rule, hint = _HINTS[first["type"]]
@@ -110,12 +116,14 @@ def _study_error(path: Path, error: ValidationError) -> StudyError:
     return StudyError(path, key, value or "nothing", rule, hint)
 
 
-def _dotted(location: Sequence[int | str]) -> str:
-    """``("wheel", "springs", 0, "count")`` -> ``wheel.springs[0].count``."""
-    text = ""
-    for part in location:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else part
-    return text
+def _at(table: Any, key: Key) -> object:
+    """What the user wrote at a path; None for a number that is a default."""
+    for part in key:
+        try:
+            table = table[part]
+        except (KeyError, IndexError, TypeError):
+            return None
+    return table
 
 
 def _shown(value: object) -> str:

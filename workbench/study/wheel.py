@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StrictInt
 
 from workbench.study.quantities import Angle, Length, Number
-from workbench.study.sections import Positive, Section, Thickness
+from workbench.study.sections import Positive, Section
 
 __all__ = [
     "ConeSection",
@@ -34,7 +34,7 @@ class TireSection(Section):
 
     outer_radius: Annotated[Length, Positive]
     width: Annotated[Length, Positive]
-    thickness: Thickness
+    thickness: Annotated[Length, Positive]
     material: MaterialName
 
 
@@ -54,7 +54,7 @@ class ImpactSpringsSection(Section):
     count: Count
     phase: Angle = 0.0
     bands: Bands
-    thickness: Thickness
+    thickness: Annotated[Length, Positive]
     shape: Literal["arc", "hoop", "spline"]
     weld_length: Annotated[Length, Positive]
     direction: Literal[-1, 1] = 1
@@ -75,7 +75,7 @@ class SidewallSpringsSection(Section):
     count: Count
     phase: Angle = 0.0
     width: Annotated[Length, Positive]
-    thickness: Thickness
+    thickness: Annotated[Length, Positive]
     curl_radius: Annotated[Length, Positive]
     arc_radius: Annotated[Length, Positive]
     sweep: Angle

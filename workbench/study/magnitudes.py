@@ -1,0 +1,72 @@
+"""Whether a study's numbers can be: each held against the table of ranges before anything is built from it.
+
+Verified by tests/unit/test_workbench_magnitudes.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from contracts.errors import InputError
+from contracts.ranges import Key, Oddity, RangeTable, dotted, oddities, range_table
+from workbench.study.loosened import loosened
+from workbench.study.model import DATA, Study
+
+__all__ = ["impossible", "numbers_of", "require_possible", "study_ranges", "unusual", "warnings_of"]
+
+_MOST = 12
+"""Warnings told one by one; a unit mistaken once may make many."""
+
+
+def study_ranges() -> RangeTable:
+    """The table of ranges of the study file."""
+    return range_table(DATA / "ranges.toml")
+
+
+def numbers_of(study: Study) -> dict[Key, float]:
+    """Every number of a study by its path, SI, defaults included."""
+    return dict(_numbers((), study))
+
+
+def _numbers(key: Key, value: Any) -> Iterator[tuple[Key, float]]:
+    inner: Mapping[str | int, Any] = {}
+    if isinstance(value, BaseModel):
+        inner = dict(value)
+    elif isinstance(value, Mapping):
+        inner = value
+    elif isinstance(value, tuple):
+        inner = dict(enumerate(value))
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield key, float(value)
+    for part, content in inner.items():
+        yield from _numbers((*key, part), content)
+
+
+def impossible(study: Study) -> Oddity | None:
+    """The first number that no wheel has; None if there is none."""
+    return next((odd for odd in oddities(numbers_of(study), study_ranges()) if odd.impossible), None)
+
+
+def unusual(study: Study) -> tuple[str, ...]:
+    """Numbers that are unusual where they stand, a line each."""
+    odd = [o for o in oddities(numbers_of(study), study_ranges()) if not o.impossible]
+    lines = [f"{dotted(o.key)}{f' = {o.value}' * bool(o.value)} {o.rule}; {o.hint}" for o in odd]
+    if len(lines) <= _MOST:
+        return tuple(lines)
+    return (*lines[:_MOST], f"{len(lines) - _MOST} more numbers are unusual")
+
+
+def warnings_of(study: Study) -> tuple[str, ...]:
+    """What a user is told before anything runs: unusual numbers, gates that are easier than the project's own."""
+    return (*unusual(study), *loosened(study))
+
+
+def require_possible(what: str, value: float, like: str) -> None:
+    """Raise InputError for a number [SI] of the command line that its key ``like`` in a study could not have."""
+    key = tuple(like.split("."))
+    for odd in oddities({key: value}, study_ranges()):
+        if odd.impossible:
+            raise InputError(what, odd.value, odd.rule, odd.hint)
