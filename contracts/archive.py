@@ -14,6 +14,7 @@ import zipfile
 import zlib
 from collections.abc import Iterable
 from pathlib import Path
+from tokenize import TokenError
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,7 @@ _LARGEST_DIRECTORY = 1_000_000
 """Bytes of a ZIP file's list of members; `zipfile` makes objects of it before anything else."""
 _DAMAGED = (
     *(zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, KeyError),
-    *(NotImplementedError, RuntimeError, MemoryError, TypeError, OverflowError, SyntaxError),
+    *(NotImplementedError, RuntimeError, MemoryError, TypeError, OverflowError, SyntaxError, TokenError),
 )
 """What damaged archives make of zipfile and NumPy."""
 
@@ -55,7 +56,7 @@ def read_archive(path: Path, what: str, largest: int, names: Iterable[str] | Non
     except InputError:
         raise
     except _DAMAGED as error:
-        reason = f"must be a NumPy archive of plain arrays ({type(error).__name__}: {str(error)[:120]})"
+        reason = f"cannot be read as a NumPy archive of plain arrays ({type(error).__name__}: {str(error)[:120]})"
         raise InputError(what, path, reason, "write it with numpy.savez") from error
 
 

@@ -50,7 +50,7 @@ def read_json(path: Path, what: str, hint: str) -> dict[str, Any]:
     try:
         found = json.loads(content.decode("utf-8"))
     except (ValueError, RecursionError) as error:
-        raise InputError(what, path, f"is no JSON ({type(error).__name__})", hint) from error
+        raise InputError(what, path, f"cannot be read as JSON ({type(error).__name__})", hint) from error
     if not isinstance(found, dict):
         raise InputError(what, path, "must be a table in JSON", hint)
     return found

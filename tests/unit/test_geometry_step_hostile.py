@@ -1,4 +1,4 @@
-"""STEP files that are damaged, endless or made to do harm: each ends in one InputError, in time linear in its size.
+"""STEP files that are damaged, endless or made to do harm: each ends in one InputError, soon.
 
 Claim: a user's file is read by our own reader, which follows no reference to other files and never hands the file to
 OpenCASCADE, whose crashes nobody could catch. The negative control of the counts is the file all cases are made from.

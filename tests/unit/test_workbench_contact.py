@@ -55,7 +55,6 @@ def test_yaw_is_turned_into_degrees() -> None:
         {"friction": -0.1},
         {"contact_stiffness": "some"},
         {"contact_method": "magic"},
-        {"camber": "80 deg"},
     ],
 )
 def test_impossible_contacts_are_refused(wrong: dict[str, Any]) -> None:

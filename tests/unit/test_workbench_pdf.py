@@ -28,7 +28,7 @@ def placed(table: str, folder: Path) -> list[tuple[int, str, float, float]]:
     blank_figure(1.0, 1.0).savefig(folder / "lead.svg")
     content: Mapping[str, object] = {
         **dict.fromkeys(("study", "created", "word", "verdict"), ""),
-        **{name: [] for name in ("counts", "ratings", "band", "outside")},
+        **{name: [] for name in ("counts", "ratings", "band", "outside", "warnings")},
         "title": "T",
         "tone": "pass",
         "lead": "lead.svg",

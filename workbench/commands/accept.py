@@ -5,13 +5,12 @@ Verified by tests/end_to_end/test_ci_gate.py.
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 from pathlib import Path
 
 from contracts.errors import InputError
-from contracts.input_file import input_text
+from contracts.foreign_folder import read_json
 from workbench.commands.computing import console, tell_kept
 from workbench.comparison.baseline import SUMMARY, read_baseline
 from workbench.report.folders import check_folder, check_targets
@@ -47,12 +46,12 @@ def run_accept(report: Path, baseline: Path) -> int:
 
 
 def _study_and_status(path: Path) -> tuple[str, str]:
+    hint = "give the folder that workbench report wrote"
     try:
-        content = json.loads(input_text(path, "report"))
+        content = read_json(path, "report", hint)
         return str(content["study"]), str(content["status"])
-    except (ValueError, KeyError, TypeError):
-        rule = "is not there or no summary of a report"
-        raise InputError("report", path, rule, "give the folder that workbench report wrote") from None
+    except KeyError:
+        raise InputError("report", path, "is not there or no summary of a report", hint) from None
 
 
 def _is_summary(path: Path) -> bool:

@@ -20,6 +20,7 @@ from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
 from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
+from workbench.commands.computing import warn
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console
 from workbench.report.folders import check_folder
@@ -162,7 +163,9 @@ def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDes
     _check_tire(choices.tire)
     if name is None:
         raise InputError("scenario", "nothing", "is missing", f"give one of {', '.join(SCENARIOS)}")
-    scenario, design = scenario_named(name), read_rover(choices.rover or EXOMARS_ROVER)
+    path = choices.rover or EXOMARS_ROVER
+    scenario, design = scenario_named(name), read_rover(path)
+    warn(path, design.warnings)
     if choices.gravity is not None:
         design = replace(design, gravity=gravity_named(choices.gravity))
     if choices.tire == "rigid":

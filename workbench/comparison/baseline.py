@@ -10,7 +10,6 @@ Verified by tests/unit/test_workbench_baseline.py and tests/end_to_end/test_ci_g
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,7 +17,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from contracts.errors import InputError
-from contracts.input_file import input_text
+from contracts.foreign_folder import read_json
 from contracts.records import Check
 
 __all__ = ["NOISE", "SUMMARY", "Baseline", "Change", "Kept", "Kind", "changes_since", "read_baseline"]
@@ -116,7 +115,7 @@ def read_baseline(folder: Path, study: str) -> Baseline:
     """The accepted report in a folder; InputError if there is none, or one of another study."""
     path, hint = folder / SUMMARY, "accept a report first: workbench accept DIR"
     try:
-        content = json.loads(input_text(path, "baseline"))
+        content = read_json(path, "baseline", hint)
         checks = [_kept(row) for row in content["checks"]]
         origin = content["provenance"]
         found = Baseline(
@@ -135,14 +134,23 @@ def read_baseline(folder: Path, study: str) -> Baseline:
 
 
 def _kept(row: Mapping[str, Any]) -> Kept:
-    """From a summary; those of earlier versions have no claim, but a title."""
-    names = [name for name in Kept.__slots__ if name not in ("claim", "reference")]
-    reference = row["reference"]
+    """From a summary; those of earlier versions have no claim, but a title. Raises TypeError for other types."""
+    names = [name for name in Kept.__slots__ if name not in ("claim", "reference", "value")]
+    reference, value = row["reference"], row["value"]
+    if not all(isinstance(row[name], str) for name in names):
+        raise TypeError("a name that is no text")
     return Kept(
         claim=str(row.get("claim") or row["title"]),
-        reference=(float(reference[0]), float(reference[1])) if isinstance(reference, list) else reference,
+        reference=(float(reference[0]), float(reference[1])) if isinstance(reference, list) else _number(reference),
+        value=_number(value),
         **{name: row[name] for name in names},
     )
+
+
+def _number(value: object) -> float | None:
+    if value is None or (isinstance(value, int | float) and not isinstance(value, bool)):
+        return value
+    raise TypeError("a value that is no number")
 
 
 def changes_since(baseline: Baseline, checks: Sequence[Check]) -> tuple[Change, ...]:

@@ -7,7 +7,6 @@ Verified by tests/unit/test_workbench_tasks.py.
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -15,6 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.archive import read_archive
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry.hexahedra import VTK_FROM_GMSH
@@ -24,6 +24,8 @@ __all__ = ["POINTS_FILE", "Fields", "read_points", "write_fields", "write_points
 POINTS_FILE = "points.npz"
 """Fields at the points of a curve, in a task's folder."""
 _HINT = "run the report again, or take the file out of the folder"
+_LARGEST = 1_000_000_000
+"""Bytes of the arrays along one curve: a mesh of a million nodes at sixty points."""
 _NAMES = ("load", "displacement", "von_mises")
 
 
@@ -76,14 +78,12 @@ def read_points(path: Path) -> Iterator[tuple[float, NDArray[np.float64], NDArra
     InputError
         If the file is not what `write_points` writes.
     """
-    try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
-            load, moved, stress = (np.asarray(archive[name], dtype=np.float64) for name in _NAMES)
-        fits = moved.ndim == 3 and moved.shape[:2] == stress.shape and load.shape == stress.shape[:1]
-        sound = fits and moved.shape[2] == 3 and all(np.isfinite(a).all() for a in (load, moved, stress))
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
-        reason = f"cannot be read ({type(error).__name__})"
-        raise InputError("field file", path, reason, _HINT) from error
+    arrays = read_archive(path, "field file", _LARGEST, _NAMES)
+    if arrays.keys() < set(_NAMES) or any(array.dtype.kind not in "iuf" for array in arrays.values()):
+        raise InputError("field file", path, f"cannot be read (it lacks numbers of {', '.join(_NAMES)})", _HINT)
+    load, moved, stress = (np.asarray(arrays[name], dtype=np.float64) for name in _NAMES)
+    fits = moved.ndim == 3 and moved.shape[:2] == stress.shape and load.shape == stress.shape[:1]
+    sound = fits and moved.shape[2] == 3 and all(np.isfinite(a).all() for a in (load, moved, stress))
     if not sound:
         raise InputError("field file", path, "must hold finite fields of nodes at each load", _HINT)
     yield from zip(load.tolist(), moved, stress, strict=True)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from contracts.archive import read_archive
 from contracts.errors import InputError
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
@@ -28,6 +29,8 @@ FloatArray = NDArray[np.float64]
 MOTION = "motion.npz"
 _MOST = 181
 """Times that are kept at most: a quarter second apart in the longest scenarios."""
+_LARGEST = 500_000_000
+"""Bytes of a file's arrays; six ANCF tires over the longest scenario have 20 MB."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -108,10 +111,10 @@ def read_motion(path: Path) -> RecordedMotion:
     InputError
         If the file cannot be read or its arrays do not fit together.
     """
+    arrays = read_archive(path, "motion file", _LARGEST)
     try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
-            return _motion({name: archive[name] for name in archive.files})
-    except Exception as error:  # a damaged archive raises in many ways
+        return _motion(arrays)
+    except (ValueError, KeyError, IndexError, TypeError) as error:
         rule = f"cannot be read ({type(error).__name__}: {str(error)[:80]})"
         raise InputError("motion file", path, rule, "run the report or the scenario again") from error
 
@@ -137,9 +140,14 @@ def _motion(arrays: Mapping[str, NDArray[Any]]) -> RecordedMotion:
 
 def _solid(arrays: Mapping[str, NDArray[Any]], number: int) -> Solid:
     colours = arrays[f"colours{number}"]
+    points, quads = arrays[f"points{number}"].astype(np.float64), arrays[f"quads{number}"].astype(np.int64)
+    if points.shape[1:] != (3,) or quads.shape[1:] != (4,) or not np.isfinite(points).all():
+        raise ValueError(f"solid {number} of points {points.shape} and quadrangles {quads.shape}")
+    if quads.size and (quads.min() < 0 or quads.max() >= len(points)):  # VTK would look beyond them
+        raise ValueError(f"solid {number} has quadrangles on points it has not")
     return Solid(
         body=int(arrays["bodies"][number]),
-        points=arrays[f"points{number}"].astype(np.float64),
-        quads=arrays[f"quads{number}"].astype(np.int64),
+        points=points,
+        quads=quads,
         colours=str(colours) if colours.ndim == 0 else colours.astype(np.uint8),
     )

@@ -5,7 +5,6 @@ Verified by tests/unit/test_viewer_folder.py.
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
+from contracts.foreign_folder import read_json
 from contracts.series import TimeSeries, read_series
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours
 from workbench.viewer.names import named_apart, plain
@@ -154,8 +154,5 @@ def _named(path: Path) -> tuple[str, str]:
 
 
 def _summary(path: Path) -> tuple[str, str]:
-    try:
-        summary = json.loads(path.read_text(encoding="utf-8"))
-        return plain(str(summary["study"])), plain(str(summary["status"]))
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError("summary", path, f"cannot be read ({type(error).__name__})", "run the report again") from error
+    summary = read_json(path, "summary", "run the report again")
+    return plain(str(summary.get("study", ""))), plain(str(summary.get("status", "")))

@@ -8,6 +8,7 @@ Verified by tests/unit/test_viewer_scene.py and tests/end_to_end/test_view.py.
 from __future__ import annotations
 
 import warnings
+import zlib
 from collections.abc import Hashable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from workbench.figures.solids import WORLD, Quads, Solid
+from workbench.viewer.field_arrays import field_arrays
 from workbench.viewer.wheel_surface import WheelField, WheelSurface, wheel_surface
 
 __all__ = ["Camera", "Scene", "read_fields"]
@@ -57,21 +59,24 @@ def read_fields(path: Path) -> tuple[WheelSurface, WheelField]:
     """
     hint = "run the report again, or take the file out of the folder"
     try:
-        ElementTree.parse(path)  # what is cut short is said here, and not in a page of VTK's own words
-        with _quiet():
-            grid: Any = pv.read(path)
-        (kind,) = grid.cells_dict
-        cells = np.asarray(grid.cells_dict[kind], dtype=np.int64)
-        part = np.asarray(grid.cell_data["part"], dtype=np.int64)
-        moved = np.asarray(grid.point_data["displacement_m"], dtype=np.float64)
-        stress = np.asarray(grid.point_data["von_mises_Pa"], dtype=np.float64)
-    except Exception as error:  # VTK raises whatever it likes
+        found = field_arrays(path)
+        points = np.asarray(found["Points"], dtype=np.float64)
+        (kind,) = np.unique(found["types"]).tolist()
+        cells = np.asarray(found["connectivity"], dtype=np.int64).reshape(len(found["types"]), -1)
+        part = np.asarray(found["part"], dtype=np.int64)
+        moved = np.asarray(found["displacement_m"], dtype=np.float64)
+        stress = np.asarray(found["von_mises_Pa"], dtype=np.float64)
+    except InputError:
+        raise
+    except (ValueError, KeyError, TypeError, zlib.error, ElementTree.ParseError) as error:
         lines = str(error).strip().splitlines()
         reason = f"{type(error).__name__}: {lines[0][:120]}" if lines else type(error).__name__
         raise InputError("field file", path, f"cannot be read ({reason})", hint) from error
-    if kind not in _HEXAHEDRA or not (np.all(np.isfinite(moved)) and np.all(np.isfinite(stress))):
+    if _HEXAHEDRA.get(kind) != cells.shape[1] or not all(np.isfinite(each).all() for each in (points, moved, stress)):
         raise InputError("field file", path, "must hold hexahedra with finite fields", hint)
-    points = np.asarray(grid.points, dtype=np.float64)
+    fits = points.shape == moved.shape == (len(stress), 3) and stress.ndim == 1 and part.shape == (len(cells),)
+    if not fits or cells.min() < 0 or cells.max() >= len(points):
+        raise InputError("field file", path, "must hold cells of its own points, and a field at each", hint)
     return wheel_surface(points, cells, part), WheelField(displacement=moved, von_mises=stress)
 
 

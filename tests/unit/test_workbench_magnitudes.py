@@ -1,0 +1,229 @@
+"""Numbers that no wheel has are refused before anything is built, unusual ones are told; every key has its row.
+
+Source of the cases: issue "nothing absurd is believed"; each of them passed silently before there was a table.
+"""
+
+from __future__ import annotations
+
+import copy
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from annotated_types import Ge, Le
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from contracts.errors import InputError, StudyError
+from contracts.ranges import Key, range_table
+from rover_dynamics.rover.rover_file import EXOMARS_ROVER, read_rover
+from tests.end_to_end.small_study import small_study_text
+from workbench.checks.statements import families
+from workbench.report.opening import verdict
+from workbench.study.key_units import is_whole_number, parts_of
+from workbench.study.loosened import GATES, loosened
+from workbench.study.magnitudes import numbers_of, require_possible, study_ranges, warnings_of
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study, study_of
+from workbench.study.sections import ToleranceSection
+
+SHIPPED = sorted(built_in_study().parent.glob("*.toml"))
+TABLE = tomllib.loads(built_in_study().read_text(encoding="utf-8"))
+TITANIUM = "materials.Ti-6Al-4V"
+FREE = {"sweep.seed": "any whole number draws points as well as any other"}
+"""Numbers without a limit, and why."""
+
+ABSURD: dict[str, tuple[str, Any]] = {
+    "density in g/cm^3": ("density", 4.43),
+    "density of a star": ("density", 1e9),
+    "strength of nothing": ("yield_strength", "1e-9 Pa"),
+    "modulus in kPa": ("young_modulus", "113.8 kPa"),
+    "width in m": ("wheel.tire.width", "120 m"),
+    "radius in m": ("wheel.tire.outer_radius", "142.5 m"),
+    "grouser in m": ("wheel.grousers.height", "3 m"),
+    "spring as thick as a thumb": ("wheel.springs[0].thickness", "20 mm"),
+    "friction": ("fe.friction", 1e6),
+    "contact that is none": ("fe.contact_stiffness", 1e-297),
+    "contact beyond numbers": ("fe.contact_stiffness", 1e300),
+    "plates' contact that is none": ("ancf.contact_stiffness", 1e-297),
+    "plates' contact beyond numbers": ("ancf.contact_stiffness", 1e300),
+    "brush that is none": ("brush.radial_stiffness", 1e-297),
+    "gate of 1e9": ("tolerances.mesh_uncertainty", 1e9),
+    "gate of 100 %": ("tolerances.fe_energy", 1.0),
+    "residual that cannot fail": ("tolerances.fe_residual", 1e9),
+    "phase in percent": ("wheel.springs[1].phase", "60 %"),
+    "phase in counts": ("wheel.springs[1].phase", "60 count"),
+    "orientation in ppm": ("mesh_study.orientation", "15 ppm"),
+    "friction in degrees": ("fe.friction", "30 deg"),
+    "plates of titanium": ("ancf.young_modulus", "113.8 GPa"),
+    "elements as large as the wheel": ("mesh.element_size", "140 mm"),
+    "ground on its side": ("fe.camber", "80 deg"),
+    "steps without end": ("full.orientation_step", "1e-12 deg"),
+}
+
+
+def changed(key: str, value: object, base: dict[str, Any] = TABLE) -> dict[str, Any]:
+    """The study's content with another value at a dotted key."""
+    table = copy.deepcopy(base)
+    if key in ("density", "yield_strength", "young_modulus"):
+        table["materials"]["Ti-6Al-4V"][key] = value
+        return table
+    *parents, last = parts_of(key)
+    at: Any = table
+    for part in parents:
+        at = at[part]
+    at[last] = value
+    return table
+
+
+@pytest.mark.parametrize("case", ABSURD)
+def test_what_is_absurd_is_refused_or_told(case: str) -> None:
+    key, value = ABSURD[case]
+    name = f"{TITANIUM}.{key}" if "." not in key else key
+    try:
+        told = warnings_of(study_of(Path("s.toml"), changed(key, value)))
+    except StudyError as error:
+        told = (str(error),)
+    assert any(name in line for line in told), told
+
+
+def test_magnitudes_are_judged_before_anything_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
+    def built(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr("workbench.study.reading.wheel_design", built)
+    with pytest.raises(StudyError, match=r"wheel\.tire\.outer_radius = '142\.5 m': must lie between 5 mm and 5000 mm"):
+        study_of(Path("s.toml"), changed("wheel.tire.outer_radius", "142.5 m"))
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_shipped_studies_are_usual(path: Path) -> None:
+    assert warnings_of(read_study(path)) == ()
+
+
+def test_the_shipped_rover_is_usual_and_absurd_ones_are_not(tmp_path: Path) -> None:
+    assert read_rover().warnings == ()
+    text = EXOMARS_ROVER.read_text(encoding="utf-8")
+    for old, new, words in (
+        ("mass = 246.39796", "mass = 1e-298", "must lie between 0.0001 kg and 1e6 kg"),
+        ("[51.0, 65.0, 98.0]", "[51e12, 65e12, 98e12]", "must lie between"),
+        ("gravity = 3.711 ", "gravity = 3.711e12 ", "must lie between"),
+        ("[0.32, 0.4705, 0.216]", "[320, 470.5, 216]", "must be 0 or lie between"),
+    ):
+        assert old in text
+        (tmp_path / "r.toml").write_text(text.replace(old, new), encoding="utf-8")
+        with pytest.raises(InputError, match=words):
+            read_rover(tmp_path / "r.toml")
+    (tmp_path / "r.toml").write_text(text.replace("mass = 246.39796", "mass = 24639.796"), encoding="utf-8")
+    assert [line.partition(";")[0] for line in read_rover(tmp_path / "r.toml").warnings] == [
+        "bodies[0].mass = 24639.8 kg is unusual for a body's mass (0.01 kg to 5000 kg)"
+    ]
+
+
+def _fields(kind: type[BaseModel], key: Key) -> list[tuple[Key, FieldInfo]]:
+    """Every field that holds numbers, below a section; ``*`` for places in lists and names of tables."""
+    found: list[tuple[Key, FieldInfo]] = []
+    for name, field in kind.model_fields.items():
+        found += _below(field.annotation, (*key, name), field)
+    return found
+
+
+def _below(annotation: Any, key: Key, field: FieldInfo) -> list[tuple[Key, FieldInfo]]:
+    annotation = getattr(annotation, "__value__", annotation)
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return _fields(annotation, key)
+    if annotation in (int, float):
+        return [(key, field)]
+    origin = getattr(annotation, "__origin__", None)
+    inner = [one for one in getattr(annotation, "__args__", ()) if isinstance(one, type) or hasattr(one, "__args__")]
+    if origin is tuple and Ellipsis not in annotation.__args__:
+        return [one for k, part in enumerate(inner) for one in _below(part, (*key, k), field)]
+    if origin in (tuple, dict):
+        return [one for part in inner for one in _below(part, (*key, "*"), field)]
+    return [one for part in inner for one in _below(part, key, field)]
+
+
+def test_every_number_of_a_study_has_its_row_or_its_limits() -> None:
+    """Whole numbers have theirs where their type stands. A key without either would be believed whatever it says."""
+    found = _fields(Study, ())
+    assert len(found) > 100
+    for key, field in found:
+        name = ".".join(map(str, key))
+        if name in FREE or key[:2] == ("sweep", "parameters"):
+            continue
+        shown = name.replace(".*", "[0]")
+        bounds = {type(one) for one in field.metadata} | {type(m) for m in _metadata(field.annotation)}
+        whole = is_whole_number(shown) or int in _kinds(field.annotation)
+        limited = whole and {Ge, Le} <= bounds
+        assert limited or study_ranges().row(key) is not None or "Literal" in str(field.annotation), name
+
+
+def _metadata(annotation: Any) -> list[Any]:
+    annotation = getattr(annotation, "__value__", annotation)
+    own = [m for one in getattr(annotation, "__metadata__", ()) for m in getattr(one, "metadata", [one])]
+    return own + [m for part in getattr(annotation, "__args__", ()) for m in _metadata(part)]
+
+
+def _kinds(annotation: Any) -> list[Any]:
+    annotation = getattr(annotation, "__value__", annotation)
+    return [annotation, *(kind for part in getattr(annotation, "__args__", ()) for kind in _kinds(part))]
+
+
+def test_rows_are_sound_and_name_keys_that_are() -> None:
+    keys = {key for key, _ in _fields(Study, ())}
+    for row in study_ranges().ranges:
+        assert row.possible[0] <= row.usual[0] < row.usual[1] <= row.possible[1], row
+        for name in row.keys:
+            assert any(_same(name, key) for key in keys), name
+    for ratio in study_ranges().ratios:
+        assert ratio.possible[0] <= ratio.usual[0] < ratio.usual[1] <= ratio.possible[1], ratio
+        assert all(any(_same(name, key) for key in keys) for name in (ratio.key, ratio.beside)), ratio
+    rover = range_table(EXOMARS_ROVER.with_name("ranges.toml"))
+    assert all(row.possible[0] <= row.usual[0] < row.usual[1] <= row.possible[1] for row in rover.ranges)
+
+
+def _same(pattern: str, key: Key) -> bool:
+    parts = pattern.split(".")
+    alike = (one == str(other) or "*" in (one, other) for one, other in zip(parts, key, strict=False))
+    return len(parts) == len(key) and all(alike)
+
+
+@pytest.mark.parametrize("factor", [1e12, 1e-12])
+def test_no_number_of_the_shipped_study_may_be_a_million_millions_larger_or_smaller(factor: float) -> None:
+    study = read_study(built_in_study())
+    for key, number in numbers_of(study).items():
+        row = study_ranges().row(key)
+        if row is not None and number:
+            assert not row.usual[0] <= abs(number) * factor <= row.usual[1], key
+
+
+def test_loosened_gates_are_told_in_the_verdict(tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text(small_study_text(), encoding="utf-8")
+    study = read_study(tmp_path / "s.toml")
+    assert loosened(study) == (
+        "tolerances.initial_tangent = 0.9 is looser than its gate's own 0.03",
+        "tolerances.reach_deflection = 0.006 is looser than its gate's own 0.03",
+        "tolerances.fe_energy = 0.1 is looser than its gate's own 0.01",
+        "tolerances.mesh_uncertainty = 0.5 is looser than its gate's own 0.05",
+    )
+    assert "4 gate tolerances are the study's own: tolerances.initial_tangent = 0.9" in verdict([], loosened(study))
+    assert set(loosened(study)) <= set(warnings_of(study))
+    other = study.model_copy(update={"tolerances": study.tolerances.model_copy(update={"reference_wheel": False})})
+    assert len(loosened(other)) == 2
+    stricter = ToleranceSection(reference_wheel=True, min_scaled_jacobian=0.3, fe_energy=1e-3, reach_load="400 N")
+    assert loosened(study.model_copy(update={"tolerances": stricter})) == ()
+    easier = ToleranceSection(min_scaled_jacobian=0.1)
+    assert len(loosened(study.model_copy(update={"tolerances": easier}))) == 1
+
+
+def test_gates_are_tolerances_that_checks_are_moved_by() -> None:
+    settings = {family.statement.setting for family in families()}
+    assert GATES.keys() - {"reach_load", "reach_deflection"} <= settings
+    assert GATES.keys() <= ToleranceSection.model_fields.keys()
+
+
+def test_numbers_of_the_command_line_have_the_same_limits() -> None:
+    require_possible("target", 8250.0, "reference.initial_tangent")
+    with pytest.raises(InputError, match=r"target = 1e300 N/m: must lie between 1 N/m and 1e9 N/m"):
+        require_possible("target", 1e300, "reference.initial_tangent")
