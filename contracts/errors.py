@@ -10,7 +10,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-__all__ = ["ConvergenceError", "IncrementRecord", "InputError", "MeshError", "StudyError", "WorkbenchError"]
+__all__ = [
+    "ConvergenceError",
+    "IncrementRecord",
+    "InputError",
+    "MemoryLimitError",
+    "MeshError",
+    "StudyError",
+    "WorkbenchError",
+]
 
 
 class WorkbenchError(Exception):
@@ -54,6 +62,20 @@ class StudyError(WorkbenchError, ValueError):
 
 class MeshError(WorkbenchError):
     """A mesh fails one of its checks (untagged boundary, inverted element, separate pieces, wrong volume)."""
+
+
+class MemoryLimitError(WorkbenchError):
+    """A computation needs more memory than there is.
+
+    Parameters
+    ----------
+    message : what needs how much, and how much there is
+    hint : what to try
+    """
+
+    def __init__(self, message: str, hint: str) -> None:
+        self.hint = hint
+        super().__init__(f"out of memory: {message}; {hint}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
