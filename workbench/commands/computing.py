@@ -11,7 +11,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from contracts.errors import InputError, StudyError
+from contracts.errors import InputError, MemoryLimitError, StudyError
 from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
@@ -43,7 +43,7 @@ def naming(study_path: Path) -> Iterator[None]:
         yield
     except (StudyError, InterruptedRunError):
         raise
-    except (InputError, RunError) as error:
+    except (InputError, MemoryLimitError, RunError) as error:
         raise RunError(f"{study_path}: {error}") from error
 
 

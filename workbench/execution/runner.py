@@ -19,9 +19,10 @@ from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
 from workbench.execution.live_runs import announce
 from workbench.execution.local_workers import LocalWorkers
+from workbench.execution.memory import memory_warning
 from workbench.execution.ranks import mpiexec
 from workbench.execution.store import Entry, Store
-from workbench.execution.task import Task, bare_name, task_keys
+from workbench.execution.task import Task, bare_name, chain_costs, task_keys
 
 __all__ = ["RESTARTS", "Computing", "Ended", "Listener", "Workers", "run_all", "run_tasks"]
 
@@ -60,6 +61,9 @@ class Listener(Protocol):
 
     def damaged(self, name: str, fault: str) -> None:
         """The stored result of the task is damaged, in these words; it will be computed again."""
+
+    def warned(self, warning: str) -> None:
+        """Something about the whole run, before its first task."""
 
     def started(self, name: str) -> None:
         """The task began to run."""
@@ -137,6 +141,8 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
     ------
     RunError
         If nobody can compute, or the user interrupts; what had finished stays in the store.
+    MemoryLimitError
+        If a task needs more memory than a process can have here; nothing was started.
     """
     store.sweep()
     keys = task_keys(tuple(tasks))
@@ -149,11 +155,14 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
             listener.finished(task.name, entry, reused=True)
         elif fault := store.fault(keys[task.name]):
             listener.damaged(task.name, fault)
-    waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -t.cost)
+    chains = chain_costs(tasks)
+    waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -chains[t.name])
     if not waiting:
         return Ended(entries=entries, failures={})
     log = store.root / "log" / f"run-{os.getpid()}.log"
     computing = computing or Computing()
+    if computing.scheduler is None and (warning := memory_warning(waiting, computing.workers)):
+        listener.warned(warning)
     run = _Run(store, keys, listener, _workers(computing, len(waiting), log), computing.ranks)
     run.run(waiting, entries)
     return Ended(entries=entries, failures=run.failures)

@@ -41,7 +41,6 @@ def environment_tasks(study: Study) -> list[Task]:
         fe_task(
             _name(variant, temperature),
             inputs | {"materials": {part: asdict(m) for part, m in _materials(study, variant, temperature).items()}},
-            cost=40.0,
         )
         for variant, temperature in _wanted(study)
         if (variant, temperature) != (_DESIGN, REFERENCE_TEMPERATURE)
