@@ -52,7 +52,7 @@ def test_two_at_once_need_both() -> None:
 
 
 def test_an_expectation_within_its_error_is_no_refusal() -> None:
-    assert "may run out" in memory_warning([_task("a", 17e9)], 1, _bound(9e9), _bound(14e9))
+    assert "may run out" in memory_warning([_task("a", 15e9)], 1, _bound(9e9), _bound(14e9))
 
 
 @pytest.mark.parametrize(

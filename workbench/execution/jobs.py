@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from contracts.errors import WorkbenchError
+from contracts.memory import free_memory
 
 __all__ = ["Done", "Failed", "Job", "Lost", "Message", "Progressed", "run_job"]
 
@@ -77,6 +78,9 @@ class Lost:
     how: str
 
 
+_PETSC_OUT_OF_MEMORY = 55
+_LESS_MEMORY = "choose larger elements, or run fewer tasks at once (--workers 1)"
+
 type Message = Progressed | Done | Failed | Lost
 """News of a task; ``last`` where no more will follow."""
 
@@ -95,5 +99,7 @@ def run_job(job: Job, report: Callable[[float], None]) -> Done | Failed:
         text = traceback.format_exc()
         sys.stderr.write(f"--- {job.name}\n{text}\n")
         sys.stderr.flush()
+        if isinstance(error, MemoryError) or getattr(error, "ierr", 0) == _PETSC_OUT_OF_MEMORY:
+            return Failed(message=f"out of memory: it got no more, and {free_memory()}; {_LESS_MEMORY}")
         return Failed(message=f"unexpected {type(error).__name__}: {error}", traceback=text)
     return Done(dofs=int(dofs), wall_s=time.perf_counter() - start)

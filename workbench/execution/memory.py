@@ -13,7 +13,7 @@ from workbench.execution.task import Task
 
 __all__ = ["SURE", "memory_warning"]
 
-SURE = 0.8
+SURE = 0.9
 """Part of the expected memory that a task takes at the least: below, a refusal could be wrong."""
 
 _HINT = "choose a larger element_size or axial_size, a smaller factor, or a machine with more memory"
