@@ -9,7 +9,7 @@ import resource
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-__all__ = ["MemoryBound", "free_memory", "shown_size", "total_memory"]
+__all__ = ["MemoryBound", "free_memory", "limited_address_space", "shown_size", "total_memory"]
 
 _PROC, _CGROUP = Path("/proc"), Path("/sys/fs/cgroup")
 
@@ -61,6 +61,12 @@ def total_memory(*, proc: Path = _PROC, cgroup: Path = _CGROUP) -> MemoryBound:
         amount = machine["MemTotal"] + machine.get("SwapTotal", 0.0)
         bounds.append(MemoryBound(bytes=amount, source="on this machine in all"))
     return min(bounds, key=lambda bound: bound.bytes)
+
+
+def limited_address_space() -> str:
+    """``"0.8 GB"`` where this process' address space is limited, else empty."""
+    bound = _address_space(0.0)
+    return "" if bound.bytes == float("inf") else shown_size(bound.bytes)
 
 
 def _address_space(used: float) -> MemoryBound:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from contracts.errors import WorkbenchError
-from contracts.memory import free_memory
+from contracts.memory import free_memory, limited_address_space
 
 __all__ = ["Done", "Failed", "Job", "Lost", "Message", "Progressed", "run_job"]
 
@@ -79,6 +79,8 @@ class Lost:
 
 
 _PETSC_OUT_OF_MEMORY = 55
+_SHORT = 1e8
+"""Free memory [byte] below which an unexpected error is put down to it."""
 _LESS_MEMORY = "choose larger elements, or run fewer tasks at once (--workers 1)"
 
 type Message = Progressed | Done | Failed | Lost
@@ -99,7 +101,12 @@ def run_job(job: Job, report: Callable[[float], None]) -> Done | Failed:
         text = traceback.format_exc()
         sys.stderr.write(f"--- {job.name}\n{text}\n")
         sys.stderr.flush()
+        free = free_memory()
         if isinstance(error, MemoryError) or getattr(error, "ierr", 0) == _PETSC_OUT_OF_MEMORY:
-            return Failed(message=f"out of memory: it got no more, and {free_memory()}; {_LESS_MEMORY}")
-        return Failed(message=f"unexpected {type(error).__name__}: {error}", traceback=text)
+            return Failed(message=f"out of memory: it got no more, and {free}; {_LESS_MEMORY}")
+        if free.bytes < _SHORT:  # whatever failed, such as a library that could not be loaded, failed for that
+            return Failed(message=f"out of memory: {free}; {_LESS_MEMORY} ({type(error).__name__}: {error})")
+        limit = limited_address_space()
+        told = f"; its address space is limited to {limit} (ulimit -v): is it out of memory?" if limit else ""
+        return Failed(message=f"unexpected {type(error).__name__}: {error}{told}", traceback=text)
     return Done(dofs=int(dofs), wall_s=time.perf_counter() - start)
