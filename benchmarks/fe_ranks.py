@@ -133,7 +133,7 @@ def timed(call: Callable, spent: list[tuple[float, int, float, float]]) -> Calla
         start, cpu = time.perf_counter(), time.process_time()
         outcome = call(self, rise)
         wall, cpu = time.perf_counter() - start, time.process_time() - cpu
-        flop = self._ksp.getPC().getFactorMatrix().getMumpsRinfo(3)
+        flop = self._direct.factors.getMumpsRinfo(3)
         spent.append((wall, outcome.iterations, flop, cpu))
         return outcome
 

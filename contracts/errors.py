@@ -14,6 +14,7 @@ __all__ = [
     "ConvergenceError",
     "IncrementRecord",
     "InputError",
+    "MemoryLimitError",
     "MeshError",
     "MissingLibraryError",
     "StudyError",
@@ -62,6 +63,20 @@ class StudyError(WorkbenchError, ValueError):
 
 class MeshError(WorkbenchError):
     """A mesh fails one of its checks (untagged boundary, inverted element, separate pieces, wrong volume)."""
+
+
+class MemoryLimitError(WorkbenchError):
+    """A computation needs more memory than there is.
+
+    Parameters
+    ----------
+    message : what needs how much, and how much there is
+    hint : what to try
+    """
+
+    def __init__(self, message: str, hint: str) -> None:
+        self.hint = hint
+        super().__init__(f"out of memory: {message}; {hint}")
 
 
 class MissingLibraryError(WorkbenchError):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from contracts.errors import InputError, MeshError
 from contracts.mesh import TaggedMesh
 from geometry.assembly import RawMesh, assemble, join
+from geometry.counting import count_solid, require_buildable
 from geometry.gmsh_session import gmsh_session
 from geometry.resolution import (
     MeshSize,
@@ -78,7 +79,8 @@ def build_mesh(
     Raises
     ------
     InputError
-        For sizes out of range, unknown part names, or a half of a wheel that is not symmetric about y = 0.
+        For sizes out of range, unknown part names, more cells than can be built and solved, or a half of a wheel that
+        is not symmetric about y = 0.
 
     Verified by tests/verification/test_mesh_volume.py and tests/verification/test_mesh_conformity.py.
     """
@@ -88,6 +90,10 @@ def build_mesh(
     if order not in _HEXAHEDRON:
         raise InputError("order", order, "must be 1 or 2", "use 2 for curved geometry")
     names = part_names(design, parts)
+    require_buildable(
+        count_solid(design, size, order, parts, half_width=half_width),
+        {"element_size": element_size, "axial_size": size.axial_size},
+    )
     with gmsh_session(design.name) as gmsh:
         solids = add_extruded(gmsh, design, size, parts, half_width)
         mesh_solids(gmsh, solids, order)

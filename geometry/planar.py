@@ -19,6 +19,7 @@ from contracts.errors import InputError, MeshError
 from contracts.mesh import TaggedMesh
 from geometry.assembly import FREE
 from geometry.build import mesh_size
+from geometry.counting import count_planar, require_buildable
 from geometry.gmsh_session import gmsh_session
 from geometry.resolution import hub_ring, part_bands, part_names, rim_ring
 from geometry.section import build_section
@@ -66,7 +67,8 @@ def build_planar_mesh(
     Raises
     ------
     InputError
-        For sizes out of range, unknown part names, and a wheel with sidewall springs, which bend out of the plane.
+        For sizes out of range, unknown part names, more cells than can be built, and a wheel with sidewall springs,
+        which bend out of the plane.
     """
     if design.sidewall_springs is not None:
         rule = "bend out of the plane: the wheel has no planar model"
@@ -77,6 +79,7 @@ def build_planar_mesh(
     if order not in _LINE:
         raise InputError("order", order, "must be 1 or 2", "use 2 for curved geometry")
     names = part_names(design, "flexible")
+    require_buildable(count_planar(design, size, order), {"element_size": element_size})
     rings = rim_ring(design, size), hub_ring(design, size, "flexible")
     with gmsh_session(f"{design.name} section") as gmsh:
         drawn = draw_faces(gmsh.model.occ, build_section(design, size, rings, frozenset(names)), 0.0)

@@ -17,7 +17,7 @@ from geometry.resolution import MeshSize, Ring, axial_bands, sidewall_angles
 from geometry.sidewall import Profile, SidewallSprings, sidewall_profile, weld_half_angle
 from geometry.wheel import WheelDesign
 
-__all__ = ["LEAST_PER_ARC", "LEAST_PER_CURL", "sidewall_cells"]
+__all__ = ["LEAST_PER_ARC", "LEAST_PER_CURL", "elements_along", "sidewall_cells"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -106,18 +106,23 @@ def _angles_across(ring: Ring, middle: float, half: float, order: int) -> Array:
 def _strip(springs: SidewallSprings, rim: float, rows: tuple[Array, int], size: MeshSize, order: int) -> _Strip:
     """Divide one strip; ``rows`` are the positions on the weld and the number of nodes across."""
     weld, n_across = rows
-    largest = size.of(springs.name)
-    lengths = math.pi * springs.curl_radius, springs.sweep * springs.arc_radius, springs.clamp_length
-    counts = [
-        size.refined(max(least, math.ceil(length / largest - 1e-6)))
-        for least, length in zip((LEAST_PER_CURL, LEAST_PER_ARC, 1), lengths, strict=True)
-    ]
+    counts = elements_along(springs, size)
     curl, arc, clamp = (order * n for n in counts)
     profile = sidewall_profile(springs, rim, weld, (curl, arc, clamp))
     depths = springs.thickness * np.linspace(-0.5, 0.5, order * size.thickness_elements + 1)
     cells = _lattice_cells((len(profile.points), n_across, len(depths)), order)
     at_end = np.flatnonzero(reference_nodes(8)[:, 0] < 0.0)
     return _Strip(profile=profile, depths=depths, cells=cells, end=cells[0][:, at_end], clamped=counts[2])
+
+
+def elements_along(springs: SidewallSprings, size: MeshSize) -> list[int]:
+    """Elements along curl, arc and clamp of a strip."""
+    largest = size.of(springs.name)
+    lengths = math.pi * springs.curl_radius, springs.sweep * springs.arc_radius, springs.clamp_length
+    return [
+        size.refined(max(least, math.ceil(length / largest - 1e-6)))
+        for least, length in zip((LEAST_PER_CURL, LEAST_PER_ARC, 1), lengths, strict=True)
+    ]
 
 
 def _lattice_cells(shape: tuple[int, int, int], order: int) -> Index:

@@ -22,6 +22,7 @@ from ancf_reduced.plates.assembly import dense_matrix
 from ancf_reduced.tire.mesh import Tire, build_tire
 from ancf_reduced.tire.plane_problem import PlaneProblem
 from ancf_reduced.tire.static import TireEquilibria
+from contracts.errors import ConvergenceError
 from contracts.frames import ground_direction_h
 
 __all__ = ["VariedTire", "load_gradient", "vary_tire"]
@@ -116,7 +117,11 @@ def _adjoint(problem: PlaneProblem, p: FloatArray, deflection: float) -> FloatAr
     along = np.zeros_like(p)
     along[:, 0] = problem.direction
     slope = dense_matrix(tire.mesh, contacts) @ along.ravel()
-    return np.asarray(np.linalg.solve(tangent[np.ix_(rows, rows)], slope[rows]))
+    try:
+        return np.asarray(np.linalg.solve(tangent[np.ix_(rows, rows)], slope[rows]))
+    except np.linalg.LinAlgError as error:
+        message = f"the load's derivative at {deflection:.4g} m does not exist: the tangent is singular there"
+        raise ConvergenceError(message, []) from error
 
 
 def _load_and_residual(tire: Tire, direction: FloatArray, x: FloatArray, deflection: float) -> tuple[float, FloatArray]:

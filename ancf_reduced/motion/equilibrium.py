@@ -117,9 +117,12 @@ def newton_solve(
         if converged or not np.isfinite(residuals[-1]) or len(residuals) > controls.max_iterations:
             return NewtonResult(x=x, residuals=tuple(residuals), converged=converged)
         try:
-            x = x - solve(tangent(x), residual)
+            step = solve(tangent(x), residual)
         except np.linalg.LinAlgError:
-            return NewtonResult(x=x, residuals=tuple(residuals), converged=False)
+            step = np.full_like(x, np.nan)
+        if not np.isfinite(step).all():
+            return NewtonResult(x=x, residuals=tuple(residuals), converged=False, reason="the tangent is singular")
+        x = x - step
 
 
 def follow_path(

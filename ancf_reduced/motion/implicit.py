@@ -152,12 +152,16 @@ class _Run:
         force = self.system.force(start.z, start.v, start.time)
         G = self._triads.jacobian(start.z)
         bias = -self._triads.jacobian_rate(start.v) @ start.v.ravel()
-        x = self.matrices.solve(self.matrices.mass, G, np.concatenate([force.ravel(), bias]))
+        try:
+            x = self.matrices.solve(self.matrices.mass, G, np.concatenate([force.ravel(), bias]))
+        except np.linalg.LinAlgError as error:
+            message = f"implicit motion cannot start at {start.time:.4g} s: {error}; look at masses, forces and triads"
+            raise ConvergenceError(message, []) from error
         a = x[: force.size].reshape(-1, 3)
         return _Step(state=start, acceleration=a, auxiliary=a, multipliers=x[force.size :])
 
     def advance(self, here: _Step, h: float) -> _Step | None:
-        """One step; None if Newton's iteration does not converge."""
+        """One step; None if Newton's iteration does not converge or its matrix is singular."""
         w, system = self.weights, self.system
         time, a, lam = here.state.time + h, here.acceleration.copy(), here.multipliers
         auxiliary = (w.alpha_f * here.acceleration + (1.0 - w.alpha_f) * a - w.alpha_m * here.auxiliary) / (
@@ -176,7 +180,10 @@ class _Run:
             right = -np.concatenate([residual, self._triads.defect(z)])
             if not np.isfinite(right).all():
                 return None
-            x = self.matrices.solve(tangent, G, right)
+            try:
+                x = self.matrices.solve(tangent, G, right)
+            except np.linalg.LinAlgError:
+                return None
             dz = x[: z.size].reshape(-1, 3)
             z, v, a, lam = z + dz, v + by_v * dz, a + by_z * dz, lam + x[z.size :]
             if np.abs(dz[self._positions]).max() < self.settings.newton_tolerance * self.settings.tolerance:

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import bsr_array, csr_array
 from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import splu
 
+from ancf_reduced.motion.factors import factorised
 from ancf_reduced.motion.linearisation import Linearisation, Matrix, constrained
 from ancf_reduced.motion.plate_system import PlateSystem
 from ancf_reduced.motion.rigid_triads import RigidTriads
@@ -145,9 +145,16 @@ def _turned(A: FloatArray, x: FloatArray) -> FloatArray:
 
 def _inverse(whole: Matrix, n: int, *, blocks: bool) -> Callable[[FloatArray], FloatArray]:
     """The first n rows and columns of a matrix' inverse as a map; ``blocks``: it consists of blocks among zeros."""
+    try:
+        return _map(whole, n, blocks=blocks)
+    except np.linalg.LinAlgError as error:
+        raise ConvergenceError("damping, step and mass make a singular matrix", []) from error
+
+
+def _map(whole: Matrix, n: int, *, blocks: bool) -> Callable[[FloatArray], FloatArray]:
     if isinstance(whole, np.ndarray):
         inverse = np.linalg.inv(whole)[:n, :n]
         P = csr_array(inverse) if blocks else np.ascontiguousarray(inverse)
         return lambda r: np.asarray(P @ r)
-    factors, rest = splu(whole), np.zeros(whole.shape[0] - n)
-    return lambda r: np.asarray(factors.solve(np.concatenate([r, rest]))[:n])
+    solve, rest = factorised(whole), np.zeros(whole.shape[0] - n)
+    return lambda r: solve(np.concatenate([r, rest]))[:n]

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse import block_array, csc_array, eye_array, kron
-from scipy.sparse.linalg import splu
 
+from ancf_reduced.motion.factors import factorised
 from ancf_reduced.motion.plate_system import PlateSystem
 from ancf_reduced.plates.assembly import dense_matrix, sparse_matrix
 
@@ -83,11 +82,8 @@ class Linearisation:
         return self._reduced(stiffness), self._reduced(damping)
 
     def solve(self, matrix: Matrix, constraints: FloatArray, right: FloatArray) -> FloatArray:
-        """Solution of [matrix G^T; G 0] x = right with the constraints' Jacobian G (m, 3 n)."""
-        whole = constrained(matrix, constraints)
-        if isinstance(whole, np.ndarray):
-            return np.asarray(lu_solve(lu_factor(whole, check_finite=False), right, check_finite=False))
-        return np.asarray(splu(whole).solve(right))
+        """Solution of [matrix G^T; G 0] x = right with the constraints' Jacobian G (m, 3 n); LinAlgError if none."""
+        return factorised(constrained(matrix, constraints))(right)
 
     def like_mass(self, matrix: FloatArray) -> Matrix:
         """A matrix (n, n) that is the same for each direction, as (3 n, 3 n)."""

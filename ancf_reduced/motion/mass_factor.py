@@ -39,11 +39,14 @@ class MassFactor:
 
     def __init__(self, mass: csc_array) -> None:
         options = {"SymmetricMode": True, "Equil": False}
-        self._solver = splu(mass.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+        rule, hint = "must be positive definite", "give every node some mass"
+        try:
+            self._solver = splu(mass.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+        except RuntimeError as error:
+            raise InputError("mass matrix", "singular", rule, hint) from error
         pivots = self._solver.U.diagonal()
-        if pivots.min() <= 0.0 or not np.array_equal(self._solver.perm_r, self._solver.perm_c):
-            rule = "must be positive definite"
-            raise InputError("mass matrix", f"smallest pivot {pivots.min():.3g}", rule, "give every node some mass")
+        if not pivots.min() > 0.0 or not np.array_equal(self._solver.perm_r, self._solver.perm_c):
+            raise InputError("mass matrix", f"smallest pivot {pivots.min():.3g}", rule, hint)
         self.lower = csr_array(self._solver.L @ diags_array(np.sqrt(pivots)))
         self.order = np.argsort(self._solver.perm_c)
         self._upper = csr_array(self.lower.T)

@@ -11,6 +11,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from ancf_reduced.motion.mass_factor import MassFactor
 from ancf_reduced.motion.plate_system import PlateSystem
 from ancf_reduced.plates.assembly import sparse_matrix
+from contracts.errors import ConvergenceError
 
 __all__ = ["natural_frequencies", "stable_step", "stiffness_matrix"]
 
@@ -36,11 +37,16 @@ def natural_frequencies(system: PlateSystem, z: FloatArray, count: int | None = 
     """
     K = stiffness_matrix(system, z)
     M = csc_array(kron(system.mass, np.eye(3)))
-    if count is None or K.shape[0] <= _DENSE:
-        squares = eigh(K.toarray(), M.toarray(), eigvals_only=True, check_finite=False)
-    else:
-        shift = -1e-6 * K.diagonal().max() / M.diagonal().max()
-        squares = np.sort(eigsh(K, k=count, M=M, sigma=shift, v0=_start(K.shape[0]), return_eigenvectors=False))
+    try:
+        if count is None or K.shape[0] <= _DENSE:
+            squares = eigh(K.toarray(), M.toarray(), eigvals_only=True, check_finite=False)
+        else:
+            shift = -1e-6 * K.diagonal().max() / M.diagonal().max()
+            squares = np.sort(eigsh(K, k=count, M=M, sigma=shift, v0=_start(K.shape[0]), return_eigenvectors=False))
+    except (np.linalg.LinAlgError, RuntimeError) as error:  # the latter: SuperLU's, ARPACK's
+        raise ConvergenceError(f"natural frequencies are not found: {error}; look at mass and shape", []) from error
+    if not np.isfinite(squares).all():
+        raise ConvergenceError("natural frequencies are not found: the stiffness is no finite number", [])
     found = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi)
     return np.asarray(found if count is None else found[:count])
 

@@ -22,7 +22,7 @@ from ancf_reduced.motion.plate_system import ExternalForce, HubMass, PlateSystem
 from ancf_reduced.motion.vector_coordinates import with_held_vectors, with_reference_node
 from ancf_reduced.plates.model import PlateModel
 from ancf_reduced.tire.mesh import Tire
-from contracts.errors import InputError
+from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Terrain
 
 __all__ = ["MARS_GRAVITY", "HubDrive", "WheelRig", "damped_model", "wheel_rig"]
@@ -187,9 +187,15 @@ def damped_model(tire: Tire, ratio: float) -> PlateModel:
     z = system.reference()
     matrices = Linearisation(system)
     K, M = matrices.elastic(z), matrices.mass
-    if isinstance(K, np.ndarray):
-        square, mode = eigh(np.asarray(K), np.asarray(M), subset_by_index=(0, 0))
-    else:
-        square, mode = eigsh(K, k=1, M=M, sigma=0.0, v0=np.ones(K.shape[0]))
+    try:
+        if isinstance(K, np.ndarray):
+            square, mode = eigh(np.asarray(K), np.asarray(M), subset_by_index=(0, 0))
+        else:
+            square, mode = eigsh(K, k=1, M=M, sigma=0.0, v0=np.ones(K.shape[0]))
+    except (np.linalg.LinAlgError, RuntimeError) as error:  # the latter: SuperLU's, ARPACK's
+        raise ConvergenceError(f"the tire's first mode is not found: {error}; look at its mass", []) from error
+    if not square[0] > 0.0:
+        message = f"the tire has no stiffness against its first mode (omega^2 = {float(square[0]):.3g} 1/s^2)"
+        raise ConvergenceError(f"{message}; look at its thicknesses and what holds it", [])
     damping = float(mode[:, 0] @ (matrices.damping(z, 0.0 * z) @ mode[:, 0]))
     return replace(tire.model, viscosity=(0.0, 2.0 * ratio * math.sqrt(float(square[0])) / damping))

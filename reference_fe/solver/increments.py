@@ -148,6 +148,12 @@ def _message(reached: float, goal: float, step: float, outcome: NewtonOutcome) -
             f"mesh and load; last converged at {reached:.6g}; smaller increments do not help: set the relative "
             f"tolerance to {3.0 * floor:.0e} or more"
         )
+    if outcome.failure:
+        return (
+            f"the increment to control {goal:.6g} ends as {outcome.failure}; last converged at {reached:.6g}, smaller "
+            f"increments down to {step:.2g} end alike; look for a part that nothing holds, or take a stiffer contact "
+            "or thicker strips"
+        )
     residuals = ", ".join(f"{value:.1e}" for value in outcome.residuals)
     return (
         f"the increment to control {goal:.6g} does not converge; last converged at {reached:.6g}, next step would be "

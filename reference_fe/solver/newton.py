@@ -13,7 +13,7 @@ from reference_fe.contact.newton_step import settle_contact
 from reference_fe.material.hyperelastic import SMALLEST_STRETCH, MaterialLaw
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.solver import process_sums
-from reference_fe.solver.direct import direct_solver
+from reference_fe.solver.direct import DirectSolver, SingularMatrixError, direct_solver
 
 __all__ = ["NewtonOutcome", "NewtonSettings", "NewtonSolver"]
 
@@ -55,6 +55,7 @@ class NewtonOutcome:
     residuals : relative residual at each evaluation [-]: at the start, where 1 means that nothing balances yet, after
         each iteration, and after each change of multipliers
     augmentations : changes of the contact multipliers
+    failure : why there was no further step, if the matrix had no inverse; else empty
     residual : (n_own_dofs,) residual at the last state, supported unknowns included [N]
     """
 
@@ -64,6 +65,7 @@ class NewtonOutcome:
     spurious: bool = False
     stalled: bool = False
     augmentations: int = 0
+    failure: str = ""
 
     @property
     def iterations(self) -> int:
@@ -81,7 +83,7 @@ class NewtonSolver:
     def __init__(self, problem: StaticProblem, settings: NewtonSettings, inner_force: float = 0.0) -> None:
         self.problem, self.settings, self._inner_force = problem, settings, inner_force
         self._matrix: api.PETSc.Mat | None = None
-        self._ksp: api.PETSc.KSP | None = None
+        self._direct: DirectSolver | None = None
         self._free = np.ones(problem.own_dofs, dtype=bool)
         self._free[problem.own_supported] = False
 
@@ -90,10 +92,19 @@ class NewtonSolver:
 
         ``rise`` is the obstacle's rise since the last converged state [m]: the first solve then uses that state's
         contact set (see `contact.obstacle.ObstacleTerm.evaluate`). Every solve goes on to find the touching set, see
-        `contact.newton_step`.
+        `contact.newton_step`. A matrix without an inverse ends the iteration; one whose factors do not fit into memory
+        raises MemoryLimitError.
         """
-        problem, history = self.problem, list[float]()
-        offset = self._offset_at_supports()
+        history = list[float]()
+        try:
+            return self._iterate(rise, history)
+        except SingularMatrixError as error:
+            residual, residuals = self.problem.body_residual(), (*history, float("inf"))
+            return NewtonOutcome(converged=False, residuals=residuals, residual=residual, failure=str(error))
+
+    def _iterate(self, rise: float, history: list[float]) -> NewtonOutcome:
+        """The iteration of `solve`; ``history`` takes the relative residuals."""
+        problem, offset = self.problem, self._offset_at_supports()
         problem.store_stress(extrapolate=False)
         force = problem.surfaces.force(problem.u.x.array, rise)
         if rise:
@@ -149,9 +160,11 @@ class NewtonSolver:
             right_hand_side -= self._lifted(offset)
             right_hand_side[problem.own_supported] = offset[problem.own_supported]
         last, self._matrix = self._matrix, problem.tangent(self._matrix)
-        if self._ksp is None or self._matrix is not last:
-            self._ksp = direct_solver(self._matrix, symmetric=problem.surfaces.symmetric)
-        self._ksp.setOperators(self._matrix)
+        if self._direct is None or self._matrix is not last:
+            if self._direct is not None:
+                self._direct.release()
+            self._direct = direct_solver(self._matrix, symmetric=problem.surfaces.symmetric)
+        self._direct.factorise()
         problem.du.x.array[: problem.own_dofs] = self._solved(right_hand_side)
         problem.du.x.scatter_forward()
         if problem.surfaces.terms:
@@ -162,15 +175,17 @@ class NewtonSolver:
         return force
 
     def _solved(self, right_hand_side: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Solution with the present factors, (n_own_dofs,)."""
+        """Solution with the present factors, (n_own_dofs,); SingularMatrixError where it is no finite number."""
         assert self._matrix is not None
-        assert self._ksp is not None
+        assert self._direct is not None
         x, b = self._matrix.createVecRight(), self._matrix.createVecLeft()
         b.array[:] = right_hand_side
-        self._ksp.solve(b, x)
+        self._direct.solve(b, x)
         solution = np.array(x.array, dtype=np.float64)
         b.destroy()
         x.destroy()
+        if not np.isfinite(process_sums.global_norm(solution)):
+            raise SingularMatrixError("the stiffness matrix is all but singular: a displacement is no finite number")
         return solution
 
     def _offset_at_supports(self) -> NDArray[np.float64]:
@@ -196,12 +211,17 @@ class NewtonSolver:
         return product
 
     def _relative(self, residual: NDArray[np.float64], *, moved: bool) -> float:
-        """Residual norm over free unknowns relative to that of the support and contact forces; inf before a move."""
+        """Residual norm over free unknowns relative to that of the support and contact forces.
+
+        Infinite where a force is no finite number, and before the supports' move 1.
+        """
         if moved:
             return 1.0 if np.isfinite(process_sums.global_norm(residual)) else float("inf")
         out_of_balance = process_sums.global_norm(residual[self._free])
         applied = process_sums.global_norm(residual[~self._free]) + float(np.linalg.norm(self.problem.contact_force()))
         applied += self._inner_force
+        if not np.isfinite(applied + out_of_balance):
+            return float("inf")
         if applied == 0.0:
             return 0.0 if out_of_balance == 0.0 else 1.0
         return out_of_balance / applied

@@ -16,8 +16,9 @@ def sum_shared(function: Function) -> NDArray[np.float64]:
 
 
 def global_norm(own: NDArray[np.float64]) -> float:
-    """Euclidean norm of a vector of which each process holds its own entries."""
-    local = float(np.linalg.norm(own))
+    """Euclidean norm of a vector of which each process holds its own entries; infinite if their squares are."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        local = float(np.linalg.norm(own))
     return local if COMM.size == 1 else float(np.sqrt(COMM.allreduce(local * local)))
 
 

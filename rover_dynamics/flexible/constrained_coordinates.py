@@ -193,7 +193,11 @@ class ConstrainedCoordinates:
             ],
             format="csc",
         )
-        return splu(matrix).solve
+        try:
+            return splu(matrix).solve
+        except RuntimeError as error:
+            message = "equations of motion on flexible tires are singular: look at masses, joints and tires there"
+            raise ConvergenceError(message, []) from error
 
     def _node_rows(self, nodes: NodeConstraints) -> tuple[csr_array, csr_array]:
         """Jacobians of the reference nodes by the twists of all bodies, and by p_bar of all tires."""

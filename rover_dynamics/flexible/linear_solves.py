@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,13 +101,21 @@ def _dense(blocks: FloatArray, pattern: NDArray[np.int64], n: int) -> CondensedT
     )
 
 
+def _factors(matrix: csc_array) -> Any:
+    """SuperLU's factors; LinAlgError for a singular matrix, as of a full one."""
+    try:
+        return splu(matrix)
+    except RuntimeError as error:
+        raise np.linalg.LinAlgError("the matrix of a tire is singular") from error
+
+
 def _sparse(blocks: FloatArray, pattern: NDArray[np.int64], n: int) -> CondensedTires:
     f, order = 3 * n - 12, np.lexsort((pattern[:, 1], pattern[:, 0]))
     starts = np.searchsorted(pattern[order, 0], np.arange(n + 1))
     factors, follow, carry, stiffness = [], [], [], []
     for own in blocks:
         S = csc_array(bsr_array((own[order], pattern[order, 1], starts), shape=(3 * n, 3 * n)))
-        lu = splu(csc_array(S[:f, :f]))
+        lu = _factors(csc_array(S[:f, :f]))
         S_fr, S_rf = S[:f, f:] @ _D, (S[f:, :f].T @ _D).T
         factors.append(lu)
         follow.append(lu.solve(S_fr))

@@ -86,6 +86,14 @@ class StepSolver:
         known : what is prescribed at its end
         dt : [s]
         """
+        try:
+            return self._newton(before, known, dt, method)
+        except np.linalg.LinAlgError:  # a singular matrix: so far from balance that the step must be shorter
+            self._matrix = None
+            return None, np.inf
+
+    def _newton(self, before: StepEnd, known: Known, dt: float, method: Method) -> tuple[StepEnd | None, float]:
+        """As `step`; raises LinAlgError for a singular matrix."""
         system, earlier = self._system, (before.A, before.Z)
         A, Z = before.instant.a.copy(), before.instant.z_acceleration.copy()
         last, fresh, share = np.inf, False, 1.0

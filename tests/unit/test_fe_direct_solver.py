@@ -1,17 +1,20 @@
-"""The direct solver: right answers for indefinite matrices, and no page asked for twice between factorisations."""
+"""The direct solver: right answers for indefinite matrices, no page asked for twice, no failure unnoticed."""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
+from typing import Any
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, diags_array
 
+from contracts.errors import MemoryLimitError
+from contracts.memory import MemoryBound
 from reference_fe.dolfinx_api import COMM, PETSc
-from reference_fe.solver.direct import direct_solver
+from reference_fe.solver.direct import MORE_ROOM, ROOM, DirectSolver, SingularMatrixError, direct_solver
 
 SECOND_USE = """
 import resource
@@ -60,3 +63,74 @@ def test_freed_memory_is_used_again(keep: bool) -> None:
     first, second = (int(word) for word in run.stdout.split())
     assert first > 100
     assert (second < 0.01 * first) == keep
+
+
+def _tridiagonal(diagonal: float, n: int = 200) -> tuple[Any, Any, Any]:
+    """A symmetric matrix with its vectors x and b = 1; singular where the diagonal is zero and n odd."""
+    ones = np.ones(n)
+    rows = csr_array(diags_array([ones[1:], diagonal * ones, ones[1:]], offsets=[-1, 0, 1]))
+    matrix = PETSc.Mat().createAIJ((n, n), csr=(rows.indptr, rows.indices, rows.data), comm=COMM)
+    matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+    x, b = matrix.createVecs()
+    b.array[:] = 1.0
+    return matrix, x, b
+
+
+def test_a_singular_matrix_is_told_and_the_next_one_solved() -> None:
+    """PETSc alone would give infinities, and go on giving them for every later matrix."""
+    matrix, x, b = _tridiagonal(0.0, 201)
+    solver = direct_solver(matrix, symmetric=True)
+    with pytest.raises(SingularMatrixError, match="singular"):
+        solver.solve(b, x)
+    matrix.shift(4.0)
+    solver.factorise()
+    solver.solve(b, x)
+    assert np.isfinite(x.array).all()
+    assert x.array[100] == pytest.approx(1.0 / 6.0, rel=1e-9)
+
+
+def test_factors_that_do_not_fit_are_refused_before_they_are_computed(monkeypatch: pytest.MonkeyPatch) -> None:
+    matrix, x, b = _tridiagonal(4.0, 20000)
+    bound = MemoryBound(bytes=-1e12, source="on this machine now")
+    monkeypatch.setattr("reference_fe.solver.direct.free_memory", lambda processes: bound)
+    numeric: list[int] = []
+    monkeypatch.setattr(DirectSolver, "_numeric", lambda self: numeric.append(1))
+    with pytest.raises(MemoryLimitError, match=r"factors of 20000 unknowns need about \d+ MB, and .* available"):
+        direct_solver(matrix, symmetric=True).solve(b, x)
+    assert not numeric
+
+
+@pytest.mark.parametrize(("failures", "solved"), [(2, True), (9, False)])
+def test_a_workspace_that_is_too_small_is_enlarged(
+    failures: int, solved: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """MUMPS' outcome -9: three times with more room, then it is a lack of memory."""
+    matrix, x, b = _tridiagonal(4.0)
+    numeric, rooms = DirectSolver._numeric, list[int]()
+
+    def failing(self: DirectSolver) -> int:
+        rooms.append(self.factors.getMumpsIcntl(ROOM))
+        return numeric(self) if len(rooms) > failures else -9
+
+    monkeypatch.setattr(DirectSolver, "_numeric", failing)
+    solver = direct_solver(matrix, symmetric=True)
+    if solved:
+        solver.solve(b, x)
+        assert x.array[100] == pytest.approx(1.0 / 6.0, rel=1e-9)
+    else:
+        with pytest.raises(MemoryLimitError, match=r"INFOG\(1:2\) = -9"):
+            solver.solve(b, x)
+    assert rooms[1:] == list(MORE_ROOM)[: failures if solved else 3]
+
+
+def test_the_analysis_serves_every_later_factorisation(monkeypatch: pytest.MonkeyPatch) -> None:
+    matrix, x, b = _tridiagonal(4.0)
+    analyse, count = DirectSolver._analyse, list[int]()
+    monkeypatch.setattr(DirectSolver, "_analyse", lambda self: (count.append(1), analyse(self)))
+    solver = direct_solver(matrix, symmetric=True)
+    for shift in (0.0, 1.0, 1.0):
+        matrix.shift(shift)
+        solver.factorise()
+    solver.solve(b, x)
+    assert x.array[100] == pytest.approx(1.0 / 8.0, rel=1e-9)
+    assert len(count) == 1

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from contracts.errors import ConvergenceError, IncrementRecord, InputError, MemoryLimitError
 from reference_fe.solver.increments import solve_increments
 from reference_fe.solver.newton import NewtonOutcome
 
@@ -73,6 +73,33 @@ def test_a_hopeless_problem_raises_with_its_history() -> None:
     with pytest.raises(ConvergenceError, match="does not converge") as caught:
         list(solve_increments(solver, [1.0], history))
     assert len(caught.value.history) == len(history) > 5
+
+
+def test_a_singular_matrix_is_cut_back_and_then_told() -> None:
+    class Singular(ScriptedSolver):
+        def solve(self, rise: float = 0.0) -> NewtonOutcome:
+            failure = "the stiffness matrix is singular"
+            return NewtonOutcome(converged=False, residuals=(1.0, float("inf")), residual=np.zeros(1), failure=failure)
+
+    history: list[IncrementRecord] = []
+    solver: Any = Singular(0.0)
+    with pytest.raises(ConvergenceError, match=r"the stiffness matrix is singular; last converged at 0.* look for"):
+        list(solve_increments(solver, [1.0], history))
+    assert len(history) == 11
+
+
+def test_a_lack_of_memory_is_not_cut_back() -> None:
+    class Large(ScriptedSolver):
+        attempts = 0
+
+        def solve(self, rise: float = 0.0) -> NewtonOutcome:
+            self.attempts += 1
+            raise MemoryLimitError("the factors need 31 GB", "choose larger elements")
+
+    solver: Any = Large(0.0)
+    with pytest.raises(MemoryLimitError, match="31 GB"):
+        list(solve_increments(solver, [1.0], []))
+    assert solver.attempts == 1
 
 
 def test_a_residual_at_round_off_is_not_cut_back() -> None:

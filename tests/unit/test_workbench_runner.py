@@ -33,6 +33,9 @@ class Recorder:
     def damaged(self, name: str, fault: str) -> None:
         self.events.append(("damaged", f"{name}: {fault}"))
 
+    def warned(self, warning: str) -> None:
+        self.events.append(("warned", warning))
+
     def started(self, name: str) -> None:
         self.events.append(("started", name))
 

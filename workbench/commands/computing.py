@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from contracts.errors import InputError, StudyError
+from contracts.errors import InputError, MemoryLimitError, StudyError
 from contracts.text import for_terminal
 from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.progress import RunDisplay
@@ -56,7 +56,7 @@ def naming(study_path: Path) -> Iterator[None]:
         yield
     except (StudyError, InterruptedRunError):
         raise
-    except (InputError, RunError) as error:
+    except (InputError, MemoryLimitError, RunError) as error:
         raise RunError(f"{study_path}: {error}") from error
 
 

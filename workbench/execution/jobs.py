@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from contracts.errors import WorkbenchError
+from contracts.memory import free_memory, limited_address_space
 from workbench.execution.disk import STORE, disk_full, no_room, where_full
 from workbench.execution.memory import limit_text, out_of_memory, size_text
 
@@ -99,6 +100,9 @@ class Lost:
     times: int = 1
 
 
+_SHORT = 1e8
+"""Free memory [byte] below which an unexpected error is put down to it, such as a library that cannot be loaded."""
+
 type Message = Progressed | Done | Failed | Lost
 """News of a task; ``last`` where no more will follow."""
 
@@ -124,16 +128,18 @@ def _without_room(job: Job, error: Exception) -> Failed | Lost | None:
     """What is said of an error that came of a full disk or of memory that ran out; None of any other."""
     if text := disk_full(error, job.places):
         return Failed(message=text, disk_full=True)
-    if not isinstance(error, WorkbenchError) and out_of_memory(error):
+    if not isinstance(error, WorkbenchError) and (out_of_memory(error) or free_memory().bytes < _SHORT):
         held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
-        said = f" ({error})" if str(error) else ""
+        said = f" ({type(error).__name__}: {error})" if str(error) else ""
         return Lost(how=f"no memory left{said}: it held {size_text(held)}, of {limit_text()}", memory=True)
     return None
 
 
 def _unforeseen(job: Job, error: Exception) -> Failed:
     """An error nobody foresaw: its traceback goes to the log; a disk without room may be behind it and is named."""
-    text, room = f"unexpected {type(error).__name__}: {error}", where_full(job.places)
+    limit, room = limited_address_space(), where_full(job.places)
+    told = f"; its address space is limited to {limit} (ulimit -v): is it out of memory?" if limit else ""
+    text = f"unexpected {type(error).__name__}: {error}{told}"
     sys.stderr.write(f"--- {job.name}\n{traceback.format_exc()}\n")
     sys.stderr.flush()
     return Failed(message=f"{text}; {room}") if room else Failed(message=text, logged=True)

@@ -21,6 +21,9 @@ class Listener(Protocol):
     def damaged(self, name: str, fault: str) -> None:
         """The stored result of the task is damaged, in these words; it will be computed again."""
 
+    def warned(self, warning: str) -> None:
+        """Something about the whole run, before its first task."""
+
     def started(self, name: str) -> None:
         """The task began to run."""
 

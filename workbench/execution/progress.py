@@ -5,13 +5,17 @@ Verified by tests/end_to_end/test_report.py.
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Sequence
 from types import TracebackType
 from typing import Self
 
-from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, Progress, ProgressColumn, TaskID, TextColumn, TimeElapsedColumn
+from rich.progress import Task as ProgressTask
+from rich.text import Text
 
+from contracts.text import for_terminal
 from workbench.execution.remaining import RemainingTime
 from workbench.execution.store import Entry
 from workbench.execution.task import Task
@@ -28,6 +32,20 @@ def duration_text(seconds: float) -> str:
     return f"{max(seconds, 0.0) / size:.0f} {unit}"
 
 
+class _Left(ProgressColumn):
+    """Remaining time of the run, in the row of all tasks; looked at again as the clock goes on, news or none."""
+
+    max_refresh = 1.0
+
+    def __init__(self, display: RunDisplay) -> None:
+        super().__init__()
+        self._display = display
+
+    def render(self, task: ProgressTask) -> Text:
+        """The text of one row."""
+        return Text(self._display.left() if task.id == self._display.whole else "")
+
+
 class RunDisplay:
     """A ``Listener`` that draws Rich progress bars, or prints plain lines when standard output is no terminal."""
 
@@ -41,11 +59,11 @@ class RunDisplay:
             BarColumn(),
             TextColumn("{task.percentage:>3.0f} %", markup=False),
             TimeElapsedColumn(),
-            TextColumn("{task.fields[left]}", markup=False),
+            _Left(self),
             console=console,
             disable=not console.is_terminal,
         )
-        self.whole = self.progress.add_task("all tasks", total=float(self.total), left="")
+        self.whole = self.progress.add_task("all tasks", total=float(self.total))
 
     def __enter__(self) -> Self:
         self.progress.start()
@@ -58,16 +76,19 @@ class RunDisplay:
         """Say so, in one line."""
         self._say(f"{name}: its stored result is damaged ({fault}); computed again")
 
+    def warned(self, warning: str) -> None:
+        """Say so, on standard error."""
+        sys.stderr.write(f"workbench: warning: {for_terminal(warning)}\n")
+
     def started(self, name: str) -> None:
         """Add a bar for the task."""
         self.remaining.started(name, time.monotonic())
-        self.bars[name] = self.progress.add_task(name, total=1.0, left="")
+        self.bars[name] = self.progress.add_task(name, total=1.0)
 
     def progressed(self, name: str, fraction: float) -> None:
         """Move the task's bar."""
-        self.remaining.progressed(name, fraction)
+        self.remaining.progressed(name, fraction, time.monotonic())
         self.progress.update(self.bars[name], completed=min(max(fraction, 0.0), 1.0))
-        self.progress.update(self.whole, left=self._left())
 
     def finished(self, name: str, entry: Entry, reused: bool) -> None:
         """Fill the task's bar and count it."""
@@ -76,9 +97,9 @@ class RunDisplay:
         if name in self.bars:
             self.progress.update(self.bars[name], completed=1.0)
         self.remaining.finished(name, entry.wall_s, reused=reused)
-        left = self._left()
-        self.progress.update(self.whole, completed=float(self.count), left=left)
+        self.progress.update(self.whole, completed=float(self.count))
         if not self.console.is_terminal:
+            left = self.left()
             how = "reused" if reused else f"computed in {entry.wall_s:.1f} s{left and f', {left}'}"
             self.console.print(f"[{self.count}/{self.total}] {name}: {how}")
 
@@ -97,10 +118,12 @@ class RunDisplay:
         self.remaining.dropped(name)
         self._say(f"{name}: failed; what does not need it goes on")
 
-    def _left(self) -> str:
-        """``"about 3 min left"``; nothing before the first task is computed or once all are."""
-        seconds = self.remaining.seconds(time.monotonic())
-        return f"about {duration_text(seconds)} left" if seconds and seconds >= 1.0 else ""
+    def left(self) -> str:
+        """``"about 3 min left"``, ``"at least 3 min left"``; nothing where nothing is known or all is done."""
+        left = self.remaining.left(time.monotonic())
+        if left is None or left.seconds < 1.0:
+            return ""
+        return f"{'at least' if left.at_least else 'about'} {duration_text(left.seconds)} left"
 
     def _drop(self, name: str) -> None:
         if name in self.bars:

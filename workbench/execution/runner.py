@@ -23,9 +23,10 @@ from workbench.execution.listening import Listener, Workers
 from workbench.execution.live_runs import announce
 from workbench.execution.load_checks import require_loadable
 from workbench.execution.local_workers import LocalWorkers
+from workbench.execution.memory_need import memory_warning
 from workbench.execution.ranks import mpiexec
 from workbench.execution.store import Entry, Store
-from workbench.execution.task import Task, bare_name, task_keys
+from workbench.execution.task import Task, bare_name, chain_costs, task_keys
 
 __all__ = ["RESTARTS", "Computing", "Ended", "run_all", "run_tasks"]
 
@@ -99,6 +100,8 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
         If nobody can compute, a library cannot be loaded, or the user interrupts; what had finished stays in the store.
     InputError
         If something is to be computed and the store cannot be written.
+    MemoryLimitError
+        If a task needs more memory than a process can have here; nothing was started.
     """
     keys = task_keys(tuple(tasks))
     if store.writable:
@@ -113,7 +116,8 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
             listener.finished(task.name, entry, reused=True)
         elif fault := store.fault(keys[task.name]):
             listener.damaged(task.name, fault)
-    waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -t.cost)
+    chains = chain_costs(tasks)
+    waiting = sorted((t for t in tasks if t.name not in entries), key=lambda t: -chains[t.name])
     if not waiting:
         return Ended(entries=entries, failures={})
     if not store.writable:
@@ -123,6 +127,8 @@ def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: 
     computing = computing or Computing()
     if computing.scheduler is None:
         require_loadable(waiting)
+        if warning := memory_warning(waiting, computing.workers):
+            listener.warned(warning)
     with naming_the_disk(STORE, store.root):
         run = _Run(store, keys, listener, _workers(computing, len(waiting), log), computing.ranks)
         run.run(waiting, entries)

@@ -5,14 +5,14 @@ Verified by tests/unit/test_workbench_runner.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from workbench.execution.fingerprint import canonical_json, library_versions, source_hash, text_sha256
 
-__all__ = ["Progress", "Task", "TaskFunction", "bare_name", "task_keys"]
+__all__ = ["Progress", "Task", "TaskFunction", "bare_name", "chain_costs", "task_keys"]
 
 type Progress = Callable[[float], None]
 """Called by a task with the fraction done, 0 to 1."""
@@ -37,7 +37,9 @@ class Task:
     needs : names of the tasks whose results it reads
     sources : packages and modules whose source text decides the result
     libraries : distributions whose version decides the result
-    cost : expected wall time, only to start long tasks first [s]
+    cost : expected wall time [s]; no part of the key
+    memory : expected largest memory of its process [byte], 0 for little; no part of the key
+    unknowns : expected number of unknowns, 0 where it is not known beforehand; no part of the key
     resumable : the function takes a ``checkpoint``
     shared : several MPI processes may run it together
     """
@@ -49,6 +51,8 @@ class Task:
     sources: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     cost: float = 1.0
+    memory: float = 0.0
+    unknowns: int = 0
     resumable: bool = False
     shared: bool = False
 
@@ -83,3 +87,14 @@ def task_keys(tasks: tuple[Task, ...]) -> dict[str, str]:
     for task in tasks:
         keys[task.name] = task.key(keys)
     return keys
+
+
+def chain_costs(tasks: Sequence[Task]) -> dict[str, float]:
+    """Cost of each task with the longest chain of those that need it [s]: who has most before it starts first."""
+    chains: dict[str, float] = {}
+    ahead: dict[str, float] = {}
+    for task in reversed(tasks):
+        chains[task.name] = task.cost + ahead.get(task.name, 0.0)
+        for name in task.needs:
+            ahead[name] = max(ahead.get(name, 0.0), chains[task.name])
+    return chains

@@ -68,9 +68,12 @@ def orientation_name(model: str, orientation_deg: float) -> str:
 
 
 def mesh_task(
-    study: Study, name: str, changes: Mapping[str, Any] | None = None, *, cost: float, factor: float | None = None
+    study: Study, name: str, changes: Mapping[str, Any] | None = None, *, factor: float | None = None
 ) -> Task:
-    """A mesh of the study's wheel, with its own refinement factor and with other options changed."""
+    """A mesh of the study's wheel, with its own refinement factor and with other options changed.
+
+    What it costs, and what is solved on it, is found by `workbench.graph.foresight`.
+    """
     mesh = study.mesh
     options = {
         "element_size": mesh.element_size,
@@ -83,7 +86,7 @@ def mesh_task(
         "factor": factor or mesh.factor,
     }
     inputs = {"wheel": wheel_inputs(study), "options": options | dict(changes or {})}
-    return Task(name=name, function="workbench.tasks.mesh:build", inputs=inputs, cost=cost, **MESH)
+    return Task(name=name, function="workbench.tasks.mesh:build", inputs=inputs, **MESH)
 
 
 def wheel_inputs(study: Study) -> dict[str, Any]:
@@ -139,11 +142,11 @@ def without_fields(inputs: Mapping[str, Any]) -> dict[str, Any]:
     return {**inputs, "snapshot_loads": [], "keep_points": False}
 
 
-def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh", *, cost: float = 100.0) -> Task:
+def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh") -> Task:
     """One orientation solved on the mesh of the task ``mesh``."""
     function = "workbench.tasks.fe:solve_orientation"
     long = {"resumable": True, "shared": True}
-    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), cost=cost, **long, **FE)
+    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), **long, **FE)
 
 
 def curve_deflections(study: Study) -> list[float]:

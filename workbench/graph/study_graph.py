@@ -21,6 +21,7 @@ from workbench.graph.fe import (
     mesh_task,
     orientation_name,
 )
+from workbench.graph.foresight import foreseen
 from workbench.graph.section import section_tasks
 from workbench.graph.surfaces import report_surfaces_task
 from workbench.study.curve_file import in_si
@@ -57,15 +58,15 @@ def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
     curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi"))]
     tasks.append(_metrics_task(study, (*curves, "brush"), curve_folder))
     tasks.append(_picture_task(study, fe))
-    return tuple(tasks)
+    return foreseen(tasks)
 
 
 def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
     """The mesh that is solved, and the whole wheel with every part for the picture and the mass; their files."""
-    whole = mesh_task(study, "mesh_whole", {"parts": "all", "half_width": False}, cost=20.0, factor=1.0)
-    solved = mesh_task(study, "mesh", cost=15.0)
+    whole = mesh_task(study, "mesh_whole", {"parts": "all", "half_width": False}, factor=1.0)
+    solved = mesh_task(study, "mesh")
     if not with_files:
-        return solved, whole
+        return foreseen((solved, whole))
     sources = (*MESH["sources"], *_PICTURES["sources"], "workbench.tasks.mesh")
     files = Task(
         name="mesh_files",
@@ -75,16 +76,16 @@ def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
         sources=sources,
         libraries=(*MESH["libraries"], *_PICTURES["libraries"], "meshio"),
     )
-    return solved, whole, files
+    return foreseen((solved, whole, files))
 
 
 def stiffness_tasks(study: Study, model: Model, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
     """Curves of one model; no orientation means those of the study."""
     if model == "fe":
         wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
-        return (mesh_task(study, "mesh", cost=15.0), *_fe_tasks(study, wanted))
+        return foreseen((mesh_task(study, "mesh"), *_fe_tasks(study, wanted)))
     if model == "section":
-        return tuple(section_tasks(study, orientations_deg))
+        return foreseen(section_tasks(study, orientations_deg))
     if model == "ancf":
         return tuple(_ancf_tasks(study, orientations_deg or [degrees(o) for o in study.ancf.orientations]))
     return (_brush_task(study),)

@@ -88,7 +88,7 @@ def _tasks(study: Study) -> Sequence[Task]:
     section, stiffness = study.penalty_study, study.fe.contact_stiffness
     assert section is not None
     assert stiffness is not None
-    mesh = mesh_task(study, "mesh_penalty", {"axial_size": 2.0 * study.mesh.axial_size}, cost=500.0)
+    mesh = mesh_task(study, "mesh_penalty", {"axial_size": 2.0 * study.mesh.axial_size})
     end = round(section.deflection, 12)
     inputs = fe_inputs(study, degrees(section.orientation), (0.5 * end, end))
     inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}

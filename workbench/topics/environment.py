@@ -49,7 +49,6 @@ def environment_tasks(study: Study) -> list[Task]:
         fe_task(
             _name(study, variant, temperature),
             inputs | {"materials": material_inputs(_materials(study, variant, temperature))},
-            cost=40.0,
         )
         for variant, temperature in _wanted(study)
         if (variant, temperature) != (_DESIGN, REFERENCE_TEMPERATURE)

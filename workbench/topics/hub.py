@@ -87,7 +87,7 @@ def _tasks(study: Study) -> Sequence[Task]:
     section = study.hub_study
     assert section is not None
     changes = {"parts": "all", "axial_size": 2.0 * study.mesh.axial_size}
-    mesh = mesh_task(study, "mesh_hub", changes, cost=1000.0)
+    mesh = mesh_task(study, "mesh_hub", changes)
     inputs = fe_inputs(study, degrees(section.orientation), np.round(section.deflections, 12).tolist())
     inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
     runs = [(_run_name(held), inputs | {"rigid_parts": list(held)}) for held in held_parts(study)]

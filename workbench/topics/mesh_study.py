@@ -36,10 +36,10 @@ def _tasks(study: Study) -> Sequence[Task]:
     section = study.mesh_study
     for factor in section.factors:
         if factor != study.mesh.factor:
-            mesh = mesh_task(study, f"mesh_x{factor:g}", cost=1000.0, factor=factor)
+            mesh = mesh_task(study, f"mesh_x{factor:g}", factor=factor)
             inputs = fe_inputs(study, degrees(section.orientation), section.deflections)
             inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
-            tasks += [mesh, fe_task(f"fe_x{factor:g}", inputs, mesh.name, cost=100.0 * factor**3)]
+            tasks += [mesh, fe_task(f"fe_x{factor:g}", inputs, mesh.name)]
     return tasks
 
 

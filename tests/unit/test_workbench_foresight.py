@@ -1,0 +1,83 @@
+"""What tasks will take, known before they run: unknowns as solved, laws as measured, refusal in seconds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from contracts.errors import InputError
+from workbench.execution.task import Task, chain_costs, task_keys
+from workbench.graph.foresight import solve_bytes, solve_seconds
+from workbench.graph.study_graph import mesh_tasks, report_tasks, stiffness_tasks
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+
+STUDY = read_study(built_in_study())
+MEASURED = {23112: 395, 41544: 509, 79614: 731, 151092: 1124, 227196: 1610, 328896: 2219}
+"""Unknowns -> largest resident memory [MB] of a process that solved the wheel."""
+TIMED = {36612: 0.179, 91872: 0.464, 227196: 1.359}
+"""Unknowns -> time of an iteration [s], benchmarks/README.md."""
+
+
+def _finer(times: float) -> Study:
+    mesh = STUDY.mesh
+    sizes = {"element_size": mesh.element_size / times, "axial_size": mesh.axial_size / times}
+    return STUDY.model_copy(update={"mesh": mesh.model_copy(update=sizes)})
+
+
+def _solves(tasks: tuple[Task, ...]) -> list[Task]:
+    return [task for task in tasks if task.function == "workbench.tasks.fe:solve_orientation"]
+
+
+def test_the_law_of_memory_is_what_was_measured() -> None:
+    for unknowns, megabytes in MEASURED.items():
+        assert solve_bytes(unknowns) == pytest.approx(1e6 * megabytes, rel=0.05)
+
+
+def test_the_law_of_time_is_what_was_measured() -> None:
+    for unknowns, seconds in TIMED.items():
+        assert (solve_seconds(unknowns, 1) - solve_seconds(1.0, 1)) / 3.0 == pytest.approx(seconds, rel=0.08)
+
+
+def test_unknowns_are_those_that_are_solved() -> None:
+    """41 544 on the built-in study's mesh of curves; the whole graph has an expectation for each mesh and solve."""
+    tasks = report_tasks(STUDY, built_in_study().parent)
+    curve = next(task for task in _solves(tasks) if task.name == "fe_phi000")
+    assert curve.unknowns == pytest.approx(41544, rel=0.08)
+    assert all(task.memory > 2.8e8 and task.unknowns > 10_000 for task in _solves(tasks))
+    assert all(task.memory > 0.0 for task in tasks if task.function == "workbench.tasks.mesh:build")
+
+
+def test_a_mesh_ten_times_finer_needs_18_gb() -> None:
+    (solve,) = _solves(stiffness_tasks(_finer(10.0), "fe", (0.0,)))
+    assert solve.memory == pytest.approx(18e9, rel=0.1)
+    assert solve.cost > 50.0 * _solves(stiffness_tasks(STUDY, "fe", (0.0,)))[0].cost
+
+
+@pytest.mark.parametrize("times", [100.0, 1e6])
+def test_a_mesh_that_nothing_could_hold_is_refused_when_the_graph_is_made(times: float) -> None:
+    with pytest.raises(InputError, match="cells, at most"):
+        stiffness_tasks(_finer(times), "fe", (0.0,))
+    with pytest.raises(InputError, match="cells, at most"):
+        mesh_tasks(_finer(times))
+
+
+def test_expectations_are_no_part_of_a_key() -> None:
+    tasks = stiffness_tasks(STUDY, "fe", (0.0,))
+    bare = tuple(replace(task, cost=1.0, memory=0.0, unknowns=0) for task in tasks)
+    assert task_keys(tasks) == task_keys(bare)
+
+
+def test_sidewall_springs_are_counted() -> None:
+    study = read_study(Path(__file__).parents[2] / "studies" / "amalia.toml")
+    assert _solves(stiffness_tasks(study, "fe", (0.0,)))[0].unknowns > 10_000
+
+
+def test_who_has_most_before_it_starts_first() -> None:
+    """A short mesh that a long solve waits for goes before a task of middling length."""
+    mesh = Task(name="mesh", function="m:f", inputs={}, cost=2.0)
+    solve = Task(name="solve", function="m:f", inputs={}, needs=("mesh",), cost=50.0)
+    other = Task(name="other", function="m:f", inputs={}, cost=30.0)
+    assert chain_costs((mesh, other, solve)) == {"mesh": 52.0, "other": 30.0, "solve": 50.0}
