@@ -30,7 +30,7 @@ GONE = LoadCheck(
     shared=("libpaint.so.1",),
 )
 COMPILER = (
-    "import sys; sys.stderr.write('a.c:1:10: fatal error: Python.h: No such file or directory\\nCommand gcc failed\\n');"
+    "import sys; sys.stderr.write('a.c:1:10: fatal error: Python.h: No such file or directory\\nCommand failed\\n');"
     "sys.exit(1)"
 )
 TASK = Task(name="double", function="tests.unit.workbench_probe_tasks:add", inputs={}, libraries=("numpy",))
