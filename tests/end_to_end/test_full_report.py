@@ -6,11 +6,14 @@ import json
 import subprocess
 from pathlib import Path
 
+import pytest
+
 from tests.end_to_end.small_study import run, small_study_text
 
 FULL = '[full]\norientation_step = "40 deg"\nfactor = 1\n'
 
 
+@pytest.mark.long
 def test_the_full_report_covers_a_period_and_shows_it(
     first_report: subprocess.CompletedProcess[str], workspace: Path
 ) -> None:

@@ -104,6 +104,7 @@ def test_all_other_results_are_kept(one_missing: tuple[Finished, dict[str, Any],
     assert {"ancf_vs_fe.relative_l2", "fe.initial_tangent"} <= {i for i, status in found.items() if status != "error"}
 
 
+@pytest.mark.long
 def test_a_study_of_which_nothing_converges_still_ends_in_a_report(tmp_path: Path) -> None:
     text, count = re.subn(r"relative_tolerance = \S+", f"relative_tolerance = {BELOW_ROUND_OFF}", small_study_text())
     assert count == 1

@@ -169,7 +169,9 @@ def test_a_second_run_reuses_everything_and_a_strict_study_exits_1(first_report:
     second = run("report", "strict.toml", "--out", "strict", "--store", "store", folder=workspace)
     assert second.returncode == 1, second.stderr
     assert f"1 tasks computed, {len(TASKS) - 1} reused" in second.stdout
+    logs = sorted((workspace / "store" / "log").iterdir())
     third = run("report", "strict.toml", "--out", "strict", "--store", "store", folder=workspace)
+    assert sorted((workspace / "store" / "log").iterdir()) == logs  # no worker was started
     assert third.returncode == 1
     assert f"0 tasks computed, {len(TASKS)} reused" in third.stdout
     summary = json.loads((workspace / "strict" / "summary.json").read_text(encoding="utf-8"))

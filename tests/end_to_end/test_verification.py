@@ -19,7 +19,7 @@ NAMES = [*BENCHMARKS, *ANCF_BENCHMARKS]
 type Finished = subprocess.CompletedProcess[str]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_benchmarks_are_solved_and_shown(first_report: Finished, workspace: Path) -> None:
     assert first_report.returncode == 0, first_report.stderr
     text = small_study_text().replace("enabled = false", "enabled = true")

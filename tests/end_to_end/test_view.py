@@ -59,7 +59,7 @@ def address(folder: Path) -> Iterator[str]:
     assert line.startswith("http://127.0.0.1:"), process.communicate()[1]
     yield line
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=300)
+    out, err = process.communicate(timeout=PATIENCE / 1000)
     assert (process.returncode, out, err) == (0, "", "")
 
 

@@ -29,6 +29,10 @@ GONE = LoadCheck(
     libraries=("numpy",),
     shared=("libpaint.so.1",),
 )
+COMPILER = (
+    "import sys; sys.stderr.write('a.c:1:10: fatal error: Python.h: No such file or directory\\nCommand failed\\n');"
+    "sys.exit(1)"
+)
 TASK = Task(name="double", function="tests.unit.workbench_probe_tasks:add", inputs={}, libraries=("numpy",))
 
 
@@ -40,6 +44,7 @@ TASK = Task(name="double", function="tests.unit.workbench_probe_tasks:add", inpu
         ("import os; os.abort()", "crashed (signal 6)"),
         ("import ctypes; ctypes.string_at(0)", "crashed (signal 11)"),
         ("raise SystemExit(3)", "ended with status 3"),
+        (COMPILER, "a.c:1:10: fatal error: Python.h: No such file or directory"),
     ],
 )
 def test_each_end_is_told_in_one_line(code: str, told: str) -> None:
@@ -68,7 +73,8 @@ def test_what_is_there_is_not_tried(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(load_checks, "CHECKS", (replace(GONE, shared=("libc.so.6",)),))
     require_loadable([TASK])
     assert replace(GONE, programs=("painter-of-nowhere",)).in_doubt
-    assert not replace(GONE, shared=(), programs=("painter-of-nowhere", "sh")).in_doubt
+    assert replace(GONE, shared=(), files=(Path("/nowhere/Python.h"),)).in_doubt
+    assert not replace(GONE, shared=(), programs=("painter-of-nowhere", "sh"), files=(Path(__file__),)).in_doubt
 
 
 def test_the_doctor_names_the_packages_that_are_not_installed() -> None:

@@ -12,6 +12,7 @@ import os
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tempfile
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -50,6 +51,7 @@ class LoadCheck:
     libraries : distributions whose tasks need it
     shared : shared libraries of the system it loads
     programs : programs of which it needs one
+    files : files it reads
     """
 
     name: str
@@ -59,16 +61,19 @@ class LoadCheck:
     libraries: tuple[str, ...] = ()
     shared: tuple[str, ...] = ()
     programs: tuple[str, ...] = ()
+    files: tuple[Path, ...] = ()
 
     @property
     def in_doubt(self) -> bool:
         """Whether a look, which takes milliseconds, misses something it may need."""
         lacks_program = bool(self.programs) and not any(map(shutil.which, self.programs))
-        return lacks_program or not all(map(_loads, self.shared))
+        return lacks_program or not (all(map(_loads, self.shared)) and all(path.exists() for path in self.files))
 
 
 _WINDOWS = ("libgl1", "libglu1-mesa", "libx11-6", "libxext6", "libxrender1", "libxcursor1", "libxfixes3")
 _FENICS = "dolfinx-solver-real"
+_HEADER = Path(str(sysconfig.get_config_var("INCLUDEPY"))) / "Python.h"
+"""Of the Python that runs; Debian's own has it in a package apart."""
 CHECKS = (
     LoadCheck(
         name="gmsh meshes a box",
@@ -112,9 +117,10 @@ mesh = api.mesh_from_arrays(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), np.arr
 form = api.compile_form(1.0 * api.ufl.dx(domain=mesh))
 assert abs(api.fem.assemble_scalar(form) - 1.0) < 1e-12
 """,
-        packages=("gcc", "libc6-dev"),
+        packages=("gcc", "libc6-dev", *(() if _HEADER.exists() else ("python3-dev",))),
         libraries=(_FENICS,),
         programs=("cc", "gcc", "clang"),
+        files=(_HEADER,),
     ),
     LoadCheck(
         name="MPI starts two processes",
@@ -166,7 +172,8 @@ def complaint_of(check: LoadCheck) -> str:
     if ended.returncode < 0:
         return f"crashed (signal {-ended.returncode})"
     lines = [line.strip() for line in ended.stderr.splitlines() if line.strip()]
-    return lines[-1][:_SHOWN] if lines else f"ended with status {ended.returncode}"
+    told = next((line for line in lines if "fatal error:" in line), lines[-1] if lines else "")  # the compiler's
+    return told[:_SHOWN] or f"ended with status {ended.returncode}"
 
 
 def complaints(checks: Sequence[LoadCheck] = CHECKS) -> dict[str, str]:
