@@ -36,20 +36,24 @@ def _restored(kind: type[WorkbenchError], args: tuple[object, ...], state: dict[
     return error
 
 
+def _named(what: str, value: str) -> str:
+    return f"{what} = {value}" if value else what
+
+
 class InputError(WorkbenchError, ValueError):
     """A value given to the library breaks a rule.
 
     Parameters
     ----------
     what : name of the quantity in words, e.g. ``"tire thickness"``
-    value : the value as given, with its unit, e.g. ``"-0.6 mm"``
+    value : the value as given, with its unit, e.g. ``"-0.6 mm"``; empty for what is missing
     rule : the rule it breaks, e.g. ``"must be greater than zero"``
     hint : what to try, e.g. ``"give a strip thickness such as 0.6 mm"``
     """
 
     def __init__(self, what: str, value: object, rule: str, hint: str) -> None:
         self.what, self.value, self.rule, self.hint = what, str(value), rule, hint
-        super().__init__(f"{what} = {value}: {rule}; {hint}")
+        super().__init__(f"{_named(what, self.value)}: {rule}; {hint}")
 
 
 class StudyError(WorkbenchError, ValueError):
@@ -57,7 +61,7 @@ class StudyError(WorkbenchError, ValueError):
 
     def __init__(self, path: Path | str, key: str, value: object, rule: str, hint: str) -> None:
         self.path, self.key, self.value, self.rule, self.hint = str(path), key, str(value), rule, hint
-        place = f"{path}: {key} = {value}" if key else f"{path}"
+        place = f"{path}: {_named(key, self.value)}" if key else f"{path}"
         super().__init__(f"{place}: {rule}; {hint}")
 
 

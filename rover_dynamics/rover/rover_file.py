@@ -153,7 +153,7 @@ def _unusual(path: Path, content: Mapping[str, Any]) -> tuple[str, ...]:
     found = []
     for odd in oddities(dict(_numbers((), content)), range_table(_RANGES)):
         if odd.impossible:
-            raise InputError(f"{path}: {dotted(odd.key)}", odd.value or "its size", odd.rule, odd.hint)
+            raise InputError(f"{path}: {dotted(odd.key)}", odd.value, odd.rule, odd.hint)
         found.append(f"{dotted(odd.key)}{f' = {odd.value}' * bool(odd.value)} {odd.rule}; {odd.hint}")
     return tuple(found)
 
@@ -178,7 +178,7 @@ class _Reader:
     def get(self, key: str, kind: type | tuple[type, ...], words: str) -> Any:
         self.asked.add(key)
         if key not in self.content:
-            raise InputError(f"{self.place}: {key}", "nothing", "is missing", f"give {words}")
+            raise InputError(f"{self.place}: {key}", "", "is missing", f"give {words}")
         value = self.content[key]
         if not isinstance(value, kind) or isinstance(value, bool) != (kind is bool):
             raise InputError(f"{self.place}: {key}", value, f"must be {words}", "see the file that ships")
@@ -227,7 +227,7 @@ class _Reader:
     def some_rows(self, key: str) -> list[_Reader]:
         found = self.rows(key)
         if not found:
-            raise InputError(f"{self.place}: {key}", "nothing", "must be one or more", f"give a table [[{key}]]")
+            raise InputError(f"{self.place}: {key}", "", "must be one or more", f"give a table [[{key}]]")
         return found
 
     def finished(self) -> None:

@@ -112,7 +112,7 @@ def test_a_point_that_fails_does_not_lose_the_others(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("swept", "message"),
     [
-        ("", "sweep = nothing: is missing"),
+        ("", "sweep: is missing"),
         ('[sweep]\nstrip_thickness = ["0.5 mm", "0 mm"]\n', "[sweep] point 2 (strip_thickness = '0 mm'): wheel.tire"),
         ('[sweep]\norientation = ["0 deg"]\n[fe]\n', "is not valid TOML"),
     ],

@@ -72,7 +72,7 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     "infinite": (THICKNESS, "thickness = inf", ["wheel.tire.thickness = inf", "finite"]),
     "boolean": (THICKNESS, "thickness = true", ["wheel.tire.thickness", "must be a length"]),
     "unknown key": (THICKNESS, 'thicknes = "0.6 mm"', ["wheel.tire.thicknes = '0.6 mm'", "not a known key"]),
-    "missing key": (THICKNESS, "", ["wheel.tire.thickness", "is missing"]),
+    "missing key": (THICKNESS, "", ["wheel.tire.thickness: is missing; add it"]),
     "unknown section": (r"\[wheel.tire\]", "[wheel.tyre]", ["wheel.tyre", "not a known key"]),
     "hub larger than rim": (
         r'outer_radius = "50 mm"',

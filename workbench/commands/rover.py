@@ -162,7 +162,7 @@ def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDes
     """The scenario with the tires and on the ground asked for, and the rover."""
     _check_tire(choices.tire)
     if name is None:
-        raise InputError("scenario", "nothing", "is missing", f"give one of {', '.join(SCENARIOS)}")
+        raise InputError("scenario", "", "is missing", f"give one of {', '.join(SCENARIOS)}")
     path = choices.rover or EXOMARS_ROVER
     scenario, design = scenario_named(name), read_rover(path)
     warn(path, design.warnings)

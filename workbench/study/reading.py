@@ -114,7 +114,7 @@ def _study_error(path: Path, error: ValidationError) -> StudyError:
     else:
         rule = _lower_first(first["msg"].removeprefix("Value error, ").replace("Input should", "must"))
         hint = "see studies/exomars.toml for an example"
-    return StudyError(path, key, value or "nothing", rule, hint)
+    return StudyError(path, key, value, rule, hint)
 
 
 def _at(table: Any, key: Key) -> object:

@@ -62,9 +62,7 @@ class SweepSection(Section):
         others = {key: value for key, value in section.items() if key not in own}
         found = dict(_flattened("", others))
         if not found:
-            raise in_key(
-                "strip_thickness", "nothing", "must be given, or another key to vary", 'e.g. ["0.5 mm", "0.6 mm"]'
-            )
+            raise in_key("strip_thickness", "", "must be given, or another key to vary", 'e.g. ["0.5 mm", "0.6 mm"]')
         checked = {key: _checked_values(key, values) for key, values in found.items()}
         return {key: value for key, value in section.items() if key in own} | {"parameters": checked}
 
@@ -81,7 +79,7 @@ class SweepSection(Section):
                 rule = f"makes {count} combinations, more than {MOST_POINTS}"
                 raise in_key("design", "grid", rule, 'list fewer values, or use "latin-hypercube"')
         elif self.samples is None:
-            raise in_key("samples", "nothing", "must say how many points are drawn", "e.g. samples = 30")
+            raise in_key("samples", "", "must say how many points are drawn", "e.g. samples = 30")
         if "temperature" in self.parameters and self.models != ("fe",):
             raise in_key("temperature", "given", "acts on the solid model only", 'set models = ["fe"]')
         if len(set(self.models)) < len(self.models):

@@ -98,7 +98,7 @@ def sweep_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
     study = study_of(path, table)
     if study.sweep is None:
         rule = "is missing: it says what to vary"
-        raise StudyError(path, "sweep", "nothing", rule, 'add e.g. [sweep] with strip_thickness = ["0.5 mm", "0.6 mm"]')
+        raise StudyError(path, "sweep", "", rule, 'add e.g. [sweep] with strip_thickness = ["0.5 mm", "0.6 mm"]')
     base = {key: value for key, value in table.items() if key != "sweep"}
     points = [Point(number=0, values={}, study=study_of(path, base))] if study.sweep.base else []
     for number, values in enumerate(design_points(study.sweep), start=1):
