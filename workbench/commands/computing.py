@@ -37,7 +37,9 @@ def read_and_warn(path: Path) -> Study:
 def warn(path: Path, warnings: Sequence[str]) -> None:
     """One line on stderr for each warning about a file."""
     for warning in warnings:
-        sys.stderr.write(f"workbench: warning: {' '.join(f'{path}: {warning}'.split())}\n")
+        line = " ".join(f"{path}: {warning}".split())
+        shown = "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in line)
+        sys.stderr.write(f"workbench: warning: {shown}\n")
 
 
 def computed(
