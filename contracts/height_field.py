@@ -39,8 +39,8 @@ class HeightField:
     Raises
     ------
     InputError
-        For fewer heights, heights that are not finite or that no planet has, or a spacing no ground has; by `height` and `gradient` for a
-        place outside the grid.
+        For fewer heights, heights that are not finite or that no planet has, or a spacing no ground has; by `height`
+        and `gradient` for a place outside the grid.
 
     Verified by tests/unit/test_height_field.py.
     """
