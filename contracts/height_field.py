@@ -18,6 +18,10 @@ from contracts.terrain import PIECE_SIZE, PieceKind, Terrain, TerrainPieces
 __all__ = ["TILE", "HeightField", "sampled_terrain"]
 
 FloatArray = NDArray[np.float64]
+_HIGHEST = 1e5
+"""Four times Olympus Mons [m]."""
+_SPACING = (1e-4, 1e5)
+"""Between the grains of sand and the maps of a planet [m]."""
 TILE = 8
 """Cells along each side of a tile that has one upper bound."""
 
@@ -35,8 +39,8 @@ class HeightField:
     Raises
     ------
     InputError
-        For fewer heights, heights that are not finite, or a spacing not above zero; by `height` and `gradient` for a
-        place outside the grid.
+        For fewer heights, heights that are not finite or that no planet has, or a spacing no ground has; by `height`
+        and `gradient` for a place outside the grid.
 
     Verified by tests/unit/test_height_field.py.
     """
@@ -53,6 +57,12 @@ class HeightField:
         if not (np.all(np.isfinite([*self.spacing, *self.origin])) and min(self.spacing) > 0.0):
             value = f"{self.spacing} m, {self.origin} m"
             raise InputError("height field spacing, origin", value, "must be finite, spacing > 0", "give metres")
+        if np.max(np.abs(self.heights)) > _HIGHEST:
+            value = f"{np.max(np.abs(self.heights)):g} m"
+            raise InputError("height field", value, f"must not exceed {_HIGHEST:g} m", "check its unit, give metres")
+        if min(self.spacing) < _SPACING[0] or max(self.spacing) > _SPACING[1]:
+            rule = f"must lie between {_SPACING[0]:g} m and {_SPACING[1]:g} m"
+            raise InputError("height field spacing", f"{self.spacing} m", rule, "check its unit, give metres")
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """See `contracts.terrain.Terrain`."""

@@ -20,7 +20,7 @@ type Path = tuple[str | int, ...]
 type Damage = tuple[str, Path, object]
 """Kind of the change, where, and the value it left."""
 
-_QUANTITY = re.compile(r"([+-]?\d[\d.eE+-]*)(\s*\D.*)?")
+_QUANTITY = re.compile(r"([+-]?\d[\d.eE+-]*)(\s*[^\d\s.].{0,14})?")
 _OTHERS = (
     *(True, False, 0, 1, -1, 3, 10**6, 2**63 - 1, 0.0, -0.0, 0.5, 1e308, -1e308, 5e-324, math.nan, math.inf, -math.inf),
     *("", "x", "0", "1 m", "-3 mm", "nan mm", "inf deg", "1e400 mm", "15 deg", "30 %", "3 count", "3 ppm", "1 GPa"),

@@ -84,3 +84,12 @@ def test_bad_fields_and_places_outside_are_refused() -> None:
         HeightField(heights=np.zeros((4, 4)), spacing=(1.0, 0.0))
     with pytest.raises(InputError, match="must lie in the height field"):
         ROUGH.height(np.array(0.51), np.array(1.2))
+
+
+@pytest.mark.parametrize(
+    ("heights", "spacing", "words"),
+    [(1e12, 0.5, "must not exceed 100000 m"), (1.0, 1e-9, "must lie between"), (1.0, 1e12, "must lie between")],
+)
+def test_ground_that_no_planet_has_is_refused(heights: float, spacing: float, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        HeightField(heights=np.full((4, 4), heights), spacing=(0.5, spacing))

@@ -141,3 +141,23 @@ def test_uncertainty_as_text(text: str, wanted: float) -> None:
 def test_uncertainty_that_is_none(text: str) -> None:
     with pytest.raises(InputError, match="uncertainty"):
         load_uncertainty(text, np.array([200.0]))
+
+
+@pytest.mark.parametrize(
+    ("factor", "words"),
+    [
+        ((1e12, 1.0), "largest deflection = .* must lie"),
+        ((1.0, 1e12), "largest load = .* must"),
+        ((1e-12, 1.0), "must"),
+    ],
+)
+def test_numbers_that_no_tire_has_are_refused(tmp_path: Path, factor: tuple[float, float], words: str) -> None:
+    rows = "".join(f"{factor[0] * d},{factor[1] * 8 * d}\n" for d in range(12))
+    (tmp_path / "c.csv").write_text(f"deflection_mm,load_N\n{rows}", encoding="utf-8")
+    with pytest.raises(InputError, match=words):
+        read_measured_curve(tmp_path / "c.csv")
+
+
+def test_an_uncertainty_beyond_numbers_is_refused() -> None:
+    with pytest.raises(InputError, match="must be 0 or lie between"):
+        load_uncertainty("1e200 N", np.ones(3))

@@ -22,6 +22,7 @@ from contracts.errors import InputError
 from contracts.input_file import input_text
 from contracts.text import one_line
 from workbench.study.deformation import DEFORMATIONS, Deformation, Kind, deformation_named
+from workbench.study.magnitudes import require_possible
 from workbench.study.quantities import to_si
 
 __all__ = ["MeasuredCurve", "in_si", "load_uncertainty", "read_measured_curve"]
@@ -71,7 +72,7 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
     ------
     InputError
         If the file cannot be read, has no column of deformation or load, or one without a unit, names a deformation
-        that is not known, or lacks the unloaded size that it needs.
+        that is not known, lacks the unloaded size that it needs, or holds numbers that no wheel has.
     """
     names, remarks = _head(path)
     own = names[:2] == _OWN or not names
@@ -94,9 +95,10 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
     except InputError as error:
         where = _bad_line(table, columns["deformation"].place, load, falls=deformation.unloaded is not None)
         raise InputError(_WHAT, path, f"{error.what} {error.rule}{where}", error.hint) from error
-    return MeasuredCurve(
-        curve=curve, kind=deformation.kind, uncertainty=_stated(path, load, columns.get("uncertainty"), table, remarks)
-    )
+    _require_possible(f"{path}: largest deflection", curve.deflection, "curve.deflection")
+    _require_possible(f"{path}: largest load", curve.load, "curve.load")
+    uncertainty = _stated(path, load, columns.get("uncertainty"), table, remarks)
+    return MeasuredCurve(curve=curve, kind=deformation.kind, uncertainty=uncertainty)
 
 
 def _bad_line(table: CsvTable, place: int, load: NDArray[np.float64], *, falls: bool) -> str:
@@ -143,7 +145,14 @@ def load_uncertainty(text: str, load: NDArray[np.float64], what: str = "uncertai
     value = _number(what, text, "" if relative else "N")
     if value < 0.0 or (relative and value > 1.0):
         raise InputError(what, text, "must lie between 0 and 100 %", "write it like '3 %', or '5 N' for newtons")
-    return value * np.abs(load) if relative else np.full_like(load, value)
+    width = value * np.abs(load) if relative else np.full_like(load, value)
+    _require_possible(what, width, "curve.uncertainty")
+    return width
+
+
+def _require_possible(what: str, values: NDArray[np.float64], like: str) -> None:
+    """Raise InputError for a column whose largest magnitude no wheel has."""
+    require_possible(what, float(np.max(np.abs(values))), like)
 
 
 def _head(path: Path) -> tuple[tuple[str, ...], dict[str, str]]:
@@ -253,7 +262,9 @@ def _stated(
     if not (np.all(np.isfinite(width)) and np.all(width >= 0.0)):
         name = table.names[column.place]
         raise InputError(_WHAT, path, f"has a negative or missing value under {name}", "give half widths >= 0")
-    return np.asarray(width * np.abs(load) if column.relative else width)
+    width = np.asarray(width * np.abs(load) if column.relative else width)
+    _require_possible(f"{path}: uncertainty", width, "curve.uncertainty")
+    return width
 
 
 def _others(table: CsvTable, used: Mapping[str, _Column]) -> dict[str, NDArray[np.float64]]:
