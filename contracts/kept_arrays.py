@@ -1,7 +1,7 @@
 """A file in which a long run keeps arrays, so that a killed run goes on: whole, or known to be damaged.
 
 One NumPy archive without pickle, then the 32 bytes of its SHA-256; put in place by one rename. A damage anywhere in the
-file shows. Verified by tests/unit/test_kept_arrays.py.
+file shows. Verified by tests/unit/test_workbench_damage.py.
 """
 
 from __future__ import annotations
