@@ -77,7 +77,7 @@ def _tridiagonal(diagonal: float, n: int = 200) -> tuple[Any, Any, Any]:
 
 
 def test_a_singular_matrix_is_told_and_the_next_one_solved() -> None:
-    """PETSc alone would give infinities, and go on giving them for every later matrix."""
+    """PETSc alone gives infinities without a word."""
     matrix, x, b = _tridiagonal(0.0, 201)
     solver = direct_solver(matrix, symmetric=True)
     with pytest.raises(SingularMatrixError, match="singular"):
@@ -95,9 +95,7 @@ def test_factors_that_do_not_fit_are_refused_before_they_are_computed(monkeypatc
     monkeypatch.setattr("reference_fe.solver.direct.free_memory", lambda processes: bound)
     numeric: list[int] = []
     monkeypatch.setattr(DirectSolver, "_numeric", lambda self: numeric.append(1))
-    with pytest.raises(
-        MemoryLimitError, match=r"factors of 20000 unknowns need about \d+ MB, and .* available"
-    ):
+    with pytest.raises(MemoryLimitError, match=r"factors of 20000 unknowns need about \d+ MB, and .* available"):
         direct_solver(matrix, symmetric=True).solve(b, x)
     assert not numeric
 
