@@ -74,7 +74,7 @@ class DirectSolver:
         if state != 0:
             detail = f"MUMPS INFOG(1:2) = {state}, {self.factors.getMumpsInfog(DETAIL)}"
             error = self._too_large(detail)
-            self.release()  # PETSc leaves factors that failed once as they are
+            self.release()  # after some failures PETSc never factorises with them again
             if state in (*NO_ROOM, *NO_MEMORY):
                 raise error
             if state in SINGULAR:

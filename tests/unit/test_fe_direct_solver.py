@@ -77,7 +77,7 @@ def _tridiagonal(diagonal: float, n: int = 200) -> tuple[Any, Any, Any]:
 
 
 def test_a_singular_matrix_is_told_and_the_next_one_solved() -> None:
-    """PETSc alone would give infinities, and go on giving them for every later matrix."""
+    """PETSc alone gives infinities without a word."""
     matrix, x, b = _tridiagonal(0.0, 201)
     solver = direct_solver(matrix, symmetric=True)
     with pytest.raises(SingularMatrixError, match="singular"):
