@@ -1,7 +1,7 @@
 """What a graph's tasks will take, by the unknowns they will have: wall time and memory, before anything is meshed.
 
 The laws are fitted to our own runs on one machine. Memory: the wheel at 23 000, 42 000, 80 000, 151 000, 227 000 and
-329 000 unknowns, met within 5 %, and the analysis of one with 1.27 million, within 1 %. Time of an iteration: the wheel
+329 000 unknowns, met within 5 %; beyond, it is extrapolated. Time of an iteration: the wheel
 at 37 000, 92 000 and 227 000 unknowns (benchmarks/README.md), within 8 %; a machine of another speed scales all times
 alike, which `RemainingTime` learns as it goes.
 Verified by tests/unit/test_workbench_foresight.py.
