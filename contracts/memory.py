@@ -1,6 +1,6 @@
 """How much memory this process may still take, by every limit that the system sets.
 
-Verified by tests/unit/test_memory.py.
+Verified by tests/unit/test_workbench_memory.py.
 """
 
 from __future__ import annotations

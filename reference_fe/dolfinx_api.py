@@ -7,9 +7,12 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from reference_fe.form_cache import sole_compiler
 from reference_fe.solver import triangular_product
 from reference_fe.solver.loopback import keep_to_this_machine
 
@@ -24,6 +27,7 @@ import dolfinx as _dolfinx
 import numpy as np
 import ufl as _ufl
 from dolfinx import fem as _fem
+from dolfinx import jit
 from dolfinx import mesh as dolfinx_mesh
 from dolfinx.fem import petsc as _fem_petsc
 from dolfinx.graph import adjacencylist
@@ -35,7 +39,6 @@ from petsc4py import PETSc
 __all__ = [
     "CELL",
     "COMM",
-    "JIT_OPTIONS",
     "MPI",
     "DirichletBC",
     "Expr",
@@ -48,6 +51,7 @@ __all__ = [
     "cell_matrix",
     "cell_measure",
     "cell_nodes",
+    "compile_expression",
     "compile_form",
     "create_matrix",
     "distributed_matrix",
@@ -82,7 +86,7 @@ dolfinx: Any = _dolfinx
 ufl: Any = _ufl
 fem: Any = _fem
 fem_petsc: Any = _fem_petsc
-JIT_OPTIONS = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
+_COMPILED_WITH = {"cffi_extra_compile_args": ["-O3", "-march=native"]}
 CELL = {2: "quadrilateral", 3: "hexahedron"}
 _FACET = {2: "interval", 3: "quadrilateral"}
 
@@ -177,7 +181,22 @@ def quadrature_space(mesh: Mesh, points_per_axis: tuple[int, ...], shape: tuple[
 
 def compile_form(expression: Expr) -> Any:
     """Compile a UFL form to machine code with this project's compiler flags."""
-    return fem.form(expression, jit_options=JIT_OPTIONS)
+    with _compiler() as options:
+        return fem.form(expression, jit_options=options)
+
+
+def compile_expression(expression: Expr, points: NDArray[np.float64]) -> Any:
+    """Compile a UFL expression at reference points, (n_points, dim), likewise."""
+    with _compiler() as options:
+        return fem.Expression(expression, points, jit_options=options)
+
+
+@contextmanager
+def _compiler() -> Iterator[dict[str, Any]]:
+    """Options of DOLFINx's compiler; its folder is held by the first process of a parallel run, which compiles."""
+    folder = Path(jit.get_options()["cache_dir"]) / "wheel-workbench"
+    with sole_compiler(folder) if COMM.rank == 0 else nullcontext():
+        yield _COMPILED_WITH | {"cache_dir": folder}
 
 
 def create_matrix(

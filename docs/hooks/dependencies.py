@@ -18,12 +18,14 @@ from packaging.utils import canonicalize_name
 PAGE = Path(__file__).parents[1] / "reference" / "dependencies.md"
 PROJECT = "wheel-workbench"
 PURPOSES = {
+    "aiohttp": "the viewer's pages and who may see them",
     "distributed": "many machines (`--scheduler`); only with the extra `dask`",
     "dolfinx-solver-real": "finite elements: DOLFINx with PETSc and MUMPS, compiled",
     "gmsh": "meshes and STEP files",
     "jinja2": "templates of the report",
     "matplotlib": "still figures",
     "meshio": "field files (.vtu)",
+    "msgpack": "the viewer's messages, checked before they are believed",
     "numba": "compiled kernels",
     "numpy": "arrays",
     "objective-rating-metrics": "rating of curves, ISO/TS 18571",
@@ -36,6 +38,7 @@ PURPOSES = {
     "rasterio": "terrain from GeoTIFF, with GDAL",
     "rich": "tables and progress on the terminal",
     "scipy": "sparse matrices, splines, statistics",
+    "shapely": "exact distances between polylines",
     "trame": "the viewer's page",
     "trame-vtk": "the viewer's 3D view",
     "typer": "the command line",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from reference_fe.dolfinx_api import JIT_OPTIONS, Expr, Mesh, fem
+from reference_fe.dolfinx_api import Expr, Mesh, compile_expression
 
 
 class PointEvaluation:
@@ -18,7 +18,7 @@ class PointEvaluation:
     """
 
     def __init__(self, expression: Expr, points: NDArray[np.float64]) -> None:
-        self._compiled = fem.Expression(expression, points, jit_options=JIT_OPTIONS)
+        self._compiled = compile_expression(expression, points)
         self._shape = (len(points), *expression.ufl_shape)
 
     def __call__(self, mesh: Mesh, cells: NDArray[np.int32]) -> NDArray[np.float64]:

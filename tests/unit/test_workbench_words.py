@@ -17,10 +17,10 @@ from workbench.execution.result_files import write_result
 from workbench.execution.task import task_keys
 from workbench.graph.fe import mesh_task
 from workbench.graph.study_graph import mesh_tasks, report_tasks, stiffness_tasks
-from workbench.study.model_parameters import brush_parameters
+from workbench.study.model_parameters import brush_parameters, design_from
 from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.tasks.brush import solve as solve_brush
-from workbench.tasks.mesh import design_from, measure
+from workbench.tasks.mesh import measure
 
 BUILT_IN = built_in_study()
 OTHER = "Other words: [b]=1+1</b>"
@@ -106,7 +106,7 @@ def test_meshes_for_other_programs_keep_the_names() -> None:
 
 def test_the_report_has_the_names_of_the_study(tmp_path: Path) -> None:
     study = study_of(BUILT_IN, _table())
-    design = design_from(mesh_task(study, "mesh", cost=1.0).inputs["wheel"])
+    design = design_from(mesh_task(study, "mesh").inputs["wheel"])
     mesh = build_mesh(design, element_size=0.03, axial_size=0.06, half_width=True)
     write_result(tmp_path, measure(mesh, design))
     numbers = mesh_numbers(study, tmp_path)

@@ -90,7 +90,7 @@ def mesh_task(
 
 
 def wheel_inputs(study: Study) -> dict[str, Any]:
-    """Numbers of the wheel's parts and of the materials they use, see `workbench.tasks.mesh.design_from`.
+    """Numbers of the wheel's parts and of the materials they use, see `workbench.study.model_parameters.design_from`.
 
     The study's name, names of materials and their sources are words about the wheel that decide no result: the report
     takes them from the study, so that to change them computes nothing again.

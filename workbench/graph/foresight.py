@@ -18,8 +18,7 @@ from geometry.build import mesh_size
 from geometry.counting import MeshCount, count_planar, count_solid, require_buildable
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task
-from workbench.study.model import WheelStudy
-from workbench.study.model_parameters import wheel_design
+from workbench.study.model_parameters import design_from
 
 __all__ = ["foreseen", "solve_bytes", "solve_seconds"]
 
@@ -85,7 +84,7 @@ def _with_needs(task: Task, counts: Mapping[str, MeshCount]) -> Task:
 
 def _count(task: Task) -> MeshCount:
     """The mesh that a task will make, from its inputs."""
-    design = wheel_design(WheelStudy.model_validate(task.inputs["wheel"], context={"si": True}))
+    design = design_from(task.inputs["wheel"])
     options = dict[str, Any](task.inputs["options"])
     given: dict[str, Any] = {"axial_size": None, **options}
     sizes = (given[name] for name in ("element_size", "axial_size", "thickness_elements", "refinement"))

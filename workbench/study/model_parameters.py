@@ -6,7 +6,7 @@ Verified by tests/unit/test_workbench_study.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -31,6 +31,7 @@ __all__ = [
     "ancf_preset",
     "ancf_tire",
     "brush_parameters",
+    "design_from",
     "fit_start",
     "materials",
     "part_materials",
@@ -83,6 +84,13 @@ def wheel_design(study: WheelStudy) -> WheelDesign:
 
     parts = _WheelParts(study).build()
     return _in_section("wheel", lambda: WheelDesign(name=study.name, **parts))
+
+
+def design_from(wheel: Mapping[str, Any]) -> WheelDesign:
+    """The design from the JSON of a study's wheel, all values SI; words that it leaves out are made up."""
+    materials = {name: {"source": "the study"} | values for name, values in wheel["materials"].items()}
+    whole = {"name": "wheel", **wheel, "materials": materials}
+    return wheel_design(WheelStudy.model_validate(whole, context={"si": True}))
 
 
 class _WheelParts:

@@ -16,18 +16,10 @@ from geometry.summary import summarize_mesh
 from geometry.wheel import WheelDesign
 from workbench.execution.result_files import write_result
 from workbench.execution.task import Progress
-from workbench.study.model import WheelStudy
-from workbench.study.model_parameters import wheel_design
+from workbench.study.model_parameters import design_from
 from workbench.tasks.mesh_file import MESH, write_mesh
 
-__all__ = ["build", "design_from", "measure"]
-
-
-def design_from(wheel: Mapping[str, Any]) -> WheelDesign:
-    """The design from the JSON of a study's wheel, all values SI; words that it leaves out are made up."""
-    materials = {name: {"source": "the study"} | values for name, values in wheel["materials"].items()}
-    whole = {"name": "wheel", **wheel, "materials": materials}
-    return wheel_design(WheelStudy.model_validate(whole, context={"si": True}))
+__all__ = ["build", "measure"]
 
 
 def build(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:

@@ -12,7 +12,8 @@ from geometry.step import write_step
 from geometry.vtu import write_vtu
 from workbench.execution.task import Progress
 from workbench.figures.stills import draw_parts
-from workbench.tasks.mesh import design_from, measure
+from workbench.study.model_parameters import design_from
+from workbench.tasks.mesh import measure
 from workbench.tasks.mesh_file import MESH, read_mesh
 
 __all__ = ["write_files"]

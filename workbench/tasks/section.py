@@ -15,8 +15,8 @@ from geometry.planar import build_planar_mesh
 from reference_fe.wheel.section import solve_section
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.task import Progress
+from workbench.study.model_parameters import design_from
 from workbench.tasks.fe import converged_part, load_case
-from workbench.tasks.mesh import design_from
 
 __all__ = ["solve_orientation"]
 
