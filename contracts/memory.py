@@ -32,10 +32,11 @@ class MemoryBound:
 
 
 def shown_size(amount: float) -> str:
-    """An amount of memory for people: ``"480 MB"``, ``"3.1 GB"``, ``"27 GB"``."""
-    if amount < 0.9995e9:
-        return f"{amount * 1e-6:.0f} MB"
-    return f"{amount * 1e-9:.1f} GB" if amount < 9.95e9 else f"{amount * 1e-9:.0f} GB"
+    """A size [byte] for people: ``"12 bytes"``, ``"480 MB"``, ``"3.1 GB"``, ``"27 GB"``."""
+    for size, unit in ((1e9, "GB"), (1e6, "MB"), (1e3, "kB")):
+        if amount >= 0.9995 * size:
+            return f"{amount / size:{'.2g' if amount < 9.95 * size else '.0f'}} {unit}"
+    return f"{amount:.0f} bytes"
 
 
 def free_memory(processes: int = 1, *, proc: Path = _PROC, cgroup: Path = _CGROUP) -> MemoryBound:

@@ -80,7 +80,10 @@ def test_a_task_that_the_kernel_kills_for_memory(group: Path, tmp_path: Path) ->
     message, *events = _said(tmp_path, str(group), 0)
     assert message.startswith("RunError task big failed twice, the second time alone: the kernel killed it because ")
     assert "memory ran out: it held " in message
-    assert "of 600 MB of its control group; finished results are kept, start again with more memory" in message
+    assert (
+        "of 600 MB within this control group's limit; finished results are kept, start again with more memory"
+        in message
+    )
     assert sorted(e for e in events if e.startswith("computed")) == ["computed a", "computed b"]
     (restarted,) = (e for e in events if e.startswith("restarted"))
     assert restarted.startswith("restarted big: the kernel killed it because memory ran out: it held ")
@@ -90,6 +93,6 @@ def test_a_task_that_the_kernel_kills_for_memory(group: Path, tmp_path: Path) ->
 def test_an_allocation_that_fails(tmp_path: Path) -> None:
     message, *events = _said(tmp_path, "", 4_000_000_000)
     assert message.startswith("RunError task big failed twice, the second time alone: no memory left")
-    assert "of 4 GB of address space (ulimit -v)" in message
+    assert "of 4 GB within this process' limit of address space (ulimit -v)" in message
     assert sorted(e for e in events if e.startswith("computed")) == ["computed a", "computed b"]
     assert (tmp_path / "log.txt").read_text(encoding="utf-8").split().count("big") == 2

@@ -40,7 +40,7 @@ def test_more_than_there_is_in_all_is_refused_with_the_numbers() -> None:
 
 def test_more_than_is_free_is_a_warning() -> None:
     text = memory_warning([_task("a", 6e9)], 2, _bound(5e9), _bound(16e9))
-    assert text.startswith("task a needs about 6.0 GB for its 2600000 unknowns, and 5.0 GB are available on this")
+    assert text.startswith("task a needs about 6 GB for its 2600000 unknowns, and 5 GB are available on this")
     assert "larger element_size" in text
 
 
@@ -56,7 +56,7 @@ def test_an_expectation_within_its_error_is_no_refusal() -> None:
 
 
 @pytest.mark.parametrize(
-    ("amount", "shown"), [(4.8e8, "480 MB"), (9.9999e8, "1.0 GB"), (3.14e9, "3.1 GB"), (1.4e10, "14 GB")]
+    ("amount", "shown"), [(4.8e8, "480 MB"), (9.9999e8, "1 GB"), (3.14e9, "3.1 GB"), (1.4e10, "14 GB")]
 )
 def test_sizes_for_people(amount: float, shown: str) -> None:
     assert shown_size(amount) == shown

@@ -19,8 +19,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from contracts.memory import shown_size
 from workbench.execution.errors import DiskFullError
-from workbench.execution.memory import size_text
 
 __all__ = ["OUT", "STORE", "disk_full", "naming_the_disk", "no_room", "where_full"]
 
@@ -49,7 +49,7 @@ class _Disk:
     total: int
 
     def __str__(self) -> str:
-        room = f"{size_text(self.free)} of {size_text(self.total)} free"
+        room = f"{shown_size(self.free)} of {shown_size(self.total)} free"
         return f"the disk mounted at {self.mount}, which holds the {self.what} {self.path} ({room})"
 
 
@@ -67,7 +67,7 @@ def disk_full(error: BaseException, places: Mapping[str, Path] | None = None) ->
     reason, disk = found.strerror or "the disk is full", _blamed(found, places or {})
     if found.errno == errno.EFBIG:
         longest = resource.getrlimit(resource.RLIMIT_FSIZE)[0]
-        limit = "" if longest == resource.RLIM_INFINITY else f" than {size_text(longest)} (ulimit -f)"
+        limit = "" if longest == resource.RLIM_INFINITY else f" than {shown_size(longest)} (ulimit -f)"
         return f"{reason}: {found.filename or disk.path}: a file may not be longer{limit}; {_advice(disk)}"
     return f"{reason}: {disk}; {_advice(disk)}"
 

@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from contracts.errors import WorkbenchError
-from contracts.memory import free_memory, limited_address_space
+from contracts.memory import free_memory, limited_address_space, shown_size
 from workbench.execution.disk import STORE, disk_full, no_room, where_full
-from workbench.execution.memory import limit_text, out_of_memory, size_text
+from workbench.execution.memory import limit_text, out_of_memory
 
 __all__ = ["Done", "Failed", "Job", "Lost", "Message", "Progressed", "run_job"]
 
@@ -131,7 +131,7 @@ def _without_room(job: Job, error: Exception) -> Failed | Lost | None:
     if not isinstance(error, WorkbenchError) and (out_of_memory(error) or free_memory().bytes < _SHORT):
         held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
         said = f" ({type(error).__name__}: {error})" if str(error) else ""
-        return Lost(how=f"no memory left{said}: it held {size_text(held)}, of {limit_text()}", memory=True)
+        return Lost(how=f"no memory left{said}: it held {shown_size(held)}, of {limit_text()}", memory=True)
     return None
 
 

@@ -17,10 +17,11 @@ from multiprocessing.process import BaseProcess
 from multiprocessing.resource_tracker import ensure_running
 from pathlib import Path
 
+from contracts.memory import shown_size
 from workbench.execution.disk import where_full
 from workbench.execution.interrupts import put_off
 from workbench.execution.jobs import Failed, Job, Lost, Message
-from workbench.execution.memory import KillCount, limit_text, out_of_memory, size_text
+from workbench.execution.memory import KillCount, limit_text, out_of_memory
 from workbench.execution.worker import serve
 
 __all__ = ["LocalWorkers"]
@@ -135,7 +136,7 @@ class LocalWorkers:
 
 def _held() -> str:
     """The memory of the largest worker that died so far, and what there is."""
-    return f"it held {size_text(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)}, of {limit_text()}"
+    return f"it held {shown_size(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)}, of {limit_text()}"
 
 
 @contextmanager

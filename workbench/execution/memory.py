@@ -9,22 +9,15 @@ Verified by tests/unit/test_execution_memory.py and tests/end_to_end/test_memory
 from __future__ import annotations
 
 import errno
-import resource
 from pathlib import Path
 
-__all__ = ["KillCount", "limit_text", "out_of_memory", "size_text"]
+from contracts.memory import shown_size, total_memory
+
+__all__ = ["KillCount", "limit_text", "out_of_memory"]
 
 _PETSC_ERR_MEM = 55
 _SIGNS = ("bad_alloc", "cannot allocate memory", "out of memory", "unable to allocate")
 """How libraries say it that raise or print something else than a MemoryError."""
-
-
-def size_text(size: float) -> str:
-    """A size [bytes] in its largest unit: ``"1.3 GB"``, ``"200 kB"``, ``"12 bytes"``."""
-    for limit, unit in ((1e9, "GB"), (1e6, "MB"), (1e3, "kB")):
-        if size >= limit:
-            return f"{size / limit:.3g} {unit}"
-    return f"{size:.0f} bytes"
 
 
 def out_of_memory(error: BaseException | str) -> bool:
@@ -73,19 +66,10 @@ class KillCount:
         return None
 
 
-def limit_text(root: Path = Path("/")) -> str:
-    """How much memory a worker may have at most, and who says so: ``"24 GB of this machine"``."""
-    limits = [(total * 1024, "of this machine")] if (total := _number(root / "proc" / "meminfo", "MemTotal:")) else []
-    for folder in _groups(root):
-        for name in ("memory.max", "memory.limit_in_bytes"):
-            text = _read(folder / name).strip()
-            if text.isdigit():
-                limits.append((int(text), "of its control group"))
-    address_space = resource.getrlimit(resource.RLIMIT_AS)[0]
-    if address_space != resource.RLIM_INFINITY:
-        limits.append((address_space, "of address space (ulimit -v)"))
-    size, whose = min(limits, default=(0, ""))
-    return f"{size_text(size)} {whose}" if whose else "an unknown size"
+def limit_text() -> str:
+    """How much memory a worker may have at most, and who says so: ``"24 GB on this machine in all"``."""
+    bound = total_memory()
+    return f"{shown_size(bound.bytes)} {bound.source}"
 
 
 def _groups(root: Path) -> list[Path]:
