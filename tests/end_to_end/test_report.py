@@ -16,7 +16,9 @@ from contracts.curves import read_curve
 from contracts.series import read_series
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from tests.end_to_end.small_study import run, small_study_text
+from workbench.checks.statements import statement_of
 from workbench.figures.packing import unpacked
+from workbench.study.loosened import GATES
 
 TASKS = {
     *("mesh", "mesh_whole", "fe_phi000"),
@@ -164,7 +166,9 @@ def test_a_second_run_reuses_everything_and_a_strict_study_exits_1(first_report:
     (workspace / "mine.csv").write_text("# source: file\ndeflection_m,load_N\n0,0\n0.006,40\n", encoding="utf-8")
     mine = '[[compare.curves]]\nfile = "mine.csv"\nlabel = "my digitised curve"\nsource = "Someone, Fig. 1"\n'
     strict = small_study_text().replace("[tolerances]", f"{mine}\n[tolerances]")
-    strict = strict.replace('reach_deflection = "6 mm"', "")
+    strict = strict.replace('reach_deflection = "6 mm"', "").replace(
+        "orientation_spread = 0.50", "orientation_spread = 5"
+    )
     (workspace / "strict.toml").write_text(strict, encoding="utf-8")
     second = run("report", "strict.toml", "--out", "strict", "--store", "store", folder=workspace)
     assert second.returncode == 1, second.stderr
@@ -179,4 +183,23 @@ def test_a_second_run_reuses_everything_and_a_strict_study_exits_1(first_report:
     assert [c["id"] for c in summary["checks"] if c["role"] == "gate" and c["status"] != "pass"] == ["fe.reach"]
     user = next(c for c in summary["checks"] if c["id"] == "user_0.relative_l2")
     assert (user["source"], user["role"]) == ("Someone, Fig. 1", "finding")
-    assert "my digitised curve" in (workspace / "strict" / "report.html").read_text(encoding="utf-8")
+    page = (workspace / "strict" / "report.html").read_text(encoding="utf-8")
+    assert "my digitised curve" in page
+    unusual = "tolerances.orientation_spread = 5 is unusual for a relative tolerance"
+    assert second.stderr.startswith(f"workbench: warning: strict.toml: {unusual}")
+    assert summary["warnings"][0].startswith(unusual)
+    assert unusual in page
+
+
+def test_gates_that_the_study_loosened_are_named_beside_the_verdict(first_report: Finished, workspace: Path) -> None:
+    """On the page, on the terminal, in summary.md and summary.json; and every gate's tolerance is known as one."""
+    words = "4 gate tolerances are the study's own: tolerances.initial_tangent = 0.9 is looser than its gate's own 0.03"
+    folder = workspace / "report"
+    page, markdown = ((folder / name).read_text(encoding="utf-8") for name in ("report.html", "summary.md"))
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    assert words in html.unescape(page)
+    assert words in markdown
+    assert words in " ".join(first_report.stdout.split())
+    assert len(summary["warnings"]) == 4
+    gates = [statement_of(c["id"], c["quantity"], c["title"]).setting for c in summary["checks"] if c["role"] == "gate"]
+    assert set(gates) - {""} <= GATES.keys()

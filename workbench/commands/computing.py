@@ -18,7 +18,7 @@ from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task
 from workbench.execution.terminal import Terminal, console
-from workbench.study.magnitudes import warnings_of
+from workbench.study.magnitudes import unusual
 from workbench.study.model import Study
 from workbench.study.reading import read_study
 
@@ -28,7 +28,7 @@ __all__ = ["complain_of_early_ends", "computed", "console", "naming", "read_and_
 def read_and_warn(path: Path) -> Study:
     """The study of a file, as `read_study`; what is unusual about it goes to stderr."""
     study = read_study(path)
-    warn(path, warnings_of(study))
+    warn(path, unusual(study))
     return study
 
 

@@ -20,7 +20,7 @@ from workbench.report.folders import check_folder, check_targets
 from workbench.report.parquet import write_parquet
 from workbench.report.placing import new_files
 from workbench.report.sweep_page import sweep_page
-from workbench.study.magnitudes import warnings_of
+from workbench.study.magnitudes import unusual
 from workbench.study.model import Study
 from workbench.study.reading import read_study_table, study_of
 from workbench.study.sweep_points import Point, sweep_points
@@ -57,9 +57,9 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
 
 def _warnings(study: Study, points: Sequence[Point]) -> list[str]:
     """What is unusual about the study, then what is so about some of its points only; the first of each kind."""
-    found = dict.fromkeys(warnings_of(study), "")
+    found = dict.fromkeys(unusual(study), "")
     for point in points:
-        for warning in warnings_of(point.study):
+        for warning in unusual(point.study):
             found.setdefault(warning, f"[sweep] point {point.number} ({point.label}): ")
     return [where + warning for warning, where in found.items()][:_MOST_WARNINGS]
 

@@ -60,7 +60,7 @@ def unusual(study: Study) -> tuple[str, ...]:
 
 
 def warnings_of(study: Study) -> tuple[str, ...]:
-    """What a user is told before anything runs: unusual numbers, gates that are easier than the project's own."""
+    """What a report says of its study: unusual numbers, gates that are easier than the project's own."""
     return (*unusual(study), *loosened(study))
 
 
