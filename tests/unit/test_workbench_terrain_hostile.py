@@ -205,7 +205,7 @@ def loop(path: Path) -> Path:
         (strip, "strips of"),
         (bands, "strips of"),
         (complex_numbers, "must hold heights"),
-        (mountains, "must be within"),
+        (mountains, "must not exceed 100000 m"),
         (truncated, "must be a GeoTIFF"),
         (offsets, "must be a GeoTIFF"),
         (loop, "must be a GeoTIFF"),

@@ -38,10 +38,6 @@ _LARGEST = 400_000_000
 """Size of a GeoTIFF [byte]: further bands and overviews are in it too."""
 _LARGEST_BLOCK = 256_000_000
 """Bytes of one strip or tile, which GDAL unpacks as a whole."""
-_HIGHEST = 1e7
-"""Largest height [m]: some maps give the radius of the planet."""
-_COARSEST = 1e5
-"""Largest spacing, and one over the smallest [m]."""
 _MAGIC = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _ALONE = {
     "GDAL_DISABLE_READDIR_ON_OPEN": "EMPTY_DIR",
@@ -70,19 +66,9 @@ def read_height_field(path: Path, origin: tuple[float, float] | None = None) -> 
     if path.suffix.lower() not in readers:
         raise InputError(_WHAT, path, "must end in .npz, .tif or .tiff", "convert it")
     field = readers[path.suffix.lower()](path)
-    _check_size(path, field)
     if origin is None:
         return field
     return HeightField(heights=field.heights, spacing=field.spacing, origin=origin)
-
-
-def _check_size(path: Path, field: HeightField) -> None:
-    """Raise InputError for heights or distances that no ground has."""
-    highest, spacing = float(np.abs(field.heights).max()), field.spacing
-    if highest > _HIGHEST or max(spacing) > _COARSEST or min(spacing) < 1.0 / _COARSEST:
-        value = f"{path}, heights to {highest:.3g} m, spacing {spacing[0]:.3g} m, {spacing[1]:.3g} m"
-        rule = f"heights must be within {_HIGHEST:g} m, spacing {1.0 / _COARSEST:g}..{_COARSEST:g} m"
-        raise InputError(_WHAT, value, rule, "give metres, and gaps their nodata value")
 
 
 def _check_count(path: Path, shape: tuple[int, ...]) -> None:
