@@ -43,7 +43,8 @@ class Range:
     unit : of the limits, see `_SCALES`
     possible, usual : limits
     hint : what to try
-    zero : whether zero is as good as a usual number
+    zero : whether zero is as good as a usual number; what is all but zero, such as the sine of 180 degrees, is
+        then told and never refused
     """
 
     keys: tuple[str, ...]
@@ -125,9 +126,9 @@ def _of_range(key: Key, number: float, row: Range) -> Iterator[Oddity]:
     size = abs(number) / _SCALES[row.unit]
     value = _quantity(math.copysign(size, number), row.unit)
     low, high = (_quantity(limit, row.unit) for limit in row.possible)
-    if not _within(size, row.possible):
-        or_zero, magnitude = " be 0 or" if row.zero else "", " in magnitude" if number < 0.0 else ""
-        rule = f"must{or_zero} lie between {low} and {high}{magnitude}"
+    if not (_within(size, row.possible) or (row.zero and size < row.possible[0])):
+        span = f"must not exceed {high}" if row.zero else f"must lie between {low} and {high}"
+        rule = span + (" in magnitude" if number < 0.0 else "")
         yield Oddity(key=key, value=value, rule=rule, hint=row.hint, impossible=True)
     elif not _within(size, row.usual):
         low, high = (_quantity(limit, row.unit) for limit in row.usual)

@@ -10,6 +10,8 @@ import functools
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from contracts.errors import MemoryLimitError, WorkbenchError
 from contracts.memory import MemoryBound, free_memory, shown_size
 from reference_fe import dolfinx_api as api
@@ -49,6 +51,7 @@ class DirectSolver:
         self._rooms = iter(MORE_ROOM)
         self._pc: api.PETSc.PC | None = None
         self._ready = False
+        self._analysed = 0
 
     @property
     def factors(self) -> api.PETSc.Mat:
@@ -67,10 +70,13 @@ class DirectSolver:
             If there are none.
         """
         self._ready = False
-        if self._pc is None:
+        if self._pc is None or self._pattern() != self._analysed:
             self._analyse()
-        while (state := self._numeric()) in NO_ROOM and (room := next(self._rooms, None)) is not None:
+        while (state := self._numeric()) in NO_ROOM and (room := self._more_room()):
             self._analyse(room)
+        if state != 0 and not self._finite():
+            self.release()
+            raise SingularMatrixError("the stiffness matrix holds a number that is not finite")
         if state != 0:
             detail = f"MUMPS INFOG(1:2) = {state}, {self.factors.getMumpsInfog(DETAIL)}"
             error = self._too_large(detail)
@@ -109,6 +115,7 @@ class DirectSolver:
             self.factors.setMumpsIcntl(SCALING, NO_SCALING)
         if room is not None:
             self.factors.setMumpsIcntl(ROOM, room)
+        self._analysed = self._pattern()
         permutations = (None,) if self._kind == "Cholesky" else (None, None)
         self._call(f"Mat{self._kind}FactorSymbolic", *permutations, None)
         if (state := self.factors.getMumpsInfog(STATE)) in NO_MEMORY:
@@ -126,24 +133,40 @@ class DirectSolver:
         handles = (ctypes.c_void_p(one.handle) for one in (self.factors, self._matrix))
         outcome = getattr(_petsc(), name)(*handles, *more)
         if outcome == PETSC_OUT_OF_MEMORY:
-            raise self._too_large(f"{name} got no more")
+            raise self._too_large(f"{name} got no more", alone=True)
         if outcome:
             raise WorkbenchError(f"the factorisation failed: {name} returned PETSc's error {outcome}; report this")
 
-    def _memory(self) -> MemoryBound:
-        """What each process may still take, that kept from earlier factorisations included."""
+    def _pattern(self) -> int:
+        """A number that changes whenever entries come to the matrix or go."""
+        state = ctypes.c_int64()
+        _petsc().MatGetNonzeroState(ctypes.c_void_p(self._matrix.handle), ctypes.byref(state))
+        return state.value
+
+    def _more_room(self) -> int:
+        """Room [%] of the next attempt; 0 if there is none, or numbers that are none would only waste it."""
+        return next(self._rooms, 0) if self._finite() else 0
+
+    def _finite(self) -> bool:
+        """Whether every entry of the matrix is a finite number."""
+        return bool(np.isfinite(self._matrix.norm()))
+
+    def _memory(self, *, alone: bool = False) -> MemoryBound:
+        """What each process, or this one ``alone``, may still take, that kept from earlier factorisations included."""
         comm = self._matrix.comm.tompi4py()
         free = free_memory(processes=comm.size)
         own = replace(free, bytes=free.bytes + _kept_memory())
+        if alone:
+            return own
         all_of_them: list[MemoryBound] = comm.allgather(own)
         return min(all_of_them, key=lambda bound: bound.bytes)
 
-    def _too_large(self, found: str) -> MemoryLimitError:
+    def _too_large(self, found: str, *, alone: bool = False) -> MemoryLimitError:
         unknowns, needed = self._matrix.getSize()[0], 1e6 * self.factors.getMumpsInfog(LARGEST)
         amount = f"need about {shown_size(needed)}" if needed else "need more"
         each = "" if self._matrix.comm.size == 1 else " in one of the processes"
         return MemoryLimitError(
-            f"the factors of {unknowns} unknowns {amount}{each}, and {self._memory()} ({found})",
+            f"the factors of {unknowns} unknowns {amount}{each}, and {self._memory(alone=alone)} ({found})",
             "choose a larger element_size or axial_size, run fewer tasks at once (--workers 1), or take a machine "
             "with more memory",
         )

@@ -5,6 +5,7 @@ Verified by tests/unit/test_rover_file.py.
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -211,6 +212,24 @@ class _Reader:
         x, y, z = (float(v) for v in values)
         return x, y, z
 
+    def inertia(self) -> tuple[float, float, float]:
+        """Principal moments [kg m^2] that a rigid body can have: none is greater than the sum of the others."""
+        moments = self.three("inertia")
+        if min(moments) <= 0.0:
+            rule, hint = "must be greater than zero", "give the moments about x, y, z in kg m^2"
+            raise InputError(f"{self.place}: inertia", list(moments), rule, hint)
+        if 2.0 * max(moments) > 1.01 * sum(moments):
+            rule, hint = "one moment is greater than the sum of the others, as in no body", "check order and units"
+            raise InputError(f"{self.place}: inertia", list(moments), rule, hint)
+        return moments
+
+    def axis(self) -> tuple[float, float, float]:
+        """A direction; its length says nothing, but has to be one."""
+        direction = self.three("axis")
+        if not math.hypot(*direction) > 1e-6:
+            raise InputError(f"{self.place}: axis", list(direction), "is no direction", "give one such as [0, 1, 0]")
+        return direction
+
     def table(self, key: str) -> _Reader:
         if key not in self.parts:
             self.parts[key] = _Reader(f"{self.place}: {key}", self.get(key, dict, "a table"))
@@ -257,7 +276,7 @@ def _mirrored(point: tuple[float, float, float], sign: float) -> tuple[float, fl
 
 
 def _bodies(row: _Reader) -> list[BodyRow]:
-    name, mass, inertia, position = row.word("name"), row.number("mass"), row.three("inertia"), row.three("position")
+    name, mass, inertia, position = row.word("name"), row.number("mass"), row.inertia(), row.three("position")
     return [
         BodyRow(name=name + side, mass=mass, inertia=inertia, position=_mirrored(position, sign))
         for side, sign in _sides(row).items()
@@ -266,7 +285,7 @@ def _bodies(row: _Reader) -> list[BodyRow]:
 
 def _pivots(row: _Reader) -> list[PivotRow]:
     name, first, second = row.word("name"), row.word("first"), row.word("second")
-    position, axis = row.three("position"), row.three("axis")
+    position, axis = row.three("position"), row.axis()
     return [
         PivotRow(name=name + side, first=first, second=second + side, position=_mirrored(position, sign), axis=axis)
         for side, sign in _sides(row).items()
@@ -289,4 +308,4 @@ def _legs(row: _Reader, rover: _Reader) -> list[Leg]:
 
 def _leg_body(name: str, row: _Reader) -> BodyRow:
     position = (0.0, 0.0, row.number("above_axle"))
-    return BodyRow(name=name, mass=row.number("mass"), inertia=row.three("inertia"), position=position)
+    return BodyRow(name=name, mass=row.number("mass"), inertia=row.inertia(), position=position)

@@ -11,7 +11,7 @@ import re
 import shutil
 import subprocess
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +30,7 @@ from workbench.execution.result_files import FAILURE, read_result, write_result
 from workbench.execution.runner import run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Progress, Task
+from workbench.graph.fe import material_inputs
 from workbench.tasks.fe import solve_orientation
 from workbench.tasks.mesh_file import MESH, write_mesh
 
@@ -63,7 +64,7 @@ def _inputs(end: float) -> dict[str, Any]:
         "inner_contact_stiffness": 1e11,
         "relative_tolerance": 1e-8,
         "rigid_parts": ["outer_hub"],
-        "materials": {"tire": asdict(TI_6AL_4V)},
+        "materials": material_inputs({"tire": TI_6AL_4V}),
     }
 
 

@@ -89,6 +89,31 @@ def test_a_singular_matrix_is_told_and_the_next_one_solved() -> None:
     assert x.array[100] == pytest.approx(1.0 / 6.0, rel=1e-9)
 
 
+@pytest.mark.parametrize("number", [np.nan, np.inf])
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_a_matrix_of_numbers_that_are_none_is_singular_not_too_large(number: float, symmetric: bool) -> None:
+    """MUMPS finds no pivots and asks for room without end."""
+    matrix, x, b = _tridiagonal(4.0, 3000)
+    matrix.scale(number)
+    with pytest.raises(SingularMatrixError, match="not finite"):
+        direct_solver(matrix, symmetric=symmetric).solve(b, x)
+
+
+def test_entries_that_come_to_the_matrix_are_seen() -> None:
+    matrix, x, b = _tridiagonal(4.0)
+    solver = direct_solver(matrix, symmetric=True)
+    solver.solve(b, x)
+    matrix.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
+    for row, column in ((0, 199), (199, 0)):
+        matrix.setValue(row, column, 1.0)
+    matrix.assemble()
+    solver.factorise()
+    solver.solve(b, x)
+    residual = b.duplicate()
+    matrix.mult(x, residual)
+    assert np.allclose(residual.array, 1.0, atol=1e-12)
+
+
 def test_factors_that_do_not_fit_are_refused_before_they_are_computed(monkeypatch: pytest.MonkeyPatch) -> None:
     matrix, x, b = _tridiagonal(4.0, 20000)
     bound = MemoryBound(bytes=-1e12, source="on this machine now")

@@ -39,8 +39,10 @@ def test_messages_are_in_the_row_s_unit() -> None:
 
 def test_zero_passes_where_it_means_something() -> None:
     assert not list(oddities({("phase",): 0.0}, TABLE))
-    (odd,) = oddities({("phase",): -1e-9}, TABLE)
-    assert odd.rule == "must be 0 or lie between 0.01 deg and 720 deg in magnitude"
+    (told,) = oddities({("phase",): -1e-9}, TABLE)  # as good as zero, such as round-off
+    assert (told.impossible, told.rule) == (False, "is unusual for an angle (1 deg to 360 deg)")
+    (odd,) = oddities({("phase",): -1e9}, TABLE)
+    assert (odd.impossible, odd.rule) == (True, "must not exceed 720 deg in magnitude")
 
 
 def test_a_ratio_joins_numbers_of_the_same_part() -> None:

@@ -153,7 +153,7 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     "no deflection": (
         r'max_deflection = "40 mm"',
         'max_deflection = "36 um"',
-        ["fe.max_deflection = '36 um'", "between 1 mm and"],
+        ["fe.max_deflection = '36 um'", "between 0.05 mm and"],
     ),
     "deflection to the hub": (
         r'max_deflection = "40 mm"',

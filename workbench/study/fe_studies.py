@@ -17,6 +17,17 @@ from workbench.study.sections import Drop, Factor, Positive, Section, in_key
 __all__ = ["FullSection", "HubStudySection", "MeshStudySection"]
 
 
+SMALLEST_STEP = 1.1
+"""Of refinement; below it counts of elements, whole numbers, may be the same. V&V 20 recommends 1.3 (from memory)."""
+
+
+def _far_apart(key: str, factors: tuple[float, ...]) -> None:
+    """Refuse meshes so much alike that their differences say nothing of the error."""
+    if any(b < SMALLEST_STEP * a for a, b in pairwise(factors)):
+        shown = ", ".join(f"{factor:g}" for factor in factors)
+        raise in_key(key, shown, f"must each be {SMALLEST_STEP:g} times the one before or more", "e.g. 1, 1.5, 2")
+
+
 class MeshStudySection(Section):
     """Three meshes of one family, which give the numerical uncertainty of the load at some deflections [m].
 
@@ -33,6 +44,7 @@ class MeshStudySection(Section):
             if not all(b > a for a, b in pairwise(values)):
                 shown = ", ".join(f"{v:g}" for v in values)
                 raise in_key(key, shown, "must increase", "sort them and give each once")
+        _far_apart("factors", self.factors)
         return self
 
 
@@ -58,4 +70,5 @@ class FullSection(Section):
             raise in_key(
                 "mesh_study_factors", shown, f"must increase and contain factor = {self.factor:g}", "e.g. 1, 1.5, 2"
             )
+        _far_apart("mesh_study_factors", factors)
         return self

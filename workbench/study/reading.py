@@ -32,6 +32,8 @@ _HINTS = {
     "list_type": ("must be a list", "put it in brackets, as in studies/exomars.toml"),
     "dict_type": ("must be a table", "see studies/exomars.toml for an example"),
 }
+_SORTED = (("environment", "temperatures"),)
+"""Lists that the study holds in another order than its file."""
 
 
 def built_in_study() -> Path:
@@ -63,7 +65,8 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         raise _study_error(path, error) from error
     odd = impossible(study)
     if odd is not None:
-        value = _shown(_at(table, odd.key)) if _at(table, odd.key) is not None else odd.value
+        written = None if odd.key[:-1] in _SORTED else _at(table, odd.key)
+        value = odd.value if written is None else _shown(written)
         raise StudyError(path, dotted(odd.key), value, odd.rule, odd.hint)
     study = _with_surfaces_from(study, path.parent)
     try:
