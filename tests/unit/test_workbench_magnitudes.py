@@ -239,10 +239,3 @@ def test_rubbers_are_told_of_and_used(modulus: str, strength: str, tmp_path: Pat
         text = text.replace(old, new)
     (tmp_path / "rubber.toml").write_text(text, encoding="utf-8")
     assert any("yield_strength" in line for line in unusual(read_study(tmp_path / "rubber.toml")))
-
-
-def test_meshes_too_much_alike_are_refused(tmp_path: Path) -> None:
-    text = (built_in_study().parent / "first.toml").read_text(encoding="utf-8")
-    (tmp_path / "alike.toml").write_text(text.replace("[1, 1.5, 2]", "[1, 1.01, 1.02]"), encoding="utf-8")
-    with pytest.raises(StudyError, match=r"mesh_study\.factors.*1\.1 times"):
-        read_study(tmp_path / "alike.toml")

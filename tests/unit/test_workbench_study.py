@@ -118,6 +118,22 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
         "factors = [1, 2, 2]",
         ["mesh_study.factors = 1, 2, 2", "must increase"],
     ),
+    "metres for millimetres": (
+        'outer_radius = "142.5 mm"',
+        "outer_radius = 142.5",
+        ["wheel.tire.outer_radius = 142.5", "a number without a unit is SI, here 142500 mm"],
+    ),
+    "meshes too much alike": (
+        r"factors = \[.*\]",
+        "factors = [1, 1.01, 1.02]",
+        ["mesh_study.factors = 1, 1.01, 1.02", "1.1 times the one before"],
+    ),
+    "a curve beside no run": (
+        r"\n\[tolerances\]",
+        '\n[[compare.curves]]\nfile = "a.csv"\nlabel = "a"\nsource = "b"\ncompare_with = "orientation"\n'
+        'orientation = "7 deg"\n\n[tolerances]',
+        ["compare.curves[0].orientation = 7 deg", "must be one of fe.orientations"],
+    ),
     "two meshes": (r"factors = \[.*\]", "factors = [1, 2]", ["mesh_study.factors", "at least 3"]),
     "small element": (
         r'element_size = "[^"]*"',

@@ -67,7 +67,9 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
     if odd is not None:
         written = None if odd.key[:-1] in _SORTED else _at(table, odd.key)
         value = odd.value if written is None else _shown(written)
-        raise StudyError(path, dotted(odd.key), value, odd.rule, odd.hint)
+        plain = isinstance(written, int | float) and " " in odd.value
+        hint = f"a number without a unit is SI, here {odd.value}; {odd.hint}" if plain else odd.hint
+        raise StudyError(path, dotted(odd.key), value, odd.rule, hint)
     study = _with_surfaces_from(study, path.parent)
     try:
         wheel_design(study)

@@ -100,6 +100,10 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
         if not any(abs(angle - o) < 1e-9 for o in fe.orientations):
             key, value = "tolerances.initial_tangent_orientations", f"{math.degrees(angle):g} deg"
             yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
+    for k, curve in enumerate(study.compare.curves):
+        if curve.orientation is not None and not any(abs(curve.orientation - o) < 1e-9 for o in fe.orientations):
+            key, value = f"compare.curves[{k}].orientation", f"{math.degrees(curve.orientation):g} deg"
+            yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
     penalty = study.penalty_study
     if penalty is not None and penalty.deflection > fe.max_deflection:
         value, rule = f"{1e3 * penalty.deflection:g} mm", "must not exceed fe.max_deflection"
