@@ -6,6 +6,7 @@ tests/end_to_end/test_commands.py and tests/end_to_end/test_interrupt.py.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 from itertools import pairwise
@@ -315,5 +316,7 @@ def _complain(message: str) -> int:
     line = for_terminal(" ".join(message.split()))
     if len(line) > _LONGEST_MESSAGE:
         line = f"{line[: _LONGEST_MESSAGE // 2]} [...] {line[-_LONGEST_MESSAGE // 2 :]}"
-    sys.stderr.write(f"workbench: error: {line}\n")
+    with contextlib.suppress(OSError):  # nobody can be told
+        sys.stderr.write(f"workbench: error: {line}\n")
+        sys.stderr.flush()
     return 2

@@ -14,8 +14,8 @@ from workbench.execution.fingerprint import text_sha256
 from workbench.execution.inventory import leftovers, results
 from workbench.execution.live_runs import announce
 from workbench.execution.pruning import Rule, prune
-from workbench.execution.store import Store
-from workbench.execution.store_folder import MARKER, holds_a_store
+from workbench.execution.store import Store, discard
+from workbench.execution.store_folder import MARKER, holds_a_store, make_store
 
 KEY = text_sha256("a task")
 DAY = 86400.0
@@ -173,3 +173,33 @@ def test_a_killed_run_s_scratch_goes_whatever_the_clock_says(tmp_path: Path) -> 
     _write(dead / "half.txt", days=-4000.0)
     store.sweep()
     assert not dead.exists()
+
+
+def test_names_alone_make_no_store(tmp_path: Path) -> None:
+    """Other programs keep files under 64 hexadecimal digits, logs and temporary folders too."""
+    blob = tmp_path / "registry" / KEY[:2] / KEY / "data"
+    log = tmp_path / "project" / "log" / "run-999999.log"
+    for path in (blob, log):
+        path.parent.mkdir(parents=True)
+        path.write_text("theirs", encoding="utf-8")
+    (tmp_path / "project" / "tmp").mkdir()
+    for root in (tmp_path / "registry", tmp_path / "project"):
+        assert not holds_a_store(root)
+        with pytest.raises(InputError, match="is no store of results"):
+            make_store(root)
+    assert blob.read_text(encoding="utf-8") == log.read_text(encoding="utf-8") == "theirs"
+
+
+@pytest.mark.parametrize("damage", ["missing", "changed"])
+def test_without_a_manifest_to_trust_what_may_be_another_s_is_kept(tmp_path: Path, damage: str) -> None:
+    store = Store(tmp_path / "store")
+    folder = store.scratch()
+    (folder / "a.txt").write_text("ours", encoding="utf-8")
+    entry = store.put(KEY, folder, {"task": "t", "wall_s": 1.0, "dofs": 1})
+    (entry.path / "notes.txt").write_text("mine", encoding="utf-8")
+    manifest = entry.path / "manifest.json"
+    manifest.write_text(manifest.read_text(encoding="utf-8").replace("1.0", "1.1"), encoding="utf-8")
+    if damage == "missing":
+        manifest.unlink()
+    discard(store.root, entry.path)
+    assert [path.read_text(encoding="utf-8") for path in (tmp_path / "store" / "kept").rglob("notes.txt")] == ["mine"]

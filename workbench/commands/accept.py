@@ -27,9 +27,13 @@ def run_accept(report: Path, baseline: Path) -> int:
     """
     source, target = report / SUMMARY, baseline / SUMMARY
     study, status = _study_and_status(source)
-    read_baseline(report, study)
-    if status != "pass":
-        raise InputError("report", f"{source} ({status})", "must have passed its gates", "mend what broke first")
+    checks = read_baseline(report, study).checks.values()
+    if not checks:
+        raise InputError("report", source, "holds no checks", "give the folder that workbench report wrote")
+    broken = [check.id for check in checks if check.role == "gate" and check.status != "pass"]
+    if status != "pass" or broken:
+        told = ", ".join(broken[:3]) or status
+        raise InputError("report", f"{source} ({told})", "must have passed its gates", "mend what broke first")
     check_folder(baseline)
     check_targets(baseline, [SUMMARY])
     baseline.mkdir(parents=True, exist_ok=True)

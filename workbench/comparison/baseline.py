@@ -126,7 +126,7 @@ def read_baseline(folder: Path, study: str) -> Baseline:
         )
     except InputError as error:
         raise InputError("baseline", path, error.rule, hint) from None
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, IndexError, OverflowError) as error:
         raise InputError("baseline", path, f"is no summary of a report ({type(error).__name__})", hint) from None
     if found.study != study:
         raise InputError("baseline", path, f"is of study {found.study!r}, not {study!r}", "give that of this study")

@@ -23,7 +23,7 @@ from contracts.errors import InputError
 from contracts.kept_arrays import kept_fault
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.integrity import MANIFEST, SCHEMA, examined, sealed, stated
-from workbench.execution.store_folder import CHECKPOINT, KEPT, SCRATCH, make_store
+from workbench.execution.store_folder import CHECKPOINT, KEPT, KEY, SCRATCH, make_store
 
 __all__ = ["MANIFEST", "Entry", "Store", "discard"]
 
@@ -150,12 +150,16 @@ class Store:
 
 
 def discard(root: Path, path: Path) -> None:
-    """Remove an entry or a scratch folder by one rename; what others had put into an entry moves to ``STORE/kept``."""
+    """Remove an entry or a scratch folder by one rename; what others had put into an entry moves to ``STORE/kept``.
+
+    Where the entry's manifest cannot be trusted, nothing but the manifest is known to be ours.
+    """
     trash = root / "tmp" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
     manifest, _ = stated(path, path.name)
     path.replace(trash)
     ours = {MANIFEST, *manifest.get("files", {})}
-    found = [one for one in sorted(trash.rglob("*")) if manifest and not (one.is_dir() and not one.is_symlink())]
+    found = [one for one in sorted(trash.rglob("*")) if not one.is_dir() or one.is_symlink()]
+    found = found if KEY.fullmatch(path.name) else []  # scratch is ours as a whole
     for one in (one for one in found if one.relative_to(trash).as_posix() not in ours):
         place = root / KEPT / f"{path.name}-{trash.name[-8:]}" / one.relative_to(trash)
         place.parent.mkdir(parents=True, exist_ok=True)

@@ -39,7 +39,7 @@ _WRITTEN_FIRST = ("tmp", "log", "checkpoints")
 
 
 def holds_a_store(root: Path) -> bool:
-    """Whether a folder is marked as a store, or holds what a store holds and nothing else; not if it is empty."""
+    """Whether a folder is marked as a store, or is one beyond doubt of an earlier version; not if it is empty."""
     try:
         names = _names(root)  # before the marker is looked for: whoever makes a store writes that first
         return (root / MARKER).is_file() or (bool(names) and not _foreign(root, names))
@@ -74,14 +74,14 @@ def make_store(root: Path) -> bool:
 
 
 def _foreign(root: Path, names: list[str]) -> str:
-    """Name of something in an unmarked folder that is not of a store; ``""`` if all is, or a result of ours is there.
+    """Name of something in an unmarked folder that is not of a store; ``""`` if it holds a result of ours, or no file.
 
-    A store that holds a result is one beyond doubt, whatever else was put into it.
+    A store that holds a result is one beyond doubt, whatever else was put into it. Names alone prove nothing: other
+    programs keep files under 64 hexadecimal digits too.
     """
-    strange = next((name for name in sorted(names) if not _is_ours(root / name)), "")
-    if strange and any(_is_result(path) for path in root.glob("[0-9a-f][0-9a-f]/*/manifest.json")):
+    if any(_is_result(path) for path in root.glob("[0-9a-f][0-9a-f]/*/manifest.json")):
         return ""
-    return strange
+    return next((name for name in sorted(names) if not _is_ours(root / name)), "")
 
 
 def _names(folder: Path) -> list[str]:
@@ -93,11 +93,7 @@ def _is_ours(path: Path) -> bool:
         return path.is_file() and path.stat().st_size <= len(_TEXT)
     if path.is_symlink() or not path.is_dir():
         return False
-    if path.name in _FOLDERS:
-        return all(_FOLDERS[path.name].fullmatch(name) for name in _names(path))
-    if re.fullmatch("[0-9a-f]{2}", path.name):
-        return all(KEY.fullmatch(name) and name.startswith(path.name) for name in _names(path))
-    return False
+    return path.name in _FOLDERS and not _names(path)
 
 
 def _is_result(path: Path) -> bool:
