@@ -127,5 +127,5 @@ def test_help_answers_in_a_moment() -> None:
     heavy = {*("numpy", "scipy", "pydantic", "pint", "jinja2", "plotly", "numba"), *("gmsh", "pyvista", "pyarrow")}
     assert heavy & {name.split(".")[0] for name in modules} == set()
     own = {name for name in modules if name.startswith("workbench.")}
-    light = {"workbench.cli", "workbench.execution", "workbench.execution.interrupts"}
+    light = {"workbench.cli", *(f"workbench.execution{m}" for m in ("", ".interrupts", ".quiet"))}
     assert {name for name in own if not name.startswith("workbench.commands")} == light

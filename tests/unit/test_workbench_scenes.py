@@ -50,7 +50,7 @@ def test_a_coloured_scene_holds_its_pieces() -> None:
     assert (one["name"], one["colour"]) == ("rim", "#123456")
     assert np.allclose(np.column_stack([_numbers(axis) for axis in one["points"]]), SQUARE, atol=1e-4)
     assert np.frombuffer(base64.b64decode(one["quads"]), dtype="<u4").tolist() == [0, 1, 2, 3]
-    assert 'alt="a &#34;square&#34;"' in text
+    assert 'alt="a &quot;square&quot;"' in text
 
 
 def test_a_stressed_scene_holds_its_poses_in_megapascals() -> None:
