@@ -41,13 +41,13 @@ debootstrap --variant=minbase --include="$packages" ${CACHE:+--cache-dir="$PWD/b
   trixie "$root" "$mirror" > "$log" 2>&1 || fail "the system could not be made; see build/debian/bare.log"
 mkdir -p "$root/etc/ssl"
 carry_settings
-git clone --quiet --no-hardlinks . "$root/root/project"
+git clone --quiet --no-hardlinks . "$root/srv/project"
 [ -z "$(git status --porcelain)" ] || echo "changes that are not committed are not in the clone"
 for command in "${commands[@]}"; do
   echo "== $command"
   status=0
   SECONDS=0
-  inside "$root" "cd /root/project && $command" || status=$?
+  inside "$root" "cd /srv/project && $command" || status=$?
   echo "== $command: exit status $status after $((SECONDS / 60)) min $((SECONDS % 60)) s"
   [ "$status" = 0 ] || exit 1
 done
