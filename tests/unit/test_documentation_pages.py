@@ -127,10 +127,6 @@ def test_help_answers_in_a_moment() -> None:
     heavy = {*("numpy", "scipy", "pydantic", "pint", "jinja2", "plotly", "numba"), *("gmsh", "pyvista", "pyarrow")}
     assert heavy & {name.split(".")[0] for name in modules} == set()
     own = {name for name in modules if name.startswith("workbench.")}
-<<<<<<< HEAD
     rooms = ("workbench.execution", "workbench.execution.interrupts", "workbench.execution.quiet")
     light = {"workbench.cli", *rooms}
-=======
-    light = {"workbench.cli", *(f"workbench.execution{m}" for m in ("", ".interrupts", ".quiet"))}
->>>>>>> w-text
     assert {name for name in own if not name.startswith("workbench.commands")} == light

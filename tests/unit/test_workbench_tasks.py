@@ -37,13 +37,8 @@ def test_ancf_task_writes_the_curve_of_the_preset(tmp_path: Path) -> None:
 
 
 def test_brush_task_writes_the_line(tmp_path: Path) -> None:
-<<<<<<< HEAD
     numbers = {name: value for name, value in asdict(THESIS_BRUSH).items() if name != "source"}
     brush.solve({"parameters": numbers, "max_deflection": 0.036}, {}, tmp_path, _ignore)
-=======
-    parameters = {name: value for name, value in asdict(THESIS_BRUSH).items() if name != "source"}
-    brush.solve({"parameters": parameters, "max_deflection": 0.036}, {}, tmp_path, _ignore)
->>>>>>> w-text
     assert float(read_curve(tmp_path / "curve.csv").load_at(0.02)) == pytest.approx(165.0)
 
 
