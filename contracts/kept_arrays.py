@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import hashlib
 import os
-import socket
 from collections.abc import Mapping
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from contracts.machine import machine
 
 __all__ = ["kept_fault", "read_kept", "write_kept"]
 
@@ -24,7 +25,7 @@ _BLOCK = 1 << 20
 
 def write_kept(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
     """Keep these arrays; the file that was there stays whole until this one is, and if this one cannot be written."""
-    fresh = path.with_name(f".{path.stem}-{socket.gethostname()}-{os.getpid()}.npz")
+    fresh = path.with_name(f".{path.stem}-{machine()}-{os.getpid()}.npz")
     try:
         with fresh.open("w+b") as stream:
             np.savez(stream, allow_pickle=False, **arrays)

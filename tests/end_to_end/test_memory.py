@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import time
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
@@ -65,6 +66,9 @@ def group() -> Iterator[Path]:
     for name in found:
         (made / name).write_text("0" if name == "memory.swap.max" else str(LIMIT), encoding="ascii")
     yield made
+    end = time.monotonic() + 60.0
+    while (made / "cgroup.procs").read_text(encoding="ascii") and time.monotonic() < end:
+        time.sleep(0.1)  # what was killed is counted until it has ended
     made.rmdir()
 
 

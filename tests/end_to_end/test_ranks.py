@@ -69,11 +69,12 @@ def test_processes_end_with_their_launcher(tmp_path: Path) -> None:
         "origin": {},
         "ranks": 2,
     }
-    places = {"folder": str(tmp_path), "checkpoint": None}
+    places = {"folder": str(tmp_path), "checkpoint": None, "store": None}
     (tmp_path / "job.json").write_text(json.dumps(job | places), encoding="utf-8")
     command = [mpiexec(), "-n", "2", sys.executable, "-m", "workbench.execution.ranks", str(tmp_path / "job.json")]
     with subprocess.Popen(command, env=environment()) as launcher:
-        _until(told.exists)  # by one of them, after MPI's start, at which they wait for each other
+        _until(lambda: told.exists() or launcher.poll() is not None)
+        assert told.exists()  # by one of them, after MPI's start, at which they wait for each other
         processes = family(launcher.pid) - {launcher.pid}
         assert len(processes) >= 2
         launcher.kill()

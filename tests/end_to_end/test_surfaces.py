@@ -58,7 +58,7 @@ def test_a_step_file_that_makes_no_tire_is_one_message(workspace: Path, tmp_path
     )
     ended = run("stiffness", "drawn.toml", "--model", "ancf", "--out", tmp_path / "new", folder=tmp_path)
     assert (ended.returncode, ended.stderr.count("\n")) == (2, 1)
-    assert "drawn.toml: ancf.surfaces = none.step: cannot be read (No such file or directory)" in ended.stderr
+    assert "drawn.toml: ancf.surfaces = none.step: does not exist; check its path" in ended.stderr
     assert not (tmp_path / "new").exists()
 
 

@@ -89,7 +89,8 @@ def test_stated_uncertainty(tmp_path: Path, text: str, wanted: list[float]) -> N
         ("deflection_mm,load\n0,0\n10,80\n", "load without a unit"),
         ("x_mm,load_N\n0,0\n10,80\n", "no column of deformation"),
         ("deflection_mm,y_N\n0,0\n10,80\n", "no column of load"),
-        ("deflection_mm;load_N\n0;0\n10;80\n", "no column of"),
+        ("deflection_mm;load_N\n0;0\n10;80\n", "parts its columns by semicolons"),
+        ("deflection_mm\tload_N\n0\t0\n10\t80\n", "parts its columns by tabs"),
         ("deflection_mm,diameter_change_mm,load_N\n0,0,0\n10,20,80\n", "two columns of deformation"),
         ("deflection_mm,load_N,force_N\n0,0,0\n10,20,80\n", "two columns of load"),
         ("loaded_radius_mm,load_N\n142.5,0\n132.5,80\n", "does not say the unloaded size"),
@@ -149,6 +150,7 @@ def test_uncertainty_that_is_none(text: str) -> None:
         ((1e12, 1.0), "largest deflection = .* must lie"),
         ((1.0, 1e12), "largest load = .* must"),
         ((1e-12, 1.0), "must"),
+        ((1.0, 1e-14), "largest load = .* must"),
     ],
 )
 def test_numbers_that_no_tire_has_are_refused(tmp_path: Path, factor: tuple[float, float], words: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import multiprocessing
+import os
 import shutil
 import subprocess
 import sys
@@ -17,6 +18,7 @@ import pytest
 from contracts.errors import InputError
 from contracts.kept_arrays import kept_fault, read_kept, write_kept
 from workbench.commands.results import run_list, run_prune, run_show
+from workbench.execution.claims import Claims
 from workbench.execution.fingerprint import text_sha256
 from workbench.execution.integrity import MANIFEST, examined, sealed, unsealed
 from workbench.execution.inventory import results
@@ -177,3 +179,25 @@ def test_other_bytes_of_a_store_do_not_matter(store: Store) -> None:
     announce(again.root, [KEY])
     assert again.get(KEY) is not None
     shutil.rmtree(store.root / "claims")
+
+
+@pytest.mark.timeout(20)
+def test_pipes_in_the_places_of_files_are_not_waited_at(store: Store) -> None:
+    for path in (store.folder(KEY) / "a.txt", store.root / "lock", store.root / "claims" / KEY):
+        path.unlink(missing_ok=True)
+        path.parent.mkdir(exist_ok=True)
+        os.mkfifo(path)
+    assert store.fault(KEY) == "a.txt is no file"
+    announce(store.root, [KEY])
+    claims = Claims(store.root)
+    assert claims.take(KEY)
+    claims.give_back(KEY)
+    (store.folder(KEY) / MANIFEST).unlink()
+    os.mkfifo(store.folder(KEY) / MANIFEST)
+    assert store.fault(KEY) == f"{MANIFEST} is missing"
+
+
+def test_a_manifest_of_gigabytes_is_not_read(store: Store) -> None:
+    with (store.folder(KEY) / MANIFEST).open("r+b") as stream:
+        stream.truncate(10**12)
+    assert store.fault(KEY) == f"{MANIFEST} cannot be read"

@@ -6,10 +6,13 @@ import multiprocessing
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
 
+from contracts.errors import InputError
+from contracts.machine import machine
 from tests.unit.dying_process import publish
 from workbench.execution.fingerprint import text_sha256
 from workbench.execution.integrity import sealed
@@ -150,7 +153,7 @@ def test_what_another_command_wrote_stays(tmp_path: Path) -> None:
 
 def test_what_a_killed_run_left_goes_and_what_only_looks_like_it_stays(tmp_path: Path) -> None:
     publish(tmp_path, {"page": "1"})
-    host = os.uname().nodename
+    host = machine()
     for name in (".new-1", f".workbench-new-{host}-99999999-0123abcd", ".workbench-new-mine"):
         _write(tmp_path / name / "notes.txt", "mine")
     planned = tmp_path / f".workbench-new-{host}-99999998-0123abcd"
@@ -208,3 +211,16 @@ def test_two_runs_at_once_leave_one_whole_set(tmp_path: Path) -> None:
     assert [process.exitcode for process in processes] == [0, 0]
     last = (tmp_path / "page").read_text(encoding="utf-8")
     assert _texts(tmp_path) == {f"c/{last}.csv": last, "page": last}
+
+
+def test_a_folder_on_another_disk_is_refused_before_anything_moves(tmp_path: Path) -> None:
+    memory = Path("/dev/shm")
+    if not memory.is_dir() or memory.stat().st_dev == tmp_path.stat().st_dev:
+        pytest.skip("needs two file systems")
+    put_files(tmp_path, {"a.csv": b"first"}, "report")
+    with tempfile.TemporaryDirectory(dir=memory) as other:
+        (tmp_path / "curves").symlink_to(other)
+        with pytest.raises(InputError, match=r"curves: lies on another disk than .*choose another folder"):
+            put_files(tmp_path, {"a.csv": b"second", "curves/b.csv": b"b"}, "report")
+    assert (tmp_path / "a.csv").read_bytes() == b"first"
+    assert list(tmp_path.glob(".workbench-new-*")) == []

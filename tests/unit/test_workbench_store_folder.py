@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import socket
 import time
 from pathlib import Path
 
 import pytest
 
 from contracts.errors import InputError
+from contracts.machine import machine
 from workbench.execution.fingerprint import text_sha256
 from workbench.execution.inventory import leftovers, results
 from workbench.execution.live_runs import announce
@@ -169,7 +169,7 @@ def test_a_result_stored_by_a_clock_ahead_is_used_and_listed(tmp_path: Path, mon
 
 def test_a_killed_run_s_scratch_goes_whatever_the_clock_says(tmp_path: Path) -> None:
     store = _filled(tmp_path)
-    dead = tmp_path / "tmp" / f"{socket.gethostname()}-99999999-0123abcd"
+    dead = tmp_path / "tmp" / f"{machine()}-99999999-0123abcd"
     _write(dead / "half.txt", days=-4000.0)
     store.sweep()
     assert not dead.exists()

@@ -67,6 +67,9 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     "zero thickness": (THICKNESS, "thickness = 0", ["wheel.tire.thickness = 0", "greater than 0"]),
     "wrong unit": (THICKNESS, 'thickness = "0.6 kg"', ["wheel.tire.thickness = '0.6 kg'", "must be a length"]),
     "string without unit": (THICKNESS, 'thickness = "0.6"', ["wheel.tire.thickness", "needs its unit"]),
+    "full turn": (r'orientations = \["0 deg"', 'orientations = ["360 deg"', ["'360 deg': must be less than 360 deg"]),
+    "few factors": (r"factors = \[1, 1.5, 2\]", "factors = [1]", ["must have at least 3 items"]),
+    "name with a blank": (r'name = "exomars"', 'name = " "', ["must begin with a letter or a digit"]),
     "not a number": (THICKNESS, 'thickness = "thin"', ["wheel.tire.thickness = 'thin'", "must be a length"]),
     "nan with unit": (THICKNESS, 'thickness = "nan mm"', ["wheel.tire.thickness", "finite"]),
     "infinite": (THICKNESS, "thickness = inf", ["wheel.tire.thickness = inf", "finite"]),
@@ -260,8 +263,9 @@ def test_files_that_are_no_study(tmp_path: Path) -> None:
     [
         (f"a = {'[' * 5000}", "is not valid TOML: brackets in brackets without end"),
         (f"a = {'9' * 5000}", "is not valid TOML: a number of thousands of digits"),
+        (f"{'a.' * 5000}a = 1", "has tables within tables, more than 20 deep"),
     ],
-    ids=["brackets", "digits"],
+    ids=["brackets", "digits", "key"],
 )
 def test_what_no_parser_bears(tmp_path: Path, text: str, wanted: str) -> None:
     path = tmp_path / "study.toml"

@@ -12,13 +12,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import rover_dynamics.flexible.implicit_motion as module
 from ancf_reduced.contact.law import ContactLaw
 from ancf_reduced.tire.mesh import build_tire
 from ancf_reduced.tire.preset import thesis_preset
 from ancf_reduced.tire.wheel_set import wheel_set
+from contracts.kept_arrays import read_kept, write_kept
 from contracts.terrain import Plane
 from rover_dynamics.flexible.flexible_system import Instant
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, FlexibleVehicle, on_flexible_tires
@@ -80,9 +80,9 @@ def test_a_resumed_motion_is_the_uninterrupted_one(wheel: FlexibleVehicle, tmp_p
 def test_what_is_in_the_file_is_taken_up(wheel: FlexibleVehicle, tmp_path: Path) -> None:
     """Negative control."""
     path = _killed(wheel, tmp_path / "c.npz")
-    arrays: dict[str, NDArray[np.float64]] = dict(np.load(path))
-    arrays["joints0"] = arrays["joints0"] + 1e-6
-    np.savez(path, allow_pickle=False, **arrays)
+    arrays = read_kept(path)
+    assert arrays is not None
+    write_kept(path, arrays | {"joints0": arrays["joints0"] + 1e-6})
     assert not _same(drive_on_flexible_tires(wheel, TIMES, checkpoint=path), drive_on_flexible_tires(wheel, TIMES))
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import os
 from pathlib import Path
 from typing import IO
 
@@ -31,9 +32,12 @@ class Claims:
 
     def take(self, key: str) -> bool:
         """Whether the key is ours now; False if another run that lives computes it."""
+        path = self._folder / key
         try:
-            stream = (self._folder / key).open("a", encoding="utf-8")
-        except OSError:  # something stands in its place: both compute
+            stream = None if os.path.lexists(path) and not path.is_file() else path.open("a", encoding="utf-8")
+        except OSError:
+            stream = None
+        if stream is None:  # something stands in its place: both compute
             return True
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)

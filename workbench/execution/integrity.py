@@ -9,10 +9,13 @@ from __future__ import annotations
 import json
 import math
 import re
+import stat
 from collections.abc import Callable, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from contracts.errors import InputError
+from contracts.input_file import input_bytes
 from workbench.execution.fingerprint import canonical_json, file_sha256, text_sha256
 
 __all__ = ["MANIFEST", "SCHEMA", "examined", "is_inside", "sealed", "stated", "unsealed"]
@@ -24,6 +27,8 @@ _EARLIER = 1
 _SEAL = "sha256"
 _END_OF_TIME = 253402300800.0
 """The year 10000 [s since 1970]."""
+_LARGEST = 50_000_000
+"""Of a manifest [byte]; ours have some kB."""
 
 
 def sealed(content: Mapping[str, Any]) -> str:
@@ -62,8 +67,8 @@ def stated(path: Path, key: str) -> tuple[dict[str, Any], str]:
     if not (path / MANIFEST).is_file():
         return {}, f"{MANIFEST} is missing"
     try:
-        text = (path / MANIFEST).read_text(encoding="utf-8")
-    except (OSError, ValueError):
+        text = input_bytes(path / MANIFEST, MANIFEST, _LARGEST).decode("utf-8")
+    except (InputError, ValueError):
         return {}, f"{MANIFEST} cannot be read"
     found = _parsed(text)
     if found is None:
@@ -133,9 +138,12 @@ def _odd_value(manifest: Mapping[str, Any]) -> str | None:
 def _file_fault(path: Path, digest: str, size: int | None) -> str:
     """What is wrong with one file; ``size`` [bytes] as stored, None in entries of earlier versions."""
     try:
-        found = path.stat().st_size
-        if size is not None and found != size:
-            return f"{path.name} has {found} of {size} bytes" if found < size else f"{path.name} has grown"
+        found = path.stat()
+        if not stat.S_ISREG(found.st_mode):
+            return f"{path.name} is no file"
+        if size is not None and found.st_size != size:
+            shorter = found.st_size < size
+            return f"{path.name} has {found.st_size} of {size} bytes" if shorter else f"{path.name} has grown"
         return "" if file_sha256(path) == digest else f"{path.name} has been changed since it was stored"
     except FileNotFoundError:
         return f"{path.name} is missing"

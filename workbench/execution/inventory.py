@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import contextlib
 import re
-import socket
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from contracts.machine import lives_here, machine
 from workbench.execution.integrity import examined, stated
 from workbench.execution.store import Store
 from workbench.execution.store_folder import CHECKPOINT, KEY, LOG, SCRATCH
@@ -95,7 +95,7 @@ def _all(
 
 def _lives(owner: dict[str, str]) -> bool:
     """Whether scratch ``HOST-PID-xxxx`` or a log ``run-PID.log`` belongs to a process that lives on this machine."""
-    return owner.get("host", socket.gethostname()) == socket.gethostname() and Path(f"/proc/{owner['pid']}").exists()
+    return lives_here(owner.get("host", machine()), owner["pid"])
 
 
 def _made_and_size(path: Path) -> tuple[float, int]:

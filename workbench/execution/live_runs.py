@@ -9,9 +9,9 @@ Verified by tests/unit/test_workbench_pruning.py.
 
 from __future__ import annotations
 
+import atexit
 import fcntl
 import os
-import socket
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import IO
 
 from contracts.errors import InputError
+from contracts.machine import machine
 from workbench.execution.integrity import sealed, unsealed
 from workbench.execution.store_folder import ANNOUNCEMENT, KEY
 
@@ -42,11 +43,12 @@ _OURS: dict[Path, _Announcement] = {}
 
 @contextmanager
 def exclusive(root: Path) -> Iterator[None]:
-    """Hold the store's lock. Where a file system has no locks, or cannot be written, nothing is held."""
-    if not os.access(root, os.W_OK):
+    """Hold the store's lock. Where a file system has no locks, or the lock's place is no file, nothing is held."""
+    lock = root / _LOCK
+    if not os.access(root, os.W_OK) or (os.path.lexists(lock) and not lock.is_file()):
         yield
         return
-    with (root / _LOCK).open("a", encoding="utf-8") as stream:
+    with lock.open("a", encoding="utf-8") as stream:
         _lock(stream, fcntl.LOCK_EX)
         yield
 
@@ -57,8 +59,9 @@ def announce(root: Path, keys: Iterable[str]) -> None:
         ours = _OURS.get(root.absolute())
         if ours is None or not Path(ours.stream.name).exists():
             (root / _FOLDER).mkdir(exist_ok=True)
-            path = root.absolute() / _FOLDER / f"{socket.gethostname()}-{os.getpid()}.json"
+            path = root.absolute() / _FOLDER / f"{machine()}-{os.getpid()}.json"
             ours = _OURS[root.absolute()] = _Announcement(stream=path.open("w", encoding="utf-8"))
+            atexit.register(ours.stream.close)
             _lock(ours.stream, fcntl.LOCK_EX)
         ours.keys.update(keys)
         ours.stream.seek(0)

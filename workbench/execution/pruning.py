@@ -8,13 +8,13 @@ from __future__ import annotations
 import contextlib
 import fnmatch
 import os
-import socket
 import time
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from contracts.errors import InputError
+from contracts.machine import machine
 from workbench.execution.inventory import Kept, leftovers, results
 from workbench.execution.live_runs import exclusive, keys_in_use
 from workbench.execution.store import Store, discard
@@ -80,7 +80,7 @@ def _is_used(one: Kept, in_use: Collection[str]) -> bool:
 
 def _matches(one: Kept, rule: Rule, now: float) -> bool:
     age = now - one.stored_at
-    if one.kind == "scratch" and not one.name.startswith(f"{socket.gethostname()}-") and age < _FOREIGN_SCRATCH:
+    if one.kind == "scratch" and not one.name.startswith(f"{machine()}-") and age < _FOREIGN_SCRATCH:
         return False
     if rule.task is not None and not (one.kind == "result" and fnmatch.fnmatchcase(one.task, rule.task)):
         return False

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import socket
 import time
 import uuid
 from collections.abc import Mapping
@@ -21,6 +20,7 @@ from typing import Any
 
 from contracts.errors import InputError
 from contracts.kept_arrays import kept_fault
+from contracts.machine import lives_here, machine
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.integrity import MANIFEST, SCHEMA, examined, sealed, stated
 from workbench.execution.store_folder import CHECKPOINT, KEPT, KEY, SCRATCH, make_store
@@ -93,7 +93,7 @@ class Store:
 
     def scratch(self) -> Path:
         """A new empty folder inside the store, to be filled and then handed to ``put``."""
-        name = f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+        name = f"{machine()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
         path = self.root / "tmp" / name
         path.mkdir()
         return path
@@ -142,10 +142,9 @@ class Store:
 
     def sweep(self) -> None:
         """Remove scratch folders left by runs on this machine that no longer live."""
-        host = socket.gethostname()
         for path in (self.root / "tmp").iterdir():
             owner = SCRATCH.fullmatch(path.name)
-            if owner and owner["host"] == host and not Path(f"/proc/{owner['pid']}").exists():
+            if owner and owner["host"] == machine() and not lives_here(owner["host"], owner["pid"]):
                 shutil.rmtree(path, ignore_errors=True)
 
 
@@ -154,7 +153,7 @@ def discard(root: Path, path: Path) -> None:
 
     Where the entry's manifest cannot be trusted, nothing but the manifest is known to be ours.
     """
-    trash = root / "tmp" / f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+    trash = root / "tmp" / f"{machine()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
     manifest, _ = stated(path, path.name)
     path.replace(trash)
     ours = {MANIFEST, *manifest.get("files", {})}

@@ -36,3 +36,6 @@ def check_targets(out: Path, names: Iterable[str]) -> None:
             raise InputError("output file", target, "is a folder", hint)
         if (target.parent.exists() or target.parent.is_symlink()) and not target.parent.is_dir():
             raise InputError("output folder", target.parent, "is not a folder", hint)
+        if target.parent.exists() and out.exists() and target.parent.stat().st_dev != out.stat().st_dev:
+            rule = f"lies on another disk than {out}, so that no file can be put there whole"
+            raise InputError("output folder", target.parent, rule, "choose another folder with --out")

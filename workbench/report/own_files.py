@@ -12,6 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from contracts.errors import InputError
+from contracts.input_file import input_bytes
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.integrity import is_inside, sealed, unsealed
 
@@ -39,8 +41,8 @@ def read_own(folder: Path) -> dict[str, OwnFile] | None:
     if not plain_file(folder / FILES):
         return None
     try:
-        content = unsealed((folder / FILES).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        content = unsealed(input_bytes(folder / FILES, FILES).decode("utf-8"))
+    except (InputError, ValueError):
         return None
     listed = None if content is None else content.get("files")
     if not isinstance(listed, dict) or not all(is_inside(name) for name in listed):

@@ -13,12 +13,12 @@ import fcntl
 import os
 import re
 import shutil
-import socket
 import uuid
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from contracts.machine import lives_here, machine
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.integrity import is_inside, sealed, unsealed
 from workbench.report.folders import check_targets
@@ -66,7 +66,7 @@ def new_files(out: Path, by: str, names: Sequence[str], *, whole_set: bool = Fal
     out.mkdir(parents=True, exist_ok=True)
     check_targets(out, names)
     _sweep(out)
-    fresh = out / f".workbench-new-{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+    fresh = out / f".workbench-new-{machine()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
     new = NewFiles(folder=fresh)
     try:
         fresh.mkdir()
@@ -193,7 +193,7 @@ def _sweep(out: Path) -> None:
     """Remove what killed runs of this machine left behind, as far as they had planned it."""
     for path in out.glob(".workbench-new-*"):
         owner = _NEW.fullmatch(path.name)
-        if owner and owner["host"] == socket.gethostname() and not Path(f"/proc/{owner['pid']}").exists():
+        if owner and owner["host"] == machine() and not lives_here(owner["host"], owner["pid"]):
             with contextlib.suppress(OSError, ValueError):
                 _remove(path, (unsealed((path / _PLAN).read_text(encoding="utf-8")) or {}).get("names", ()))
             _remove(path, ())

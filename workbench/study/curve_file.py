@@ -151,8 +151,10 @@ def load_uncertainty(text: str, load: NDArray[np.float64], what: str = "uncertai
 
 
 def _require_possible(what: str, values: NDArray[np.float64], like: str) -> None:
-    """Raise InputError for a column whose largest magnitude no wheel has."""
-    require_possible(what, float(np.max(np.abs(values))), like)
+    """Raise InputError for a column whose largest magnitude no wheel has; a tire may carry nothing at all."""
+    largest = float(np.max(np.abs(values)))
+    if largest > 0.0:
+        require_possible(what, largest, like)
 
 
 def _head(path: Path) -> tuple[tuple[str, ...], dict[str, str]]:
@@ -196,6 +198,9 @@ def _columns(path: Path, names: Sequence[str], *, own: bool) -> dict[str, _Colum
     for role in ("deformation", "load"):
         if role not in found:
             rule = f"has no column of {role} among {', '.join(names[:8])}{', ...' * (len(names) > 8)}"
+            if other := next((mark for mark in (";", "\t") if any(mark in name for name in names)), ""):
+                rule = f"parts its columns by {'tabs' if other == '\t' else 'semicolons'}"
+                raise InputError(_WHAT, path, rule, "save it with commas between columns and points in numbers")
             raise InputError(_WHAT, path, rule, "name two columns such as deflection_mm,load_kN, parted by commas")
     return found
 

@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_study.py and tests/end_to_end/test_bad_stu
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Mapping
@@ -31,7 +32,16 @@ _HINTS = {
     "tuple_type": ("must be a list", "put it in brackets, as in studies/exomars.toml"),
     "list_type": ("must be a list", "put it in brackets, as in studies/exomars.toml"),
     "dict_type": ("must be a table", "see studies/exomars.toml for an example"),
+    "int_type": ("must be a whole number", "write it without quotes, point and unit"),
+    "bool_type": ("must be true or false", "write it without quotes"),
+    "string_type": ("must be a text", "put it in quotes"),
+    "string_too_short": ("must not be empty", "write what it is"),
+    "string_pattern_mismatch": ("must begin with a letter or a digit; _ and - may follow", "choose another name"),
 }
+_LIMITS = {"less_than": "lt", "less_than_equal": "le", "greater_than": "gt", "greater_than_equal": "ge"}
+"""Pydantic's name of a complaint -> that of its limit, which is in SI whatever unit the user writes."""
+_DEEPEST = 20
+"""Tables and lists within each other; a study has six."""
 _SORTED = (("environment", "temperatures"),)
 """Lists that the study holds in another order than its file."""
 
@@ -94,14 +104,22 @@ def read_study_table(path: Path) -> dict[str, Any]:
         raise StudyError(path, "", "", error.rule, error.hint) from error
     if not text.strip():
         raise StudyError(path, "", "", "is empty", example)
+    hint = "correct it there; studies/exomars.toml is an example"
     try:
-        return tomllib.loads(text)
+        table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise StudyError(path, "", "", f"is not valid TOML: {error}", example) from error
+        raise StudyError(path, "", "", f"is not valid TOML: {error}", hint) from error
     except RecursionError as error:
-        raise StudyError(path, "", "", "is not valid TOML: brackets in brackets without end", example) from error
+        raise StudyError(path, "", "", "is not valid TOML: brackets in brackets without end", hint) from error
     except ValueError as error:  # Python refuses to turn that many digits into a number
-        raise StudyError(path, "", "", "is not valid TOML: a number of thousands of digits", example) from error
+        raise StudyError(path, "", "", "is not valid TOML: a number of thousands of digits", hint) from error
+    level: list[Any] = [table]
+    for _ in range(_DEEPEST):
+        inner = [value for one in level for value in (one.values() if isinstance(one, dict) else one)]
+        level = [value for value in inner if isinstance(value, dict | list)]
+    if level:
+        raise StudyError(path, "", "", f"has tables within tables, more than {_DEEPEST} deep", example)
+    return table
 
 
 def _study_error(path: Path, error: ValidationError) -> StudyError:
@@ -114,10 +132,18 @@ def _study_error(path: Path, error: ValidationError) -> StudyError:
     elif first["type"] == "key_in_section":
         rule, hint, value = (str(first["ctx"][name]) for name in ("rule", "hint", "value"))
         key += f".{first['ctx']['key']}"
+    elif first["type"] in ("too_short", "too_long"):
+        limit = first["ctx"]["min_length" if first["type"] == "too_short" else "max_length"]
+        rule = f"must have {'at least' if first['type'] == 'too_short' else 'at most'} {limit} items"
+        hint = "see studies/exomars.toml for an example"
     elif first["type"] == "quantity":
         rule, hint = str(first["ctx"]["rule"]), str(first["ctx"]["hint"])
     else:
         rule = _lower_first(first["msg"].removeprefix("Value error, ").replace("Input should", "must"))
+        if first["type"] in _LIMITS and isinstance(first["input"], str):
+            limit = first["ctx"][_LIMITS[first["type"]]]
+            shown = f"{math.degrees(limit):g} deg" if "deg" in first["input"] else f"{limit:g} in SI units"
+            rule = f"{rule.removesuffix(str(limit))}{shown}"
         hint = "see studies/exomars.toml for an example"
     return StudyError(path, key, value, rule, hint)
 
