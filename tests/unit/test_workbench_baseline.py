@@ -15,6 +15,7 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.records import Check
+from workbench.commands.accept import run_accept
 from workbench.comparison.baseline import Baseline, changes_since, read_baseline
 from workbench.report.evidence import Evidence
 from workbench.report.outputs import summary, to_json
@@ -128,3 +129,21 @@ def test_a_summary_of_earlier_versions_has_titles_for_claims(tmp_path: Path) -> 
     del content["checks"][0]["claim"]
     path.write_text(json.dumps(content), encoding="utf-8")
     assert read_baseline(tmp_path, "s").checks["fe.balance"].claim == "t"
+
+
+def test_a_report_with_a_broken_gate_or_none_at_all_is_not_accepted(tmp_path: Path) -> None:
+    """Whatever the summary says of itself: it may have been edited, or written by an earlier version."""
+    report, baseline = tmp_path / "report", tmp_path / "baseline"
+    report.mkdir()
+    _kept(report, _check(), _check(id="fe.energy", status="error", value=None))
+    text = (report / "summary.json").read_text(encoding="utf-8")
+    (report / "summary.json").write_text(json.dumps(json.loads(text) | {"status": "pass"}), encoding="utf-8")
+    with pytest.raises(InputError, match=r"\(fe\.energy\): must have passed its gates"):
+        run_accept(report, baseline)
+    _kept(report)
+    with pytest.raises(InputError, match="holds no checks"):
+        run_accept(report, baseline)
+    assert not baseline.exists()
+    _kept(report, _check(), _check(id="fe.mass", role="finding", status="fail"))
+    assert run_accept(report, baseline) == 0
+    assert (baseline / "summary.json").read_bytes() == (report / "summary.json").read_bytes()

@@ -145,6 +145,16 @@ def test_bad_sections_are_refused_with_key_and_rule(case: str, tmp_path: Path) -
     assert rule in str(error.value)
 
 
+def test_an_odd_temperature_is_told_as_it_is_though_the_list_is_sorted() -> None:
+    """The study sorts them: the place in the file of a number of the study is not known."""
+    table = read_study_table(built_in_study())
+    table["environment"]["temperatures"] = ["20 degC", "1e-20 K", "-40 degC"]
+    with pytest.raises(StudyError) as error:
+        study_of(built_in_study(), table)
+    assert "1e-20" in error.value.value
+    assert "degC" not in error.value.value
+
+
 def test_a_study_without_the_section_has_no_tasks_for_it(tmp_path: Path) -> None:
     text = built_in_study().read_text(encoding="utf-8")
     start, end = text.index("[environment]"), text.index("# --- The reduced model")
