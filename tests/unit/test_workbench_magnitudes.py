@@ -10,6 +10,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from annotated_types import Ge, Le
 from pydantic import BaseModel
@@ -23,7 +24,7 @@ from workbench.checks.statements import families
 from workbench.report.opening import verdict
 from workbench.study.key_units import is_whole_number, parts_of
 from workbench.study.loosened import GATES, loosened
-from workbench.study.magnitudes import numbers_of, require_possible, study_ranges, unusual, warnings_of
+from workbench.study.magnitudes import numbers_of, require_possible, study_ranges, unusual, unusual_curve, warnings_of
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study, study_of
 from workbench.study.sections import ToleranceSection
@@ -239,3 +240,20 @@ def test_rubbers_are_told_of_and_used(modulus: str, strength: str, tmp_path: Pat
         text = text.replace(old, new)
     (tmp_path / "rubber.toml").write_text(text, encoding="utf-8")
     assert any("yield_strength" in line for line in unusual(read_study(tmp_path / "rubber.toml")))
+
+
+@pytest.mark.parametrize(
+    ("deflection", "load", "words"),
+    [
+        ([0.0, 0.036], [0.0, 290.0], ()),
+        ([0.0, 8.0], [0.0, 290.0], ("largest deflection = 8000 mm is unusual for a curve's deflection",)),
+        ([0.0, 0.036], [0.0, 2.9e7], ("largest load = 2.9e7 N is unusual",)),
+        ([0.0, 0.036], [0.0, -290.0], ("smallest load = -290 N pulls",)),
+        ([0.0, 0.036], [-1e-9, 290.0], ()),
+        ([0.0, 0.036], [0.0, 0.0], ()),
+    ],
+)
+def test_what_is_unusual_in_a_curve_is_told(deflection: list[float], load: list[float], words: tuple[str, ...]) -> None:
+    told = unusual_curve(np.array(deflection), np.array(load))
+    assert len(told) == len(words)
+    assert all(word in line for word, line in zip(words, told, strict=True)), told

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 
 from contracts.errors import InputError
-from workbench.commands.computing import console, tell_kept
+from workbench.commands.computing import console, tell_kept, warn
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import put_files
 from workbench.study.curve_file import load_uncertainty, read_measured_curve
+from workbench.study.magnitudes import unusual_curve
 
 if TYPE_CHECKING:
     from workbench.comparison.curve_pair import CurvePair
@@ -62,6 +63,8 @@ def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices)
         check_folder(choices.out)
         check_targets(choices.out, _FILES)
     curve, reference = read_measured_curve(curve_path), read_measured_curve(reference_path)
+    for path, one in ((curve_path, curve), (reference_path, reference)):
+        warn(path, unusual_curve(one.curve.deflection, one.curve.load))
     if choices.uncertainty is not None:
         stated = load_uncertainty(choices.uncertainty, reference.curve.load)
         reference = replace(reference, uncertainty=stated)
@@ -78,7 +81,7 @@ def _tolerance(text: str) -> float:
 
     found = float(load_uncertainty(text, np.ones(1), "tolerance")[0])
     if "N" in text or not found > 0.0:
-        raise InputError("tolerance", text, "must be a share above zero", "write it like '5 %'")
+        raise InputError("tolerance", text, "must be a share above zero, not a load", "write it like '5 %'")
     return found
 
 

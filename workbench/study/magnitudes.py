@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from contracts.errors import InputError
@@ -15,7 +17,7 @@ from contracts.ranges import Key, Oddity, RangeTable, dotted, oddities, range_ta
 from workbench.study.loosened import loosened
 from workbench.study.model import DATA, Study
 
-__all__ = ["impossible", "numbers_of", "require_possible", "study_ranges", "unusual", "warnings_of"]
+__all__ = ["impossible", "numbers_of", "require_possible", "study_ranges", "unusual", "unusual_curve", "warnings_of"]
 
 _MOST = 12
 """Warnings told one by one; a unit mistaken once may make many."""
@@ -62,6 +64,16 @@ def unusual(study: Study) -> tuple[str, ...]:
 def warnings_of(study: Study) -> tuple[str, ...]:
     """What a report says of its study: unusual numbers, gates that are easier than the project's own."""
     return (*unusual(study), *loosened(study))
+
+
+def unusual_curve(deflection: NDArray[np.float64], load: NDArray[np.float64]) -> tuple[str, ...]:
+    """What is unusual in a curve from elsewhere: its largest deformation [m] and load [N], loads that pull."""
+    largest = {"deflection": float(np.max(np.abs(deflection))), "load": float(np.max(np.abs(load)))}
+    numbers: dict[Key, float] = {("curve", name): value for name, value in largest.items() if value > 0.0}
+    told = [f"largest {odd.key[-1]} = {odd.value} {odd.rule}; {odd.hint}" for odd in oddities(numbers, study_ranges())]
+    if (pull := float(np.min(load))) < -0.01 * largest["load"]:
+        told.append(f"smallest load = {pull:g} N pulls; loads are positive where the ground pushes the wheel")
+    return tuple(told)
 
 
 def require_possible(what: str, value: float, like: str) -> None:
