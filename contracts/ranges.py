@@ -11,7 +11,7 @@ import math
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -157,12 +157,13 @@ def _within(size: float, limits: Limits) -> bool:
     return limits[0] * (1.0 - _SLACK) <= size <= limits[1] * (1.0 + _SLACK)
 
 
-def _stars(key: Key, pattern: str) -> list[str | int] | None:
+@lru_cache(200_000)  # a sweep asks the same of each of its points
+def _stars(key: Key, pattern: str) -> tuple[str | int, ...] | None:
     """What the stars of a pattern stand for in a key; None if the key is another."""
     parts = pattern.split(".")
     if len(parts) != len(key) or any(part not in ("*", str(own)) for part, own in zip(parts, key, strict=True)):
         return None
-    return [own for part, own in zip(parts, key, strict=True) if part == "*"]
+    return tuple(own for part, own in zip(parts, key, strict=True) if part == "*")
 
 
 def _quantity(number: float, unit: str = "") -> str:
