@@ -10,9 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from contracts.mesh import TaggedMesh
 from geometry.hexahedra import face_nodes, jacobians, mirror_order
@@ -79,6 +76,10 @@ def assemble(raw: RawMesh, part_names: Sequence[str]) -> TaggedMesh:
 
 def merge_nodes(points: Array) -> Index:
     """For each node the smallest number among the nodes at the same place, shape (n,)."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
     pairs = cKDTree(points).query_pairs(MERGE_DISTANCE, output_type="ndarray")
     graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
     _, label = connected_components(graph, directed=False)

@@ -7,9 +7,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from contracts.errors import MeshError
 from contracts.mesh import TaggedMesh
@@ -60,6 +57,8 @@ def check_not_inverted(mesh: TaggedMesh) -> None:
 
 def check_no_coincident_nodes(mesh: TaggedMesh) -> None:
     """Raise MeshError if two nodes lie within ``COINCIDENT`` of each other: a joint there is not joined."""
+    from scipy.spatial import cKDTree
+
     pairs = cKDTree(mesh.points).query_pairs(COINCIDENT, output_type="ndarray")
     if len(pairs):
         where = ", ".join(f"{c * 1e3:.4g}" for c in mesh.points[pairs[0, 0]])
@@ -71,6 +70,9 @@ def check_no_coincident_nodes(mesh: TaggedMesh) -> None:
 
 def check_connected(mesh: TaggedMesh) -> None:
     """Raise MeshError unless all cells hang together by shared nodes and every node belongs to a cell."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     n_cells, n_nodes = mesh.cells.shape
     rows = np.repeat(np.arange(n_cells), n_nodes)
     columns = n_cells + mesh.cells.ravel()

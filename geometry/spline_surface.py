@@ -13,7 +13,6 @@ from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline, NdBSpline
 
 from contracts.errors import InputError
 
@@ -84,6 +83,8 @@ class SplineSurface:
 
     def value(self, parameters: FloatArray) -> FloatArray:
         """Points (k, 3) float [m] at the parameters (k, 2), (u, v) within the surface's knots."""
+        from scipy.interpolate import NdBSpline
+
         spline = NdBSpline(self.knots, self.control_points, self.degrees, extrapolate=False)
         return np.asarray(spline(np.asarray(parameters, dtype=np.float64)), dtype=np.float64)
 
@@ -99,6 +100,8 @@ class SplineSurface:
         InputError
             For a degree above 3, or breaks that leave one of the surface's own out.
         """
+        from scipy.interpolate import BSpline
+
         if max(self.degrees) > 3:
             rule = "must be at most 3, the degree of an ANCF plate"
             raise InputError(f"{self.name}: degrees", self.degrees, rule, "approximate it by cubics first")

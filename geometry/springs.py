@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from geometry.parts import SpringSet
 
@@ -102,6 +101,8 @@ def _arc_leg(ends: tuple[float, float], ray: float, side: int) -> Leg:
 
 def _spline_leg(springs: SpringSet, ends: tuple[float, float], ray: float, side: int) -> Leg:
     """Cubic spline in chord length through the user's points, clamped to the ring's tangents at both ends."""
+    from scipy.interpolate import CubicSpline
+
     hub, rim = ends
     through = [(0.0, 0.0), *springs.points, (1.0, 0.0)]
     knots = np.array([polar(rim + fraction * (hub - rim), ray + side * angle) for fraction, angle in through])

@@ -107,6 +107,11 @@ class RoverDesign:
         """Of all bodies [kg]."""
         return sum(body.mass for body in self.bodies) + len(self.legs) * sum(body.mass for body in self.leg_bodies)
 
+    @property
+    def static_load(self) -> float:
+        """Weight divided by the number of wheels [N]."""
+        return self.mass * self.gravity / len(self.legs)
+
 
 def gravity_named(name: str, what: str = "gravity") -> float:
     """Gravity of a planet [m/s^2]; raises InputError for one that is not known."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
 import re
 import subprocess
@@ -52,6 +54,16 @@ def environment() -> dict[str, str]:
     """The tests' environment: wide tables, this checkout, no display, no terminal."""
     kept = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WORKBENCH_STORE", "WORKBENCH_TRACEBACK")}
     return kept | {"PYTHONPATH": str(ROOT), "COLUMNS": "160"}
+
+
+def said(*arguments: str | Path, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    """What one command says, in this process: for messages that come before anything runs, a second sooner each."""
+    from workbench.cli import _run
+
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        status = _run([*map(str, arguments)])
+    return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
 
 
 def run(*arguments: str | Path, folder: Path | None = None) -> subprocess.CompletedProcess[str]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from tests.end_to_end.small_study import run, small_study_text
+from tests.end_to_end.small_study import run, said, small_study_text
 
 THICKNESS = r'thickness = "[^"]*"'
 OUTER_HUB = r'outer_radius = "50 mm"'
@@ -50,9 +52,11 @@ def earlier(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def _assert_refused(earlier: Path, study: Path, wanted: list[str]) -> None:
+def _assert_refused(
+    earlier: Path, study: Path, wanted: list[str], by: Callable[..., subprocess.CompletedProcess[str]] = said
+) -> None:
     before = _snapshot(earlier)
-    ended = run("report", study, "--out", earlier / "report", "--store", earlier / "store")
+    ended = by("report", study, "--out", earlier / "report", "--store", earlier / "store")
     assert ended.returncode == 2, ended.stdout + ended.stderr
     assert ended.stdout == ""
     assert ended.stderr.startswith("workbench: error: ")
@@ -75,7 +79,7 @@ def test_bad_study(earlier: Path, tmp_path: Path, old: str, new: str, wanted: li
 def test_missing_file_folder_and_bytes(earlier: Path, tmp_path: Path) -> None:
     binary = tmp_path / "binary.toml"
     binary.write_bytes(b"name = \xff")
-    _assert_refused(earlier, tmp_path / "none.toml", ["does not exist"])
+    _assert_refused(earlier, tmp_path / "none.toml", ["does not exist"], by=run)
     _assert_refused(earlier, tmp_path, ["is a folder"])
     _assert_refused(earlier, binary, ["not UTF-8"])
 

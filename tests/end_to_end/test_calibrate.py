@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.end_to_end.small_study import run
+from tests.end_to_end.small_study import run, said
 from workbench.comparison.calibration import strip_thicknesses
 from workbench.study.reading import read_study
 
@@ -39,7 +39,7 @@ def test_calibrate_finds_a_thickness_the_solid_model_confirms(workspace: Path, t
     [("8.25", "needs its unit"), ("fast", "begin with a number"), ("-5 N/mm", "greater than zero"), ("3 mm", "not")],
 )
 def test_bad_targets_are_refused(workspace: Path, tmp_path: Path, target: str, text: str) -> None:
-    ended = run("calibrate", "study.toml", "--target", target, "--out", tmp_path / "o", folder=workspace)
+    ended = said("calibrate", "study.toml", "--target", target, "--out", tmp_path / "o", folder=workspace)
     assert ended.returncode == 2
     assert "target" in ended.stderr
     assert text in ended.stderr

@@ -10,7 +10,7 @@ import meshio
 import pytest
 
 from contracts.curves import read_curve
-from tests.end_to_end.small_study import run
+from tests.end_to_end.small_study import run, said
 from workbench.execution.load_checks import CHECKS
 
 
@@ -88,7 +88,7 @@ def test_stiffness_of_fe_reuses_the_report(
     ],
 )
 def test_stiffness_refuses_bad_options(workspace: Path, tmp_path: Path, arguments: list[str], text: str) -> None:
-    ended = run("stiffness", "study.toml", *arguments, "--out", tmp_path / "o", "--store", "store", folder=workspace)
+    ended = said("stiffness", "study.toml", *arguments, "--out", tmp_path / "o", "--store", "store", folder=workspace)
     assert ended.returncode == 2
     assert text in ended.stderr
     assert "Traceback" not in ended.stderr

@@ -72,7 +72,7 @@ def test_a_folder_of_something_else_is_no_store(folder: Path, name: str) -> None
     assert found == [mine.relative_to(folder).as_posix(), "study.toml"]
 
 
-@pytest.mark.parametrize(("name", "value"), [("wall_s", "x"), ("stored_at", "x"), ("wall_s", None), ("files", [1])])
+@pytest.mark.parametrize(("name", "value"), [("wall_s", None), ("files", [1])])
 def test_a_damaged_manifest_is_told_and_the_result_computed_again(folder: Path, name: str, value: object) -> None:
     """A value of another kind, a key that is gone: commands that look go on, the next run computes."""
     assert run(*BRUSH, folder=folder).returncode == 0

@@ -9,7 +9,7 @@ import pytest
 
 from contracts.series import read_series
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER
-from tests.end_to_end.small_study import run
+from tests.end_to_end.small_study import run, said
 
 
 def test_the_drop_writes_its_series_and_names_both_damper_laws(tmp_path: Path) -> None:
@@ -125,7 +125,7 @@ def test_six_ancf_tires_carry_the_rover(tmp_path: Path) -> None:
     ],
 )
 def test_bad_input_is_one_message(tmp_path: Path, arguments: list[str], text: str) -> None:
-    ended = run("rover", *arguments, "--out", tmp_path / "o")
+    ended = said("rover", *arguments, "--out", tmp_path / "o")
     assert ended.returncode == 2
     assert text in ended.stderr
     assert ended.stderr.count("\n") == 1

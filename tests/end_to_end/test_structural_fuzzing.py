@@ -317,7 +317,7 @@ def _arguments(source: Random, hostile: dict[str, str], folder: Path) -> list[st
     return [hostile.get(word, word) for word in words] + outs
 
 
-@_cases(80, 400)
+@_cases(40, 400)
 def test_arguments(tmp_path: Path, capsys: pytest.CaptureFixture[str], hostile: dict[str, str], seeds: range) -> None:
     statuses = Counter[int]()
     for seed in seeds:
@@ -329,7 +329,7 @@ def test_arguments(tmp_path: Path, capsys: pytest.CaptureFixture[str], hostile: 
 
 def test_a_few_as_processes_of_their_own(tmp_path: Path, hostile: dict[str, str]) -> None:
     """From outside: exit status, one line each on stderr, nothing left behind."""
-    for seed in range(6):
+    for seed in range(3):
         table, damage = damaged(Random(seed), STUDIES["small"])
         (tmp_path / "file.toml").write_text(toml_text(table), encoding="utf-8")
         found = run("stiffness", tmp_path / "file.toml", "--model", "brush", *_out(tmp_path))

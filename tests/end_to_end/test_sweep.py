@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.end_to_end.small_study import ROOT, command, environment, run, small_study_text
+from tests.end_to_end.small_study import ROOT, command, environment, run, said, small_study_text
 
 EXAMPLE = ROOT / "studies" / "strip_sweep.toml"
 DEADLINE = 120.0
@@ -119,7 +119,7 @@ def test_a_point_that_fails_does_not_lose_the_others(tmp_path: Path) -> None:
 )
 def test_bad_input_is_one_message_before_anything_runs(tmp_path: Path, swept: str, message: str) -> None:
     (tmp_path / "study.toml").write_text(f"{small_study_text()}\n{swept}", encoding="utf-8")
-    ended = run("sweep", "study.toml", "--out", "out", "--store", "store", folder=tmp_path)
+    ended = said("sweep", "study.toml", "--out", "out", "--store", "store", folder=tmp_path)
     assert ended.returncode == 2
     (line,) = ended.stderr.splitlines()
     assert message in line

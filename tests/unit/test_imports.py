@@ -132,6 +132,13 @@ def test_help_loads_no_heavy_library() -> None:
     assert loaded_by("import workbench.cli") & NEVER_ON_HELP == set()
 
 
+def test_a_study_is_planned_without_them() -> None:
+    """What is wrong with a study is told after a second, not after three."""
+    planned = "from workbench.commands.report import *\nfrom workbench.study.reading import *\n"
+    planned += "from workbench.graph.study_graph import *\nreport_tasks(read_study(built_in_study()), built_in_study())"
+    assert loaded_by(planned) & NEVER_ON_HELP == set()
+
+
 def test_negative_control_the_probe_sees_a_heavy_library() -> None:
     assert "matplotlib" in loaded_by("import matplotlib")
 

@@ -17,7 +17,7 @@ from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward
 from rover_dynamics.rover.scenarios.obstacles import wheels_passed
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.point_turn import tangents, turn_actuators
-from rover_dynamics.rover.scenarios.scenario import Tilt, mean_static_load, run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import Tilt, run_scenario, scenario_series
 from rover_dynamics.rover.scenarios.slopes import largest_passed, velocity_loss
 from rover_dynamics.rover.scenarios.stability import overturned, smallest_tilt
 
@@ -107,7 +107,7 @@ def test_equilibrium_carries_the_weight_and_its_series_says_so(design: RoverDesi
     run = run_scenario(replace(SCENARIOS["static"], lasts=0.5), design)
     assert run.motion.times[0] == 0.0
     assert run.loads[-1].sum() == pytest.approx(design.mass * design.gravity, rel=1e-4)
-    assert mean_static_load(design) == pytest.approx(197.92, abs=0.005)
+    assert design.static_load == pytest.approx(197.92, abs=0.005)
     series = scenario_series(run)
     assert series["front_right_load_N"][-1] == run.loads[-1, 1]
     assert not series.partial
@@ -127,7 +127,7 @@ def test_nothing_falls_at_the_start(design: RoverDesign) -> None:
     for name in ("straight", "slope_up", "slope_across", "stability"):
         scenario = replace(SCENARIOS[name], settles=0.0, lasts=0.02, every=0.01)
         run = run_scenario(scenario, design)
-        normal = mean_static_load(design) * math.cos(scenario.tilt.angle)
+        normal = design.static_load * math.cos(scenario.tilt.angle)
         assert run.loads[0] == pytest.approx(np.full(6, normal), rel=1e-6), name
 
 

@@ -17,7 +17,7 @@ from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, on_flexible
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_terrain, touching_height
-from rover_dynamics.rover.scenarios.scenario import ScenarioRun, mean_static_load, run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario, scenario_series
 from workbench.tasks.rover_shapes import TireShapes
 from workbench.tasks.rover_tires import START_HEIGHT, on_ancf_tires
 
@@ -34,7 +34,7 @@ def held() -> ScenarioRun:
 def test_six_tires_carry_the_rover(held: ScenarioRun) -> None:
     """Statics: the mean load is a sixth of the weight; the thesis' tire is 22.9 mm deep under it on a spoke."""
     assert held.stopped is None
-    assert held.loads[-1].mean() == pytest.approx(mean_static_load(DESIGN), rel=2e-3)
+    assert held.loads[-1].mean() == pytest.approx(DESIGN.static_load, rel=2e-3)
     assert held.deflections[-1].mean() == pytest.approx(22.9e-3, abs=0.5e-3)
     motion = held.motion
     assert isinstance(motion, FlexibleMotion)

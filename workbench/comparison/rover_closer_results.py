@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 from contracts.series import TimeSeries
-from rover_dynamics.rover.scenarios.level_ground import OBSERVED, SPEED
 from workbench.comparison.oscillation import spectrum
 from workbench.comparison.rover_drive import Drive
 
@@ -99,6 +98,8 @@ class CloserLook:
     @property
     def row_frequency(self) -> float:
         """At which rows of contact points come to the ground [Hz]."""
+        from rover_dynamics.rover.scenarios.level_ground import SPEED
+
         tire = thesis_preset()
         row = 2.0 * np.pi * tire.outer_radius / (tire.circumferential_plates * (tire.contact_points[0] - 1))
         return float(SPEED / row)
@@ -165,6 +166,8 @@ class CloserLook:
 
         The load is a sixth of the weight of the standing rover; of the rolling one what its series says at that time.
         """
+        from rover_dynamics.rover.scenarios.level_ground import OBSERVED
+
         found = [one for one in self.footprints if (one["time"] == 0.0) == standing]
         if not found:
             raise InputError("pressure", "none", "was recorded", self.straight.stopped or "drive on")

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from contracts.csv_table import TableRule, read_table
 from contracts.errors import InputError
 from contracts.series import TimeSeries, read_series
-from rover_dynamics.flexible.account import COLUMNS
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.execution.result_files import read_result
 from workbench.execution.store import MANIFEST
@@ -51,6 +50,8 @@ class Drive:
 
     def spent(self, since: float) -> dict[str, float]:
         """Mean power of each column of the account from a time on to the end [W], stored energies as they grow."""
+        from rover_dynamics.flexible.account import COLUMNS
+
         if self.account is None:
             raise InputError("energy account", "none", "was not kept", self.stopped or "look at the run")
         first = min(int(np.searchsorted(self.account[:, 0], since)), len(self.account) - 2)

@@ -23,7 +23,7 @@ from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.ground import on_terrain
 from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward, straight_ahead
-from rover_dynamics.rover.scenarios.scenario import Scenario, mean_static_load, run_scenario
+from rover_dynamics.rover.scenarios.scenario import Scenario, run_scenario
 from rover_dynamics.rover.standing import stand_under_loads
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.task import Progress
@@ -67,7 +67,7 @@ def stands(tire: Tire, design: RoverDesign) -> dict[str, Any]:
     ``strain`` and ``stiffness`` [N/m] at the wheel load, a list over the orientations; ``strain_alike``, of a rover
     whose six wheels all stand on a spoke, as it sets out.
     """
-    load, skin = mean_static_load(design), coarse_skin(tire)
+    load, skin = design.static_load, coarse_skin(tire)
     tires = wheel_set(tire, Plane(), len(design.legs), law=replace(LAW, friction=0.0), damping_ratio=DAMPING_RATIO)
     (alike,) = stand_under_loads(design, tires, np.zeros(len(design.legs)), [load])
     strains, stiffness = list[float](), list[float]()

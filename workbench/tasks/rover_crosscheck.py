@@ -19,7 +19,6 @@ from ancf_reduced.tire.wheel_set import WheelSet, wheel_set
 from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Plane
 from rover_dynamics.rover.rover_file import read_rover
-from rover_dynamics.rover.scenarios.scenario import mean_static_load
 from rover_dynamics.rover.standing import Standing, stand_under_loads
 from workbench.comparison.rover_crosscheck import WheelPoint, lattice
 from workbench.execution.result_files import FAILURE, read_result, write_result
@@ -59,7 +58,7 @@ def _points(preset: TirePreset, loads: list[float], progress: Progress) -> list[
     wheels = [wanted[i % len(wanted)] for i in range(n * -(-len(wanted) // n))]
     for first in range(0, len(wheels), n):
         turned = wheels[first : first + n]
-        for rest in stand_under_loads(design, tires, np.radians(turned), [mean_static_load(design), *loads]):
+        for rest in stand_under_loads(design, tires, np.radians(turned), [design.static_load, *loads]):
             _check_shape(tires, rest)
             each = zip(turned, rest.load.tolist(), rest.deflection.tolist(), strict=True)
             found += [WheelPoint(mean_load=rest.mean_load, orientation=o, load=f, deflection=d) for o, f, d in each]
@@ -73,7 +72,7 @@ def _mean_deflection(preset: TirePreset, ratio: float) -> float:
     design = replace(read_rover(), wheel_radius=preset.zero_radius, wheel_width=preset.width)
     turned = 2.0 * np.pi / preset.spokes * np.arange(len(design.legs)) / len(design.legs)
     tires = _tires(replace(preset, young_modulus=E, contact_stiffness=k))
-    (rest,) = stand_under_loads(design, tires, turned, [mean_static_load(design)])
+    (rest,) = stand_under_loads(design, tires, turned, [design.static_load])
     _check_shape(tires, rest)
     return float(rest.deflection.mean())
 

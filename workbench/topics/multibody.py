@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 from contracts.errors import InputError
 from contracts.records import Check, Role
-from rover_dynamics.multibody.verification.work_precision import PROBLEMS, one_angle_error
 from workbench.checks.rules import Claim, at_least, at_most
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
@@ -21,6 +20,7 @@ from workbench.study.model import Study
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:
+    from rover_dynamics.multibody.verification.work_precision import Problem
     from workbench.comparison.comparison import Comparison
 
 __all__ = ["ALLOWED", "MULTIBODY", "MultibodyResults", "WorkRow"]
@@ -51,12 +51,12 @@ class WorkRow:
     @property
     def title(self) -> str:
         """Of the problem."""
-        return PROBLEMS[self.problem].title
+        return _problem(self.problem).title
 
     @property
     def unit(self) -> str:
         """Of the error; nothing where it is relative."""
-        unit = PROBLEMS[self.problem].unit
+        unit = _problem(self.problem).unit
         return "" if unit == "-" else unit
 
 
@@ -93,7 +93,15 @@ def _tasks(study: Study) -> Sequence[Task]:
     ]
 
 
+def _problem(name: str) -> Problem:
+    from rover_dynamics.multibody.verification.work_precision import PROBLEMS
+
+    return PROBLEMS[name]
+
+
 def _read(study: Study, folders: Mapping[str, Path]) -> MultibodyResults:
+    from rover_dynamics.multibody.verification.work_precision import one_angle_error
+
     rows = [
         WorkRow(problem=problem, **row) for problem in ALLOWED for row in read_result(folders[_name(problem)])["rows"]
     ]
@@ -112,11 +120,11 @@ def _checks(study: Study, found: Comparison, results: MultibodyResults) -> Seque
         ("four_bar_40", 1e-6, 1e-2),
         ("andrews", 1e-10, 1e-6),
     ):
-        title = f"{PROBLEMS[problem].title}, explicit steps of {allowed:g}"
-        claim = _claim(problem, title, "largest error", PROBLEMS[problem].unit)
+        title = f"{_problem(problem).title}, explicit steps of {allowed:g}"
+        claim = _claim(problem, title, "largest error", _problem(problem).unit)
         checks.append(at_most(claim, lambda p=problem, a=allowed: results.of(p, "explicit", a).error, limit))  # type: ignore[misc]
     for problem in ("pendulum", "andrews"):
-        title = f"{PROBLEMS[problem].title}, implicit steps: error at 1e-4 over that at 1e-6 a step"
+        title = f"{_problem(problem).title}, implicit steps: error at 1e-4 over that at 1e-6 a step"
         checks.append(at_least(_claim(f"{problem}_implicit", title, "ratio", "-"), _gained(results, problem), 5.0))
     drift = _claim("energy", "A02 four-bar, N = 40, explicit steps of 1e-6: energy over 10 s", "relative change", "-")
     checks.append(at_most(drift, lambda: results.of("four_bar_40", "explicit", 1e-6).energy or 0.0, 1e-4))

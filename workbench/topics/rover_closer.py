@@ -15,7 +15,6 @@ from contracts.csv_table import TableRule, read_table
 from contracts.records import Check, Role
 from contracts.series import TimeSeries, read_series
 from rover_dynamics.rover.rover_file import read_rover
-from rover_dynamics.rover.scenarios.scenario import mean_static_load
 from workbench.checks.rules import Claim, near
 from workbench.comparison.rover_closer_results import GROUNDS, CloserLook, Resting
 from workbench.comparison.rover_drive import read_drive
@@ -86,7 +85,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> CloserLook:
             stiffness=np.array(stands["stiffness"]),
             strain_alike=stands["strain_alike"],
             mass=design.mass,
-            load=mean_static_load(design),
+            load=design.static_load,
         ),
         stopped=result["stopped"] | ({"straight": drive.stopped} if drive.stopped else {}),
         animation=page.read_text(encoding="utf-8") if page.exists() else None,

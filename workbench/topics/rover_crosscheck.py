@@ -16,7 +16,6 @@ from contracts.errors import InputError
 from contracts.materials_temperature import temperature_data
 from contracts.records import Check, Role
 from rover_dynamics.rover.rover_file import read_rover
-from rover_dynamics.rover.scenarios.scenario import mean_static_load
 from workbench.checks.rules import Claim, at_most
 from workbench.comparison.results import CURVE, model_curves
 from workbench.comparison.rover_crosscheck import (
@@ -113,7 +112,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> CrossCheck:
         period=rotational_period(study),
         mirrored=is_mirrored(study),
         mesh_study=read_mesh_study(**mesh_study_inputs(study), folders=folders),
-        static_load=mean_static_load(read_rover()),
+        static_load=read_rover().static_load,
         warmth=_warmth(folders[f"rover_stands_{section.kept.name}"]),
     )
 

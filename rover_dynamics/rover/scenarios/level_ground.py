@@ -19,7 +19,7 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.closed_forms import drive_force, single_wheel_drop
 from rover_dynamics.rover.scenarios.offsets import loads_against_offset
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, mean_static_load, run_scenario, sampled
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, sampled
 from rover_dynamics.tires.brush_settings import BrushSettings, DamperLaw
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 
@@ -56,7 +56,7 @@ def straight_ahead(way: float) -> Callable[[RoverDesign], FloatArray]:
 
 
 def _mean_load(run: ScenarioRun) -> Outcome:
-    reference = mean_static_load(run.design)
+    reference = run.design.static_load
     value = float(run.loads[-1].mean())
     return Outcome(quantity="mean wheel load at the end", value=value, unit="N", reference=reference)
 
@@ -104,7 +104,7 @@ def sweep_of_gravity(scenario: Scenario, design: RoverDesign, loads: Sequence[fl
     stopped = None
     for load in loads:
         try:
-            run = run_scenario(single, replace(design, gravity=design.gravity * load / mean_static_load(design)))
+            run = run_scenario(single, replace(design, gravity=design.gravity * load / design.static_load))
         except ConvergenceError as error:
             stopped = f"{load:g} N: {error}"
         else:

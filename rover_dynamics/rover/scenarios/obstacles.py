@@ -24,7 +24,7 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.level_ground import drive_forward
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import largest_lean, stated
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, mean_static_load, run_scenario
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
 from rover_dynamics.rover.scenarios.slopes import largest_passed
 
 __all__ = ["OBSTACLES", "crevasse", "smallest_clearance", "step", "wheels_passed"]
@@ -57,7 +57,7 @@ def smallest_clearance(run: ScenarioRun) -> float:
 
 def _judge(run: ScenarioRun, width: float) -> tuple[Outcome, ...]:
     behind = run.wheels[-1, :, 0].min() - run.design.wheel_radius - _first_edge(run.design) - width
-    count, share = float(wheels_passed(run, width)), 0.5 * mean_static_load(run.design)
+    count, share = float(wheels_passed(run, width)), 0.5 * run.design.static_load
     return (
         Outcome(quantity="wheels behind the obstacle", value=count, unit="-", limit=float(len(run.design.legs))),
         Outcome(quantity="last wheel's rim behind the obstacle", value=float(behind), unit="m", limit=0.0),

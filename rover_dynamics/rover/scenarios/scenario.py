@@ -33,7 +33,6 @@ __all__ = [
     "Scenario",
     "ScenarioRun",
     "Tilt",
-    "mean_static_load",
     "run_scenario",
     "sampled",
     "scenario_series",
@@ -201,7 +200,7 @@ class Scenario:
         """The rover at the scenario's start."""
         height = self.height
         if height is None:
-            height = -mean_static_load(design) * math.cos(self.tilt.angle) / self.tire.radial_stiffness
+            height = -design.static_load * math.cos(self.tilt.angle) / self.tire.radial_stiffness
         vehicle = build_rover(
             design,
             terrain=self.terrain(design),
@@ -220,11 +219,6 @@ class Scenario:
             after = np.concatenate([more, after[(after < more[0]) | (after > more[-1])]])
             after.sort()
         return after if self.settles == 0.0 else np.concatenate([[-self.settles], after])
-
-
-def mean_static_load(design: RoverDesign) -> float:
-    """Weight divided by the number of wheels [N]."""
-    return design.mass * design.gravity / len(design.legs)
 
 
 def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:

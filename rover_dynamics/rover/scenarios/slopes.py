@@ -21,7 +21,7 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward, straight_ahead
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import largest_lean, stated
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, mean_static_load, run_scenario
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, run_scenario
 
 __all__ = ["ALLOWED_LOSS", "SLOPES", "largest_passed", "velocity_loss"]
 
@@ -66,7 +66,7 @@ def _judge(run: ScenarioRun) -> tuple[Outcome, ...]:
             quantity="smallest wheel load on the way",
             value=float(run.loads.min()),
             unit="N",
-            limit=LEAST_LOAD * mean_static_load(run.design),
+            limit=LEAST_LOAD * run.design.static_load,
         ),
         largest_lean(run, ALLOWED_LEAN),
         Outcome(quantity="speed ahead at the end", value=float(run.motion.velocities[-1, 0, 0]), unit="m/s"),
