@@ -9,14 +9,18 @@ from __future__ import annotations
 
 import os
 import stat
+import tomllib
 from pathlib import Path
+from typing import Any
 
 from contracts.errors import InputError
 
-__all__ = ["input_bytes", "input_text", "require_ordinary_file"]
+__all__ = ["input_bytes", "input_table", "input_text", "require_ordinary_file"]
 
 _MOST = 100_000_000
 """Largest file read at once [byte]: a curve of a million points, the shipped study five thousand times."""
+_DEEPEST = 20
+"""Tables and lists within each other; a study has six."""
 _KINDS = {stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket"}
 
 
@@ -54,6 +58,26 @@ def input_bytes(path: Path, what: str, most: int = _MOST) -> bytes:
     if len(content) > most:
         raise _too_large(path, what, most)
     return content
+
+
+def input_table(path: Path, what: str, example: str) -> dict[str, Any]:
+    """Content of a TOML file, raising as `input_text`, and InputError if it is none; ``example`` is one to look at."""
+    text, hint = input_text(path, what), f"correct it there; {example} is an example"
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(what, path, f"is not valid TOML: {error}", hint) from error
+    except RecursionError as error:
+        raise InputError(what, path, "is not valid TOML: brackets in brackets without end", hint) from error
+    except ValueError as error:  # Python refuses to turn that many digits into a number
+        raise InputError(what, path, "is not valid TOML: a number of thousands of digits", hint) from error
+    level: list[Any] = [table]
+    for _ in range(_DEEPEST):
+        inner = [value for one in level for value in (one.values() if isinstance(one, dict) else one)]
+        level = [value for value in inner if isinstance(value, dict | list)]
+    if level:
+        raise InputError(what, path, f"has tables within tables, more than {_DEEPEST} deep", hint)
+    return table
 
 
 def require_ordinary_file(path: Path, what: str, most: int | None = None) -> None:

@@ -34,7 +34,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("view") / "mein Räder-Bericht"
     path.mkdir()
     write_small_report(path)
-    (path.parent / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.02,150\n", encoding="utf-8")
+    (path.parent / "mine.csv").write_text("deflection_mm,load_kN\n0,0\n20,0.15\n", encoding="utf-8")
     (path.parent / "bad.csv").write_text("x,y\n0,0\n1,1\n", encoding="utf-8")
     return path
 

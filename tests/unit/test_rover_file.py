@@ -45,7 +45,8 @@ def test_mirrored_rows_stand_on_both_sides() -> None:
         ("mirrored = true", "mirrored = 1", "must be true or false"),
         ("inertia = [51.0, 65.0, 98.0]", "inertia = [true, 65.0, 98.0]", "must be three finite numbers"),
         ("[leg_bodies.arm]", "[leg_bodies.elbow]", "leg_bodies: arm: is missing"),
-        ("name =", "name", "cannot be read"),
+        ("name =", "name", "is not valid TOML"),
+        ("name =", "a." * 3000 + "a =", "has tables within tables, more than 20 deep"),
     ],
 )
 def test_a_bad_file_gives_one_clear_message(tmp_path: Path, old: str, new: str, words: str) -> None:
@@ -56,7 +57,7 @@ def test_a_bad_file_gives_one_clear_message(tmp_path: Path, old: str, new: str, 
         read_rover(path)
     assert words in str(caught.value)
     assert str(path) in str(caught.value)
-    assert "\n" not in str(caught.value).removesuffix("\n") or "cannot be read" in words
+    assert "\n" not in str(caught.value)
 
 
 def test_rows_must_be_tables(tmp_path: Path) -> None:

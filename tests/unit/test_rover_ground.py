@@ -11,7 +11,8 @@ from contracts.errors import InputError
 from contracts.height_field import HeightField
 from contracts.terrain import Plane, inclined_plane
 from contracts.terrain_cover import check_covered
-from rover_dynamics.rover.rover_file import RoverDesign, gravity_named, read_rover
+from rover_dynamics.rover.planets import gravity_named
+from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way, touching_height
 from rover_dynamics.rover.scenarios.scenario import run_scenario

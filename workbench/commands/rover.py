@@ -15,7 +15,8 @@ from contracts.errors import ConvergenceError, InputError
 from contracts.series import write_series
 from contracts.text import one_line
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
-from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, gravity_named, read_rover
+from rover_dynamics.rover.planets import gravity_named
+from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
 from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.outcome import Outcome

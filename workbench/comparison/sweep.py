@@ -18,6 +18,7 @@ from workbench.comparison.results import CURVE, mean_curve
 from workbench.execution.result_files import early_ends
 from workbench.execution.store import Entry
 from workbench.graph.sweep import SweepGraph, SweepRun
+from workbench.study.curve_file import read_measured_curve
 from workbench.study.model import Study
 from workbench.study.sweep import SweepSection
 
@@ -100,7 +101,7 @@ def references(study: Study, folder: Path, found: Sequence[Outcome]) -> dict[str
     models = dict.fromkeys(outcome.run.model for outcome in found)
     if study.compare.curves:
         section = study.compare.curves[0]
-        own = Reference(label=section.label, curve=read_curve(folder / section.file))
+        own = Reference(label=section.label, curve=read_measured_curve(folder / section.file).curve)
         return dict.fromkeys(models, own)
     label = "the study as it is"
     base = {o.run.model: o.curve for o in found if o.run.point.number == 0}

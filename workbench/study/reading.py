@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from contracts.errors import InputError, StudyError
-from contracts.input_file import input_text
+from contracts.input_file import input_table
 from contracts.ranges import Key, dotted
 from workbench.study.curve_file import in_si
 from workbench.study.magnitudes import impossible
@@ -40,8 +39,6 @@ _HINTS = {
 }
 _LIMITS = {"less_than": "lt", "less_than_equal": "le", "greater_than": "gt", "greater_than_equal": "ge"}
 """Pydantic's name of a complaint -> that of its limit, which is in SI whatever unit the user writes."""
-_DEEPEST = 20
-"""Tables and lists within each other; a study has six."""
 _SORTED = (("environment", "temperatures"),)
 """Lists that the study holds in another order than its file."""
 
@@ -97,28 +94,12 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
 
 def read_study_table(path: Path) -> dict[str, Any]:
     """The content of a study file as TOML has it; raises StudyError for a file that is no readable TOML."""
-    example = "copy studies/exomars.toml and change it"
     try:
-        text = input_text(path, "study file")
+        table = input_table(path, "study file", "studies/exomars.toml")
     except InputError as error:
         raise StudyError(path, "", "", error.rule, error.hint) from error
-    if not text.strip():
-        raise StudyError(path, "", "", "is empty", example)
-    hint = "correct it there; studies/exomars.toml is an example"
-    try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise StudyError(path, "", "", f"is not valid TOML: {error}", hint) from error
-    except RecursionError as error:
-        raise StudyError(path, "", "", "is not valid TOML: brackets in brackets without end", hint) from error
-    except ValueError as error:  # Python refuses to turn that many digits into a number
-        raise StudyError(path, "", "", "is not valid TOML: a number of thousands of digits", hint) from error
-    level: list[Any] = [table]
-    for _ in range(_DEEPEST):
-        inner = [value for one in level for value in (one.values() if isinstance(one, dict) else one)]
-        level = [value for value in inner if isinstance(value, dict | list)]
-    if level:
-        raise StudyError(path, "", "", f"has tables within tables, more than {_DEEPEST} deep", example)
+    if not table:
+        raise StudyError(path, "", "", "is empty", "copy studies/exomars.toml and change it")
     return table
 
 

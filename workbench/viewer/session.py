@@ -17,6 +17,7 @@ import numpy as np
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
+from workbench.study.curve_file import in_si
 from workbench.viewer.charts import curves_chart, quantities, series_chart
 from workbench.viewer.first_state import first_state
 from workbench.viewer.folder import spoken
@@ -215,6 +216,7 @@ class Session:
             path = Path(folder) / "curve.csv"
             path.write_text(text, encoding="utf-8")
             try:
+                path.write_text(in_si(path), encoding="utf-8")
                 curve = read_curve(path)
             except InputError as error:
                 state.message = f"{plain(name)}: {plain(error.rule)}; {plain(error.hint)}"
