@@ -15,6 +15,7 @@ import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from io import FileIO
 from pathlib import Path
 from typing import IO
 
@@ -33,7 +34,7 @@ _LOCK = "lock"
 class _Announcement:
     """This process' file and what it says."""
 
-    stream: IO[str]
+    stream: FileIO
     keys: set[str] = field(default_factory=set)
 
 
@@ -60,14 +61,13 @@ def announce(root: Path, keys: Iterable[str]) -> None:
         if ours is None or not Path(ours.stream.name).exists():
             (root / _FOLDER).mkdir(exist_ok=True)
             path = root.absolute() / _FOLDER / f"{machine()}-{os.getpid()}.json"
-            ours = _OURS[root.absolute()] = _Announcement(stream=path.open("w", encoding="utf-8"))
+            ours = _OURS[root.absolute()] = _Announcement(stream=path.open("wb", buffering=0))
             atexit.register(ours.stream.close)
             _lock(ours.stream, fcntl.LOCK_EX)
         ours.keys.update(keys)
         ours.stream.seek(0)
         ours.stream.truncate()
-        ours.stream.write(sealed({"keys": sorted(ours.keys)}))
-        ours.stream.flush()
+        ours.stream.write(sealed({"keys": sorted(ours.keys)}).encode())
 
 
 def keys_in_use(root: Path) -> frozenset[str]:
@@ -102,7 +102,7 @@ def _announced(text: str) -> list[str] | None:
     return keys if isinstance(keys, list) and all(isinstance(k, str) and KEY.fullmatch(k) for k in keys) else None
 
 
-def _lock(stream: IO[str], how: int) -> bool:
+def _lock(stream: IO[str] | FileIO, how: int) -> bool:
     """Whether the lock was given."""
     try:
         fcntl.flock(stream, how)
