@@ -317,7 +317,7 @@ def _arguments(source: Random, hostile: dict[str, str], folder: Path) -> list[st
     return [hostile.get(word, word) for word in words] + outs
 
 
-@_cases(40, 400)
+@_cases(25, 400)
 def test_arguments(tmp_path: Path, capsys: pytest.CaptureFixture[str], hostile: dict[str, str], seeds: range) -> None:
     statuses = Counter[int]()
     for seed in seeds:
