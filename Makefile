@@ -99,7 +99,7 @@ $(READY): constraints.txt pyproject.toml .python-version
 	  found="$$($$find "$$(cat .python-version)" 2>/dev/null || $$find 3.13 2>/dev/null || cat .python-version)"; \
 	  "$$uv" venv --quiet --clear --python "$$found" $(VENV); \
 	fi; \
-	"$$uv" pip install --quiet --compile-bytecode --python $(PYTHON) --constraints constraints.txt --build-constraints constraints.txt --group dev --group docs --editable . ; \
+	"$$uv" pip install --quiet --python $(PYTHON) --constraints constraints.txt --build-constraints constraints.txt --group dev --group docs --editable . ; \
 	echo "trying what was installed (workbench doctor)"; \
 	$(VENV)/bin/workbench doctor $$($(MAY_INSTALL) && echo --install) > $(VENV)/doctor.txt 2>&1 || { cat $(VENV)/doctor.txt >&2; exit 2; }; \
 	touch $@
