@@ -92,7 +92,8 @@ def measured(size: str, ranks: int) -> dict[str, float]:
 def solve(size: str, answer: Path) -> None:
     """Solve the wheel, as one of the processes; the first one writes the numbers."""
     from contracts.materials import TI_6AL_4V
-    from geometry import WheelDesign, build_mesh
+    from geometry.build import build_mesh
+    from geometry.wheel import WheelDesign
     from reference_fe.dolfinx_api import COMM, MPI
     from reference_fe.problem.domain import Domain
     from reference_fe.solver.newton import NewtonSolver

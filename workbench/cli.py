@@ -65,6 +65,9 @@ def report(
     full: Annotated[
         bool, typer.Option("--full", help="Every orientation until the wheel repeats itself, on a finer mesh: hours.")
     ] = False,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="List the tasks: which are reused, which would be computed; no more.")
+    ] = False,
     ci: Annotated[bool, typer.Option("--ci", help="Plain lines for a log; summary to GITHUB_STEP_SUMMARY.")] = False,
     baseline: Annotated[
         Path | None,
@@ -75,7 +78,7 @@ def report(
     from workbench.commands.gate import GateChoices
     from workbench.commands.report import ReportChoices, run_report
 
-    choices = ReportChoices(full=full, gate=GateChoices(ci=ci, baseline=baseline))
+    choices = ReportChoices(full=full, dry_run=dry_run, gate=GateChoices(ci=ci, baseline=baseline))
     raise typer.Exit(run_report(study, out, store, computing(workers, ranks, scheduler), choices))
 
 

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from contracts.materials import TI_6AL_4V, Material
 from contracts.mesh import TaggedMesh
-from geometry import build_mesh, exomars
+from geometry.build import build_mesh
 from geometry.inp import TWENTY_NODES
+from geometry.wheel import exomars
 from reference_fe.cells.orientation import curved_axis_first
 from reference_fe.verification.structured_hexahedra import block_mesh
 

@@ -13,7 +13,8 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from contracts.materials import TI_6AL_4V
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
+from geometry.wheel import WheelDesign
 from reference_fe import dolfinx_api
 from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 

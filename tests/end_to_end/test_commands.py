@@ -27,6 +27,26 @@ def test_help_and_wrong_usage() -> None:
     assert run("report", "--workers", "0").returncode == 2
 
 
+def test_a_dry_run_lists_what_is_reused_and_what_is_not(
+    workspace: Path, first_report: subprocess.CompletedProcess[str], tmp_path: Path
+) -> None:
+    assert first_report.returncode == 0
+    there = run("report", "study.toml", "--dry-run", "--store", "store", folder=workspace)
+    rows = [line.split() for line in there.stdout.splitlines()]
+    assert {row[0] for row in rows} == {"reuse"}
+    assert {(workspace / "store" / key[:2] / key).is_dir() for _, _, key in rows} == {True}
+    none = run("report", workspace / "study.toml", "--dry-run", "--store", "none", "--out", "out", folder=tmp_path)
+    assert [line.split() for line in none.stdout.splitlines()] == [["compute", *row[1:]] for row in rows]
+    assert list(tmp_path.iterdir()) == []
+    (workspace / "colder.toml").write_text(
+        (workspace / "study.toml").read_text(encoding="utf-8").replace('"-40 degC"', '"-41 degC"'), encoding="utf-8"
+    )
+    colder = run("report", "colder.toml", "--dry-run", "--store", "store", folder=workspace)
+    changed = [line.split()[1] for line in colder.stdout.splitlines() if line.startswith("compute")]
+    assert changed
+    assert all(name.startswith("environment_") for name in changed)
+
+
 def test_doctor_finds_what_the_tests_run_on() -> None:
     ended = run("doctor")
     assert ended.returncode == 0, ended.stdout

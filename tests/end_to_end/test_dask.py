@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -59,12 +58,15 @@ def test_a_failure_is_told_as_at_home(scheduler: str, tmp_path: Path) -> None:
         run_tasks([bad], Store(tmp_path / "store"), Recorder(), Computing(scheduler=scheduler))
 
 
-def test_a_worker_with_other_code_refuses(scheduler: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The job says that it was made with another numpy than the worker has."""
-    other = {"sources": {}, "libraries": {"numpy": "0.1"}}
+@pytest.mark.parametrize("sources", [{}, {"contracts.of_a_later_version": "0"}, {"contracts/later.csv": "0"}])
+def test_a_worker_with_other_code_refuses(
+    scheduler: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sources: dict[str, str]
+) -> None:
+    """The job says that it was made with another numpy than the worker has, or with files that it lacks."""
+    other = {"sources": sources, "libraries": {"numpy": "0.1"}}
     monkeypatch.setattr(Task, "origin", lambda self: other)
-    task = replace(_sum(tmp_path, "a", 1.0), libraries=("numpy",))
-    with pytest.raises(RunError, match="task a failed: the cluster's worker has another version of numpy"):
+    task = _sum(tmp_path, "a", 1.0)
+    with pytest.raises(RunError, match="task a failed: the cluster's worker has another version of "):
         run_tasks([task], Store(tmp_path / "store"), Recorder(), Computing(scheduler=scheduler))
     assert not (tmp_path / "log.txt").exists()
 

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.contact.inner import ContactPair, InnerContact, InnerContactTerm
 from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.inner_pairs import wheel_contact_pairs

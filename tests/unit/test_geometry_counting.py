@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from contracts.errors import InputError
-from geometry import WheelDesign, build_mesh
-from geometry.build import mesh_size
+from geometry.build import build_mesh, mesh_size
 from geometry.counting import LARGEST_MESH, count_planar, count_solid
 from geometry.planar import build_planar_mesh
+from geometry.wheel import WheelDesign
 
 SIZES: dict[str, Any] = {"element_size": 0.016, "axial_size": 0.04, "thickness_elements": 1, "refinement": None}
 

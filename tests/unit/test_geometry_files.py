@@ -16,18 +16,16 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
-from geometry import (
-    build_mesh,
-    closed_form_volume,
-    exomars,
-    mesh_volume,
-    summarize_mesh,
-    write_inp,
-    write_msh,
-    write_step,
-    write_vtu,
-)
+from geometry.build import build_mesh
+from geometry.closed_form import closed_form_volume
 from geometry.gmsh_session import gmsh_session
+from geometry.inp import write_inp
+from geometry.measures import mesh_volume
+from geometry.msh import write_msh
+from geometry.step import write_step
+from geometry.summary import summarize_mesh
+from geometry.vtu import write_vtu
+from geometry.wheel import exomars
 
 WHEEL = exomars()
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from contracts.mesh import TaggedMesh
-from geometry import joint_areas, mesh_quality, mesh_volume
 from geometry.assembly import RawMesh, assemble
 from geometry.hexahedra import reference_nodes
+from geometry.measures import joint_areas, mesh_quality, mesh_volume
 
 
 def sheared(angle: float) -> TaggedMesh:

@@ -10,8 +10,10 @@ import pytest
 from scipy.spatial import cKDTree
 
 from contracts.errors import InputError
-from geometry import Cone, build_mesh, exomars
+from geometry.build import build_mesh
+from geometry.parts import Cone
 from geometry.resolution import MeshSize, Ring, axial_bands, axial_levels, hub_ring, part_names, rim_ring
+from geometry.wheel import exomars
 
 WHEEL = exomars()
 

@@ -8,9 +8,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from geometry import exomars
 from geometry.resolution import MeshSize, hub_ring, rim_ring
 from geometry.section import Section, build_section
+from geometry.wheel import exomars
 
 WHEEL = exomars()
 

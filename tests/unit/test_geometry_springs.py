@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from geometry import SpringSet
+from geometry.parts import SpringSet
 from geometry.springs import Leg, leg_sides, polar, spring_leg, station_angles, weld_angle
 
 GAP = (0.050, 0.1419)

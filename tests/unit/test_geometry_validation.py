@@ -12,7 +12,8 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.materials import SPRING_STEEL, TI_6AL_4V
-from geometry import Cone, Grousers, HubRing, SpringSet, Tire, WheelDesign, exomars
+from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+from geometry.wheel import WheelDesign, exomars
 
 WHEEL = exomars()
 OUTER, INNER = WHEEL.spring_sets

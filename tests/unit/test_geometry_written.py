@@ -17,7 +17,10 @@ ROOT = Path(__file__).parents[2]
 SCRIPT = """
 import resource, sys
 from pathlib import Path
-from geometry import build_mesh, exomars, write_msh, write_step
+from geometry.build import build_mesh
+from geometry.msh import write_msh
+from geometry.step import write_step
+from geometry.wheel import exomars
 wheel, path = exomars(), Path(sys.argv[1])
 mesh = build_mesh(wheel, element_size=40e-3, parts="flexible") if path.suffix == ".msh" else None
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), resource.RLIM_INFINITY))

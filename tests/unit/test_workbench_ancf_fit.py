@@ -16,7 +16,7 @@ from ancf_reduced.tire.static import stiffness_curve
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import InputError, StudyError
 from workbench.comparison.ancf_fit import average_error, fitted_deflections, perturbed, read_fit
-from workbench.comparison.results import ModelCurves
+from workbench.comparison.curves import ModelCurves
 from workbench.graph.fit import fit_tasks
 from workbench.graph.study_graph import report_tasks
 from workbench.study.model import Study

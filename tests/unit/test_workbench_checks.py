@@ -23,8 +23,8 @@ from workbench.checks.fe import (
 from workbench.checks.models import agreement_checks, ancf_checks, preset_error, user_checks
 from workbench.checks.preset_table import preset_table
 from workbench.comparison.comparison import exit_status, overall_status
+from workbench.comparison.curves import ModelCurves, UserCurve
 from workbench.comparison.mesh_study import MeshRun
-from workbench.comparison.results import ModelCurves, UserCurve
 from workbench.study.model import thesis_band
 from workbench.study.sections import ToleranceSection
 

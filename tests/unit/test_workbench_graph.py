@@ -11,10 +11,11 @@ import pytest
 from contracts.materials import TI_6AL_4V
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task, task_keys
-from workbench.graph.study_graph import mesh_tasks, orientation_name, report_tasks, stiffness_tasks
+from workbench.graph.study_graph import mesh_tasks, report_tasks, stiffness_tasks
 from workbench.study.model import Study
-from workbench.study.model_parameters import design_from, wheel_design
 from workbench.study.reading import built_in_study, read_study
+from workbench.study.wheel_design import design_from, wheel_design
+from workbench.tasks.orientation import orientation_name
 from workbench.topics.multibody import MULTIBODY
 from workbench.topics.registry import TOPICS
 from workbench.topics.rover import ROVER

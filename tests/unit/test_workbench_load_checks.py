@@ -33,7 +33,7 @@ COMPILER = (
     "import sys; sys.stderr.write('a.c:1:10: fatal error: Python.h: No such file or directory\\nCommand failed\\n');"
     "sys.exit(1)"
 )
-TASK = Task(name="double", function="tests.unit.workbench_probe_tasks:add", inputs={}, libraries=("numpy",))
+TASK = Task(name="brush", function="workbench.tasks.brush:solve", inputs={})
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,7 @@ def test_nothing_is_computed_where_a_library_cannot_load(tmp_path: Path, monkeyp
     assert display.bars == {}  # nothing was started
     with pytest.raises(RunError, match=r"as root: apt-get install .* libpaint1-of-nowhere$"):
         require_loadable([TASK])
-    require_loadable([replace(TASK, libraries=("scipy",))])
+    require_loadable([replace(TASK, function="workbench.execution.reach:none")])  # imports nothing of it
 
 
 def test_what_is_there_is_not_tried(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from workbench.checks.energy import energy_check
 from workbench.checks.fe import solver_checks, spread_checks
 from workbench.checks.models import agreement_checks
 from workbench.checks.section import section_checks
-from workbench.comparison.results import ModelCurves, mean_curve
+from workbench.comparison.curves import ModelCurves, mean_curve
 from workbench.execution.result_files import FAILURE
 from workbench.study.sections import ToleranceSection
 

@@ -10,7 +10,7 @@ import pytest
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.errors import InputError
 from workbench.checks.section import largest_difference, section_checks
-from workbench.comparison.results import ModelCurves
+from workbench.comparison.curves import ModelCurves
 from workbench.execution.task import task_keys
 from workbench.graph.study_graph import report_tasks, stiffness_tasks
 from workbench.study.model import Study

@@ -22,7 +22,7 @@ from workbench.checks.speed_ancf import CHRONO, ancf_aims
 from workbench.checks.speed_flexible import FASTER as FLEXIBLE_FASTER
 from workbench.checks.speed_flexible import STRAIGHT_PATH, TIME, flexible_aims
 from workbench.checks.speed_rover import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME, rover_aims
-from workbench.comparison.results import ModelCurves
+from workbench.comparison.curves import ModelCurves
 from workbench.report.number_format import displayed
 from workbench.topics.speed import RANKS, SPEED, CurveCost, SpeedResults, _costs, kept_runs
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import StudyError
-from workbench.study.model_parameters import ancf_preset, brush_parameters, wheel_design
+from workbench.study.model_parameters import ancf_preset, brush_parameters
 from workbench.study.reading import built_in_study, read_study
+from workbench.study.wheel_design import wheel_design
 
 TEXT = built_in_study().read_text(encoding="utf-8")
 

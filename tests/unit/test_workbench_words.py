@@ -10,15 +10,16 @@ from typing import Any
 import pytest
 
 from contracts.curves import read_curve, write_curve
-from geometry import build_mesh
+from geometry.build import build_mesh
 from rover_dynamics.tires.brush_tire import stiffness_curve
 from workbench.comparison.results import brush_curve, mesh_numbers
 from workbench.execution.result_files import write_result
 from workbench.execution.task import task_keys
 from workbench.graph.fe import mesh_task
 from workbench.graph.study_graph import mesh_tasks, report_tasks, stiffness_tasks
-from workbench.study.model_parameters import brush_parameters, design_from
+from workbench.study.model_parameters import brush_parameters
 from workbench.study.reading import built_in_study, read_study_table, study_of
+from workbench.study.wheel_design import design_from
 from workbench.tasks.brush import solve as solve_brush
 from workbench.tasks.mesh import measure
 

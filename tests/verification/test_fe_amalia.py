@@ -19,11 +19,12 @@ import pytest
 from numpy.typing import NDArray
 
 from contracts.materials import Material
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
 from geometry.sidewall import SidewallSprings, sidewall_profile
+from geometry.wheel import WheelDesign
 from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
-from workbench.study.model_parameters import wheel_design
 from workbench.study.reading import read_study
+from workbench.study.wheel_design import wheel_design
 
 ROOT = Path(__file__).parents[2]
 PUBLISHED = tomllib.loads((ROOT / "tests/data/wheels/amalia.toml").read_text(encoding="utf-8"))

@@ -17,7 +17,8 @@ import pytest
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.contact import obstacle as contact_obstacle
 from reference_fe.contact.facets import gauss_line
 from reference_fe.contact.obstacle import ContactMethod, ObstacleTerm

@@ -18,8 +18,9 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.materials import TI_6AL_4V
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.contact.obstacles import HalfRoundRock
 from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 from reference_fe.wheel.section import solve_section

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geometry import WheelDesign
 from geometry.planar import build_planar_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.contact import newton_step as contact_step
 from reference_fe.problem.static_problem import Discretisation
 from reference_fe.solver import increments

@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
-from geometry import WheelDesign, build_mesh, build_planar_mesh
+from geometry.build import build_mesh
+from geometry.planar import build_planar_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.cells.discretisation import Discretisation
 from reference_fe.contact.inner_pairs import wheel_contact_pairs
 from reference_fe.material.hyperelastic import MaterialLaw

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from contracts.materials import TI_6AL_4V, Material
 from contracts.mesh import TaggedMesh
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
+from geometry.wheel import WheelDesign
 from reference_fe import dolfinx_api as api
 from reference_fe.dolfinx_api import fem, ufl
 from reference_fe.material.hyperelastic import MaterialLaw

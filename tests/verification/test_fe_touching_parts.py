@@ -21,8 +21,9 @@ import pytest
 from numpy.typing import NDArray
 
 from contracts.materials import TI_6AL_4V, Material
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
 from geometry.parts import HubRing
+from geometry.wheel import WheelDesign
 from reference_fe.contact.inner import ContactPair, InnerContact
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import StaticProblem

@@ -14,7 +14,8 @@ import pytest
 
 from contracts.errors import ConvergenceError
 from contracts.materials import TI_6AL_4V
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.contact.obstacle import ObstacleTerm
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.solver.newton import NewtonOutcome, NewtonSolver

@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 
 from contracts.materials import TI_6AL_4V
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.contact import newton_step as contact_step
 from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel
 from reference_fe.wheel.section import solve_section

@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 
 from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.contact.obstacle import ObstacleTerm
 from reference_fe.contact.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
 from reference_fe.solver.increments import solve_increments

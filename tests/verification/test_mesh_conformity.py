@@ -20,16 +20,19 @@ import pytest
 
 from contracts.errors import MeshError
 from contracts.mesh import TaggedMesh
-from geometry import build_mesh, check_matches_design, check_mesh, exomars, mesh_quality
 from geometry.assembly import boundary_facets
+from geometry.build import build_mesh
 from geometry.checks import (
     check_boundary_tagged,
     check_connected,
+    check_matches_design,
+    check_mesh,
     check_no_coincident_nodes,
     check_not_inverted,
 )
 from geometry.hexahedra import face_nodes
-from geometry.measures import scaled_jacobians
+from geometry.measures import mesh_quality, scaled_jacobians
+from geometry.wheel import exomars
 
 WHEEL = exomars()
 

@@ -19,21 +19,12 @@ import pytest
 
 from contracts.errors import MeshError
 from contracts.mesh import TaggedMesh
-from geometry import (
-    Grousers,
-    HubRing,
-    SpringSet,
-    Tire,
-    WheelDesign,
-    build_mesh,
-    check_matches_design,
-    closed_form_joint_areas,
-    closed_form_volume,
-    exomars,
-    joint_areas,
-    mesh_volume,
-    part_masses,
-)
+from geometry.build import build_mesh
+from geometry.checks import check_matches_design
+from geometry.closed_form import closed_form_joint_areas, closed_form_volume, part_masses
+from geometry.measures import joint_areas, mesh_volume
+from geometry.parts import Grousers, HubRing, SpringSet, Tire
+from geometry.wheel import WheelDesign, exomars
 
 WHEEL = exomars()
 TOLERANCE = 1e-3

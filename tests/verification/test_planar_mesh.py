@@ -16,10 +16,11 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
-from geometry import WheelDesign, build_planar_mesh, closed_form_joint_areas, closed_form_volume
 from geometry.assembly import merge_nodes
-from geometry.planar import planar_areas
+from geometry.closed_form import closed_form_joint_areas, closed_form_volume
+from geometry.planar import build_planar_mesh, planar_areas
 from geometry.springs import spring_leg
+from geometry.wheel import WheelDesign
 
 WHEEL = WheelDesign()
 

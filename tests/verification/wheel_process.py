@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from contracts.materials import TI_6AL_4V
-from geometry import WheelDesign, build_mesh
+from geometry.build import build_mesh
+from geometry.wheel import WheelDesign
 from reference_fe.dolfinx_api import COMM
 from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 

@@ -16,9 +16,9 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check, Role
 from workbench.checks.rules import Claim, at_least, at_most, near, within
+from workbench.comparison.curves import ModelCurves, mean_curve
 from workbench.comparison.mesh_study import MeshRun
 from workbench.comparison.metrics import largest_spread
-from workbench.comparison.results import ModelCurves, mean_curve
 from workbench.study.model import Band
 from workbench.study.sections import ToleranceSection
 

@@ -13,7 +13,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_most, near
-from workbench.comparison.results import ModelCurves
+from workbench.comparison.curves import ModelCurves
 from workbench.study.model import Band
 from workbench.study.sections import ToleranceSection
 

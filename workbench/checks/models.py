@@ -17,7 +17,7 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.preset_table import COLUMNS, preset_table
 from workbench.checks.rules import Claim, at_least, at_most, near
-from workbench.comparison.results import ModelCurves, UserCurve
+from workbench.comparison.curves import ModelCurves, UserCurve
 from workbench.study.sections import ToleranceSection
 
 __all__ = ["agreement_checks", "ancf_checks", "preset_error", "surfaces_check", "user_checks"]

@@ -10,9 +10,9 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
-from workbench.comparison.results import ModelCurves, mean_curve
-from workbench.graph.fe import orientation_name
+from workbench.comparison.curves import ModelCurves, mean_curve
 from workbench.study.sections import ToleranceSection
+from workbench.tasks.orientation import orientation_name
 
 __all__ = ["largest_difference", "section_checks"]
 

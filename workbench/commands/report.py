@@ -15,8 +15,10 @@ from contracts.records import Check
 from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn, tell_kept
 from workbench.commands.gate import GateChoices, gate_of, plain_console, tell
 from workbench.comparison.baseline import read_baseline
+from workbench.execution.integrity import stated
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
+from workbench.execution.task import Task, task_keys
 from workbench.graph.study_graph import report_tasks
 from workbench.report.folders import check_folder
 from workbench.report.gate_summary import gate_markdown, gate_rows
@@ -33,9 +35,10 @@ __all__ = ["ReportChoices", "run_report"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportChoices:
-    """What the command line asks for: the full study, the report as a gate."""
+    """What the command line asks for: the full study, what would be computed and nothing more, the report as a gate."""
 
     full: bool = False
+    dry_run: bool = False
     gate: GateChoices = field(default_factory=GateChoices)
 
 
@@ -48,6 +51,8 @@ def run_report(
     if choices.full:
         with naming(path):
             study = full_study(study)
+    if choices.dry_run:
+        return _list_tasks(report_tasks(study, path.parent), store)
     check_folder(out)
     accepted = None if choices.gate.baseline is None else read_baseline(choices.gate.baseline, study.name)
     shown_on = plain_console() if choices.gate.ci else console
@@ -103,6 +108,14 @@ def run_report(
     shown_on.print(f"report: {out / 'report.html'}", soft_wrap=True)
     complain_of_early_ends(path, origin["partial"])
     return exit_status(found.checks) or int(not gate.holds)
+
+
+def _list_tasks(tasks: Sequence[Task], store: Path) -> int:
+    """One line a task: whether its result is there, its name, its key. Nothing is made, computed or read in full."""
+    for name, key in task_keys(tuple(tasks)).items():
+        absent = stated(store / key[:2] / key, key)[1]
+        console.print(f"{'compute' if absent else 'reuse':7} {name} {key}", soft_wrap=True)
+    return 0
 
 
 def _field_files(entries: dict[str, Entry]) -> dict[str, Path]:

@@ -116,8 +116,6 @@ def _resumed(scenario: Scenario, design: RoverDesign, store: Path) -> Scenario:
         name=f"rover_{scenario.name}",
         function="workbench.tasks.rover_tires:on_ancf_tires",
         inputs={"scenario": scenario.name, "title": scenario.title, "rover": repr(design)},
-        sources=("contracts", "ancf_reduced", "rover_dynamics"),
-        libraries=("numpy", "numba", "scipy"),
     )
     kept = Store(store)
     return resuming(scenario, kept.checkpoint(task.key({})) if kept.writable else None)

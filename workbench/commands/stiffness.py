@@ -11,7 +11,8 @@ from pathlib import Path
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn, tell_kept
-from workbench.comparison.results import brush_curve, mean_curve
+from workbench.comparison.curves import mean_curve
+from workbench.comparison.results import brush_curve
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry

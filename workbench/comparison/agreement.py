@@ -9,8 +9,8 @@ from typing import Any, Literal
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
+from workbench.comparison.curves import ModelCurves
 from workbench.comparison.mesh_study import MeshStudy
-from workbench.comparison.results import ModelCurves
 
 __all__ = ["Agreement", "Verdict", "agreements", "noted", "verdict"]
 

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
-from workbench.comparison.results import CURVE, mean_curve
+from workbench.comparison.curves import CURVE, mean_curve
 from workbench.execution.result_files import FAILURE, read_result
-from workbench.graph.fe import orientation_name
+from workbench.tasks.orientation import orientation_name
 
 __all__ = [
     "THESIS_WHEEL_MASS",

@@ -23,15 +23,16 @@ from workbench.checks.limits import circumferential_tangent_check, overlap_check
 from workbench.checks.models import agreement_checks, ancf_checks, surfaces_check, user_checks
 from workbench.checks.statements import statement_of
 from workbench.comparison.agreement import Agreement, agreements, noted
+from workbench.comparison.curves import ModelCurves, UserCurve, model_curves
 from workbench.comparison.mesh_study import MeshStudy
-from workbench.comparison.results import ModelCurves, UserCurve, brush_curve, mesh_numbers, model_curves
+from workbench.comparison.results import brush_curve, mesh_numbers
 from workbench.execution.result_files import early_ends, read_result
-from workbench.graph.study_graph import degrees
 from workbench.graph.surfaces import SURFACES
 from workbench.study.full import rotational_period
 from workbench.study.model import Study
-from workbench.study.model_parameters import part_materials
 from workbench.study.sections import ToleranceSection
+from workbench.study.wheel_design import part_materials
+from workbench.tasks.orientation import degrees
 from workbench.topics.mesh_study import MESH_STUDY
 from workbench.topics.registry import topics_of
 

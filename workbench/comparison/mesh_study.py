@@ -8,14 +8,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.curves import StiffnessCurve
+from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
+from workbench.comparison.curves import CURVE
 from workbench.comparison.grid_convergence import GridConvergence, grid_convergence
+from workbench.execution.result_files import read_result
+from workbench.tasks.orientation import orientation_name
 
 __all__ = ["METHOD_ORDER", "MeshRow", "MeshRun", "MeshStudy", "sorted_runs"]
 
@@ -148,3 +152,29 @@ def sorted_runs(runs: Sequence[MeshRun]) -> tuple[MeshRun, MeshRun, MeshRun]:
     """Fine to coarse."""
     fine, medium, coarse = sorted(runs, key=lambda run: -run.factor)
     return fine, medium, coarse
+
+
+def read_mesh_study(
+    *,
+    orientation_deg: float,
+    deflections: Sequence[float],
+    factors: Sequence[float],
+    curves_factor: float,
+    folders: Mapping[str, Path],
+) -> MeshStudy:
+    """The mesh study from the result folders of its runs."""
+    runs = []
+    for factor in factors:
+        folder = folders[mesh_run_name(factor, curves_factor, orientation_deg)]
+        curve = read_curve(folder / CURVE, model="fe", orientation_deg=orientation_deg)
+        runs.append(MeshRun(factor=factor, curve=curve, numbers=read_result(folder)))
+    return MeshStudy(
+        orientation_deg=orientation_deg,
+        deflections=tuple(deflections),
+        runs=sorted_runs(runs),
+        curves_factor=curves_factor,
+    )
+
+
+def mesh_run_name(factor: float, curves_factor: float, orientation_deg: float) -> str:
+    return orientation_name("fe", orientation_deg) if factor == curves_factor else f"fe_x{factor:g}"

@@ -13,8 +13,8 @@ import numpy as np
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
+from workbench.comparison.curves import CURVE, mean_curve
 from workbench.comparison.metrics import compare_curves
-from workbench.comparison.results import CURVE, mean_curve
 from workbench.execution.result_files import early_ends
 from workbench.execution.store import Entry
 from workbench.graph.sweep import SweepGraph, SweepRun

@@ -13,9 +13,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from workbench.execution.disk import disk_full
-from workbench.execution.fingerprint import library_versions, source_hash
+from workbench.execution.fingerprint import library_versions
 from workbench.execution.jobs import Done, Failed, Job, Lost, run_job
 from workbench.execution.ranks import run_on_ranks
+from workbench.execution.reach import source_hash
 
 __all__ = ["Files", "read_files", "run_remote", "write_files"]
 
@@ -66,10 +67,17 @@ def _of_this_machine(message: Done | Failed | Lost) -> Done | Failed | Lost:
 
 def _differences(origin: Mapping[str, Mapping[str, str]]) -> list[str]:
     """Names of sources and libraries that are not those the job was made with."""
-    here = {name: source_hash(name) for name in origin["sources"]}
+    here = {name: _hash_here(name) for name in origin["sources"]}
     versions = library_versions(tuple(origin["libraries"]))
     wanted, found = {**origin["sources"], **origin["libraries"]}, {**here, **versions}
     return [name for name, value in wanted.items() if found[name] != value]
+
+
+def _hash_here(name: str) -> str:
+    try:
+        return source_hash(name)
+    except (ModuleNotFoundError, FileNotFoundError):  # of another version
+        return ""
 
 
 def read_files(folder: Path) -> Files:

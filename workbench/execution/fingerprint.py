@@ -7,13 +7,12 @@ from __future__ import annotations
 
 import hashlib
 import importlib.metadata
-import importlib.util
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
-__all__ = ["canonical_json", "file_sha256", "library_versions", "source_hash", "text_sha256"]
+__all__ = ["canonical_json", "file_sha256", "library_versions", "text_sha256"]
 
 
 def canonical_json(value: object) -> str:
@@ -30,23 +29,6 @@ def file_sha256(path: Path) -> str:
     """SHA-256 of a file's bytes (hexadecimal)."""
     with path.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()
-
-
-@cache
-def source_hash(module: str) -> str:
-    """SHA-256 of the source of a package (every ``.py`` and data file below it) or of one module.
-
-    The module is found, not imported: this stays cheap for packages that load PETSc or gmsh.
-    """
-    spec = importlib.util.find_spec(module)
-    if spec is None or spec.origin is None:
-        raise ModuleNotFoundError(f"no source found for {module}")
-    origin = Path(spec.origin)
-    if origin.name != "__init__.py":
-        return file_sha256(origin)
-    root = origin.parent
-    files = sorted(p for p in root.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
-    return text_sha256("\n".join(f"{p.relative_to(root).as_posix()} {file_sha256(p)}" for p in files))
 
 
 def library_versions(names: Sequence[str]) -> Mapping[str, str]:

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from workbench.execution.errors import RunError
+from workbench.execution.reach import reached_libraries
 from workbench.execution.task import Task
 
 __all__ = [
@@ -212,7 +213,7 @@ def require_loadable(tasks: Sequence[Task]) -> None:
 
     Costs milliseconds where the system's libraries are there; else what lacks one is tried.
     """
-    libraries = {library for task in tasks for library in task.libraries}
+    libraries = {library for task in tasks for library in reached_libraries(task.function.partition(":")[0])}
     checks = [check for check in CHECKS if libraries & set(check.libraries) and check.in_doubt]
     found = complaints(checks) if checks else {}
     failed = [check for check in checks if found[check.name]]

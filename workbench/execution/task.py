@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.execution.fingerprint import canonical_json, library_versions, source_hash, text_sha256
+from workbench.execution.fingerprint import canonical_json, library_versions, text_sha256
+from workbench.execution.reach import reached, reached_libraries
 
 __all__ = ["Progress", "Task", "TaskFunction", "bare_name", "chain_costs", "task_keys"]
 
@@ -35,8 +36,6 @@ class Task:
     function : ``"module:function"``, a TaskFunction, imported in the worker only
     inputs : JSON values only
     needs : names of the tasks whose results it reads
-    sources : packages and modules whose source text decides the result
-    libraries : distributions whose version decides the result
     cost : expected wall time [s]; no part of the key
     memory : expected largest memory of its process [byte], 0 for little; no part of the key
     unknowns : expected number of unknowns, 0 where it is not known beforehand; no part of the key
@@ -48,8 +47,6 @@ class Task:
     function: str
     inputs: Mapping[str, Any]
     needs: tuple[str, ...] = ()
-    sources: tuple[str, ...] = ()
-    libraries: tuple[str, ...] = ()
     cost: float = 1.0
     memory: float = 0.0
     unknowns: int = 0
@@ -57,7 +54,7 @@ class Task:
     shared: bool = False
 
     def key(self, needed_keys: Mapping[str, str]) -> str:
-        """SHA-256 of function, inputs, source text, library versions and the keys of what it needs."""
+        """SHA-256 of function, inputs, the sources and libraries it can reach, and the keys of what it needs."""
         return text_sha256(
             canonical_json(
                 {
@@ -70,10 +67,9 @@ class Task:
         )
 
     def origin(self) -> dict[str, Mapping[str, str]]:
-        """Hash of each source and version of each library that decides the result, under "sources" and "libraries"."""
-        modules = (self.function.partition(":")[0], *self.sources)
-        sources = {name: source_hash(name) for name in modules}
-        return {"sources": sources, "libraries": library_versions(self.libraries)}
+        """Hash of each source and version of each library that the function can reach."""
+        module = self.function.partition(":")[0]
+        return {"sources": reached(module), "libraries": library_versions(reached_libraries(module))}
 
 
 def bare_name(name: str) -> str:

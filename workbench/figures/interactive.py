@@ -17,8 +17,8 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.text import for_html, for_plotly, for_script
 from workbench.comparison.comparison import Comparison
+from workbench.comparison.curves import ModelCurves, UserCurve
 from workbench.comparison.mesh_study import MeshStudy
-from workbench.comparison.results import ModelCurves, UserCurve
 from workbench.figures.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.study.model import Band
 

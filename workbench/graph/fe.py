@@ -5,66 +5,35 @@ Verified by tests/unit/test_workbench_graph.py.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
-from typing import Any, TypedDict
+from typing import Any
 
 import numpy as np
 
 from contracts.materials import Material
 from workbench.execution.task import Task
 from workbench.study.model import Study
-from workbench.study.model_parameters import part_materials, wheel_design
+from workbench.study.wheel_design import part_materials, wheel_design
+from workbench.tasks.orientation import degrees
 
 __all__ = [
-    "FE",
-    "FILES",
     "HUB_PARTS",
     "INNER_STIFFNESS",
-    "MESH",
-    "Origin",
     "curve_deflections",
-    "degrees",
     "fe_inputs",
     "fe_task",
     "material_inputs",
     "mesh_task",
-    "orientation_name",
     "wheel_inputs",
     "without_fields",
 ]
 
 
-class Origin(TypedDict):
-    """Which source text and which libraries decide a task's result."""
-
-    sources: tuple[str, ...]
-    libraries: tuple[str, ...]
-
-
-FILES = ("contracts", "workbench.tasks.mesh_file", "workbench.execution.result_files")
-MESH = Origin(sources=(*FILES, "geometry", "workbench.study.model_parameters"), libraries=("gmsh", "numpy"))
-FE = Origin(
-    sources=(*FILES, "reference_fe", "workbench.tasks.field_file"),
-    libraries=("dolfinx-solver-real", "fenics-ufl", "fenics-basix", "fenics-ffcx", "numpy", "numba"),
-)
 HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
 """Parts within the springs' welds on the hub, outside to inside."""
 INNER_STIFFNESS = 1e11
 """Penalty stiffness between the wheel's own parts [N/m^3]."""
-
-
-def degrees(angle: float) -> float:
-    """Angle in degrees, free of the last digits' noise."""
-    return round(math.degrees(angle), 9)
-
-
-def orientation_name(model: str, orientation_deg: float) -> str:
-    """``fe_phi015``; fractions of a degree as ``fe_phi022.5``."""
-    whole, _, fraction = f"{orientation_deg:.6f}".partition(".")
-    fraction = fraction.rstrip("0")
-    return f"{model}_phi{int(whole):03d}" + (f".{fraction}" if fraction else "")
 
 
 def mesh_task(
@@ -86,7 +55,7 @@ def mesh_task(
         "factor": factor or mesh.factor,
     }
     inputs = {"wheel": wheel_inputs(study), "options": options | dict(changes or {})}
-    return Task(name=name, function="workbench.tasks.mesh:build", inputs=inputs, **MESH)
+    return Task(name=name, function="workbench.tasks.mesh:build", inputs=inputs)
 
 
 def wheel_inputs(study: Study) -> dict[str, Any]:
@@ -146,7 +115,7 @@ def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh") -> Task:
     """One orientation solved on the mesh of the task ``mesh``."""
     function = "workbench.tasks.fe:solve_orientation"
     long = {"resumable": True, "shared": True}
-    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), **long, **FE)
+    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), **long)
 
 
 def curve_deflections(study: Study) -> list[float]:

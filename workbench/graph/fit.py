@@ -6,31 +6,17 @@ from collections.abc import Sequence
 from dataclasses import asdict
 
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES, Origin, degrees, orientation_name
 from workbench.study.fit import FittedTireSection
 from workbench.study.full import is_mirrored
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_tire, fit_start
+from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.mesh_study import mesh_study_inputs, mesh_study_runs
 
 __all__ = ["AS_IT_IS", "fit_name", "fit_tasks"]
 
 AS_IT_IS = "ancf_as_it_is"
 """Task that holds the study's own tire against the FE curves."""
-_FIT = Origin(
-    sources=(
-        *FILES,
-        "ancf_reduced",
-        "workbench.comparison.ancf_fit",
-        "workbench.tasks.ancf_tire",
-        "workbench.graph.fe",
-        "workbench.comparison.grid_convergence",
-        "workbench.comparison.mesh_study",
-        "workbench.comparison.results",
-        "workbench.topics.mesh_study",
-    ),
-    libraries=("numpy", "numba", "scipy"),
-)
 
 
 def fit_name(tire: str) -> str:
@@ -47,7 +33,7 @@ def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) ->
     common = {"orientations_deg": orientations, "load_range": list(section.load_range), "mirrored": is_mirrored(study)}
     needs = tuple(orientation_name("fe", o) for o in orientations)
     own = ancf_tire(study) | common
-    tasks = [Task(name=AS_IT_IS, function="workbench.tasks.fit:evaluate", inputs=own, needs=needs, cost=5.0, **_FIT)]
+    tasks = [Task(name=AS_IT_IS, function="workbench.tasks.fit:evaluate", inputs=own, needs=needs, cost=5.0)]
     for tire in section.tires if tires is None else tires:
         realisations = section.realisations if tire == section.kept else 0
         runs = tuple(dict.fromkeys([*needs, *mesh_study_runs(study)])) if realisations else needs
@@ -61,5 +47,5 @@ def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) ->
             "mesh_study": mesh_study_inputs(study) if realisations else None,
         }
         name, function = fit_name(tire.name), "workbench.tasks.fit:fit"
-        tasks.append(Task(name=name, function=function, inputs=inputs, needs=runs, cost=30.0, **_FIT))
+        tasks.append(Task(name=name, function=function, inputs=inputs, needs=runs, cost=30.0))
     return tasks

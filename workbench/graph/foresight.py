@@ -18,7 +18,7 @@ from geometry.build import mesh_size
 from geometry.counting import MeshCount, count_planar, count_solid, require_buildable
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task
-from workbench.study.model_parameters import design_from
+from workbench.study.wheel_design import design_from
 
 __all__ = ["foreseen", "solve_bytes", "solve_seconds"]
 

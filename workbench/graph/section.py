@@ -7,25 +7,11 @@ from typing import Any
 
 from contracts.errors import InputError
 from workbench.execution.task import Task
-from workbench.graph.fe import (
-    FE,
-    MESH,
-    Origin,
-    curve_deflections,
-    degrees,
-    fe_inputs,
-    orientation_name,
-    wheel_inputs,
-    without_fields,
-)
+from workbench.graph.fe import curve_deflections, fe_inputs, wheel_inputs, without_fields
 from workbench.study.model import Study
+from workbench.tasks.orientation import degrees, orientation_name
 
 __all__ = ["section_task", "section_tasks", "without_planar_model"]
-
-_SECTION = Origin(
-    sources=tuple(dict.fromkeys((*MESH["sources"], *FE["sources"], "workbench.tasks.fe", "workbench.tasks.mesh"))),
-    libraries=tuple(dict.fromkeys((*MESH["libraries"], *FE["libraries"]))),
-)
 
 
 def without_planar_model(study: Study) -> InputError | None:
@@ -70,4 +56,4 @@ def section_task(study: Study, name: str, orientation_deg: float, deflections: S
         "options": options,
         "rigid_parts": ["outer_hub"],
     }
-    return Task(name=name, function="workbench.tasks.section:solve_orientation", inputs=inputs, cost=8.0, **_SECTION)
+    return Task(name=name, function="workbench.tasks.section:solve_orientation", inputs=inputs, cost=8.0)

@@ -10,23 +10,15 @@ import numpy as np
 
 from workbench.checks.preset_table import preset_table
 from workbench.execution.task import Task
-from workbench.graph.fe import (
-    FILES,
-    MESH,
-    Origin,
-    curve_deflections,
-    degrees,
-    fe_inputs,
-    fe_task,
-    mesh_task,
-    orientation_name,
-)
+from workbench.graph.fe import curve_deflections, fe_inputs, fe_task, mesh_task
 from workbench.graph.foresight import foreseen
 from workbench.graph.section import section_tasks
 from workbench.graph.surfaces import report_surfaces_task
 from workbench.study.curve_file import in_si
 from workbench.study.model import Study
-from workbench.study.model_parameters import ancf_tire, brush_parameters, wheel_design
+from workbench.study.model_parameters import ancf_tire, brush_parameters
+from workbench.study.wheel_design import wheel_design
+from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.registry import topics_of
 
 __all__ = ["Model", "degrees", "mesh_tasks", "orientation_name", "report_tasks", "stiffness_tasks"]
@@ -35,15 +27,6 @@ type Model = str
 """``"fe"``, ``"section"``, ``"ancf"`` or ``"brush"``."""
 
 
-_ANCF = Origin(sources=(*FILES, "ancf_reduced", "workbench.tasks.ancf_tire"), libraries=("numpy", "numba"))
-_BRUSH = Origin(sources=("contracts", "rover_dynamics.tires.brush_tire"), libraries=("numpy",))
-_METRICS = Origin(
-    sources=(*FILES, "workbench.comparison.metrics", "workbench.comparison.results"),
-    libraries=("numpy", "objective-rating-metrics"),
-)
-_PICTURES = Origin(
-    sources=(*FILES, "workbench.figures.stills", "workbench.figures.palette"), libraries=("pyvista", "vtk")
-)
 _COMPARED_UP_TO = 250.0
 """End of the load range over which the models are compared [N]: the upper wheel load of the thesis' sweep."""
 
@@ -67,14 +50,11 @@ def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
     solved = mesh_task(study, "mesh")
     if not with_files:
         return foreseen((solved, whole))
-    sources = (*MESH["sources"], *_PICTURES["sources"], "workbench.tasks.mesh")
     files = Task(
         name="mesh_files",
         function="workbench.tasks.mesh_files:write_files",
         inputs={"wheel": study.model_dump(mode="json", include={"name", "wheel", "materials"})},
         needs=("mesh", "mesh_whole"),
-        sources=sources,
-        libraries=(*MESH["libraries"], *_PICTURES["libraries"], "meshio"),
     )
     return foreseen((solved, whole, files))
 
@@ -107,7 +87,6 @@ def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
             function="workbench.tasks.ancf:solve_orientation",
             inputs=tire | {"orientation_deg": orientation, "deflections": points},
             cost=10.0,
-            **_ANCF,
         )
         for orientation in orientations_deg
     ]
@@ -124,7 +103,7 @@ def _brush_task(study: Study) -> Task:
     end = max(study.fe.max_deflection, study.ancf.max_deflection)
     parameters = {name: value for name, value in asdict(brush_parameters(study)).items() if name != "source"}
     inputs = {"parameters": parameters, "max_deflection": end}
-    return Task(name="brush", function="workbench.tasks.brush:solve", inputs=inputs, **_BRUSH)
+    return Task(name="brush", function="workbench.tasks.brush:solve", inputs=inputs)
 
 
 def _metrics_task(study: Study, curves: Sequence[str], curve_folder: Path) -> Task:
@@ -138,7 +117,7 @@ def _metrics_task(study: Study, curves: Sequence[str], curve_folder: Path) -> Ta
     ]
     inputs = {"max_load": _COMPARED_UP_TO, "user_curves": users}
     function = "workbench.tasks.metrics:measure"
-    return Task(name="metrics", function=function, inputs=inputs, needs=tuple(curves), cost=8.0, **_METRICS)
+    return Task(name="metrics", function=function, inputs=inputs, needs=tuple(curves), cost=8.0)
 
 
 def _picture_task(study: Study, orientations_deg: Sequence[float]) -> Task:
@@ -150,5 +129,4 @@ def _picture_task(study: Study, orientations_deg: Sequence[float]) -> Task:
         inputs={"orientation_deg": orientations_deg[0], "yield_strength": strength},
         needs=("mesh_whole", "mesh", first),
         cost=10.0,
-        **_PICTURES,
     )

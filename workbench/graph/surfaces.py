@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES, degrees
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_tire
+from workbench.tasks.orientation import degrees
 
 __all__ = ["SURFACES", "report_surfaces_task", "surfaces_task"]
 
@@ -24,8 +24,6 @@ def surfaces_task(study: Study, orientation_deg: float, deflections: Sequence[fl
         function="workbench.tasks.ancf_surfaces:write_surfaces",
         inputs=ancf_tire(study) | {"orientation_deg": orientation_deg, "deflections": list(deflections)},
         cost=3.0,
-        sources=(*FILES, "ancf_reduced", "geometry", "workbench.tasks.ancf_tire"),
-        libraries=("gmsh", "numpy", "numba", "scipy"),
     )
 
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from workbench.execution.task import Task, bare_name
 from workbench.graph.fe import material_inputs
 from workbench.graph.study_graph import stiffness_tasks
-from workbench.study.model_parameters import wheel_design
 from workbench.study.sweep import SweptModel
 from workbench.study.sweep_points import Point
+from workbench.study.wheel_design import wheel_design
 
 __all__ = ["SweepGraph", "SweepRun", "sweep_graph"]
 

@@ -27,7 +27,7 @@ __all__ = ["curve_file", "junit", "publish", "summary", "to_json"]
 
 def curve_file(curve: StiffnessCurve) -> str:
     """``{model}_phi{DDD}.csv`` or ``{model}_average.csv``; the brush has one line only, its average."""
-    from workbench.graph.study_graph import orientation_name
+    from workbench.tasks.orientation import orientation_name
 
     if curve.orientation_deg is None:
         return f"{curve.model}_average.csv"

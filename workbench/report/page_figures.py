@@ -10,8 +10,8 @@ from rover_dynamics.rover.rover_file import read_rover
 from workbench.comparison.comparison import Comparison
 from workbench.figures.interactive import ancf_figure, fe_figure, models_figure, stress_figure
 from workbench.figures.packing import picture_link
-from workbench.graph.study_graph import orientation_name
 from workbench.study.model import Study
+from workbench.tasks.orientation import orientation_name
 from workbench.tasks.rover_still import ROVER_STILL
 from workbench.topics.registry import topics_of
 

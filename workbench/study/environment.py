@@ -10,7 +10,8 @@ from pydantic import AfterValidator, Field, StrictInt
 from pydantic_core import PydanticCustomError
 
 from workbench.study.quantities import Angle, Temperature
-from workbench.study.sections import Drop, Section
+from workbench.study.section import Section
+from workbench.study.sections import Drop
 
 __all__ = ["EnvironmentSection"]
 

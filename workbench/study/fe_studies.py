@@ -12,7 +12,8 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from workbench.study.quantities import Angle
-from workbench.study.sections import Drop, Factor, Positive, Section, in_key
+from workbench.study.section import Positive, Section, in_key
+from workbench.study.sections import Drop, Factor
 
 __all__ = ["FullSection", "HubStudySection", "MeshStudySection"]
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StrictInt, model_validator
 
 from workbench.study.quantities import Angle, Force, Length, Number, Pressure, Stiffness
-from workbench.study.sections import Positive, Section, in_key
+from workbench.study.section import Positive, Section, in_key
 
 __all__ = ["AncfFitSection", "FitBoundsSection", "FitStartSection", "FittedTireSection"]
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 
 from contracts.errors import InputError
-from workbench.graph.fe import degrees
 from workbench.study.model import Study
 from workbench.study.wheel import ImpactSpringsSection
+from workbench.tasks.orientation import degrees
 
 __all__ = ["full_study", "is_mirrored", "rotational_period"]
 

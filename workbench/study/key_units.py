@@ -13,7 +13,7 @@ from pydantic import BeforeValidator
 
 from workbench.study.model import Study
 from workbench.study.quantities import InUnit
-from workbench.study.sections import Section
+from workbench.study.section import Section
 
 __all__ = ["is_whole_number", "parts_of", "unit_of"]
 

@@ -18,22 +18,20 @@ from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySe
 from workbench.study.fit import AncfFitSection
 from workbench.study.quantities import Force, Length, Stiffness
 from workbench.study.rover import RoverSection
+from workbench.study.section import Positive, Section
 from workbench.study.sections import (
     AncfSection,
     BrushSection,
     CurveSection,
     FeSection,
-    MaterialSection,
     MeshSection,
-    Positive,
-    Section,
     ToleranceSection,
     VerificationSection,
 )
 from workbench.study.sweep import SweepSection
-from workbench.study.wheel import WheelSection
+from workbench.study.wheel import WheelStudy
 
-__all__ = ["Band", "BandPoint", "CompareSection", "Study", "WheelStudy", "thesis_band"]
+__all__ = ["Band", "BandPoint", "CompareSection", "Study", "thesis_band"]
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -64,14 +62,6 @@ class CompareSection(Section):
     """The user's own curves, if any."""
 
     curves: tuple[CurveSection, ...] = ()
-
-
-class WheelStudy(Section):
-    """The part of a study that decides the wheel: name, parts, materials."""
-
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$")]
-    wheel: WheelSection
-    materials: dict[str, MaterialSection]
 
 
 class Study(WheelStudy):

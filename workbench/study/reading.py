@@ -19,8 +19,9 @@ from contracts.ranges import Key, dotted
 from workbench.study.curve_file import in_si
 from workbench.study.magnitudes import impossible
 from workbench.study.model import Study
-from workbench.study.model_parameters import SectionInputError, ancf_mesh, ancf_preset, brush_parameters, wheel_design
+from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
 from workbench.study.rules import broken_rules
+from workbench.study.wheel_design import SectionInputError, wheel_design
 from workbench.study.words import in_one_line
 
 __all__ = ["built_in_study", "read_study", "read_study_table", "study_of"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from workbench.study.sections import Section
+from workbench.study.section import Section
 
 __all__ = ["RoverSection"]
 

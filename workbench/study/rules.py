@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 from contracts.errors import InputError
 from workbench.study.model import Study
-from workbench.study.model_parameters import SectionInputError, fit_start, materials, wheel_design
+from workbench.study.model_parameters import fit_start
+from workbench.study.wheel_design import SectionInputError, materials, wheel_design
 
 __all__ = ["BrokenRule", "broken_rules"]
 

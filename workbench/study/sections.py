@@ -11,8 +11,6 @@ from typing import Annotated, Literal
 
 from pydantic import (
     AfterValidator,
-    BaseModel,
-    ConfigDict,
     Field,
     StrictBool,
     StrictInt,
@@ -24,6 +22,7 @@ from pydantic_core import PydanticCustomError
 
 from workbench.study.contact import ObstacleSection, PlaneSection
 from workbench.study.quantities import Angle, Bedding, Density, Force, Length, Number, Pressure, Stiffness, Viscosity
+from workbench.study.section import Positive, Section, in_key
 
 __all__ = [
     "AncfSection",
@@ -32,16 +31,11 @@ __all__ = [
     "Drop",
     "Factor",
     "FeSection",
-    "MaterialSection",
     "MeshSection",
-    "Positive",
-    "Section",
     "ToleranceSection",
     "VerificationSection",
-    "in_key",
 ]
 
-Positive = Field(gt=0.0)
 NotNegative = Field(ge=0.0)
 
 
@@ -63,30 +57,6 @@ Orientations = Annotated[
 Drop = Annotated[Length, Positive]
 Factor = Annotated[Number, Field(ge=1.0, le=6.0)]
 GaussPoints = Annotated[StrictInt, Field(ge=1, le=10)]
-
-
-def in_key(key: str, value: object, rule: str, hint: str) -> PydanticCustomError:
-    """Error of one key that only its whole section can find."""
-    context = {"key": key, "value": str(value), "rule": rule, "hint": hint}
-    return PydanticCustomError("key_in_section", "{key} {rule}; {hint}", context)
-
-
-class Section(BaseModel):
-    """Base of every section: frozen, no unknown keys."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class MaterialSection(Section):
-    """One material: E [Pa], nu [-], rho [kg/m^3], R_p0.2 [Pa] at 20 C, where the numbers come from, and the name of its
-    data against temperature, if any."""
-
-    young_modulus: Annotated[Pressure, Positive]
-    poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
-    density: Annotated[Density, Positive]
-    yield_strength: Annotated[Pressure, Positive]
-    source: Annotated[str, Field(min_length=1)]
-    temperature_data: Annotated[str, Field(min_length=1)] | None = None
 
 
 class MeshSection(Section):

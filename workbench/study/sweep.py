@@ -12,7 +12,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from workbench.study.quantities import Force, number_and_unit
-from workbench.study.sections import Drop, Positive, Section, in_key
+from workbench.study.section import Positive, Section, in_key
+from workbench.study.sections import Drop
 
 __all__ = ["MOST_POINTS", "SweepRange", "SweepSection", "SweptModel", "Value"]
 

@@ -21,10 +21,10 @@ from scipy.stats import qmc
 from contracts.errors import InputError, StudyError
 from workbench.study.key_units import is_whole_number, parts_of
 from workbench.study.model import Study
-from workbench.study.model_parameters import wheel_design
 from workbench.study.quantities import number_and_unit, to_si
 from workbench.study.reading import study_of
 from workbench.study.sweep import SweepRange, SweepSection, Value
+from workbench.study.wheel_design import wheel_design
 
 __all__ = ["Point", "design_points", "sweep_points"]
 

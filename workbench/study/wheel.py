@@ -10,18 +10,20 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictInt
 
-from workbench.study.quantities import Angle, Length, Number
-from workbench.study.sections import Positive, Section
+from workbench.study.quantities import Angle, Density, Length, Number, Pressure
+from workbench.study.section import Positive, Section
 
 __all__ = [
     "ConeSection",
     "GrousersSection",
     "HubSection",
     "ImpactSpringsSection",
+    "MaterialSection",
     "SidewallSpringsSection",
     "SpringsSection",
     "TireSection",
     "WheelSection",
+    "WheelStudy",
 ]
 
 Count = Annotated[StrictInt, Field(ge=1, le=360)]
@@ -113,3 +115,23 @@ class WheelSection(Section):
     cone: ConeSection | None = None
     impact_springs: ImpactSpringsSection | None = None
     inner_hub: HubSection | None = None
+
+
+class MaterialSection(Section):
+    """One material: E [Pa], nu [-], rho [kg/m^3], R_p0.2 [Pa] at 20 C, where the numbers come from, and the name of its
+    data against temperature, if any."""
+
+    young_modulus: Annotated[Pressure, Positive]
+    poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
+    density: Annotated[Density, Positive]
+    yield_strength: Annotated[Pressure, Positive]
+    source: Annotated[str, Field(min_length=1)]
+    temperature_data: Annotated[str, Field(min_length=1)] | None = None
+
+
+class WheelStudy(Section):
+    """The part of a study that decides the wheel: name, parts, materials."""
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$")]
+    wheel: WheelSection
+    materials: dict[str, MaterialSection]

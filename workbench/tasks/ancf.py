@@ -8,15 +8,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ancf_reduced.plates.mass import flexible_mass
 from ancf_reduced.tire.static import tire_curve
 from ancf_reduced.tire.surfaces import outer_face_error
 from contracts.curves import write_curve
 from workbench.execution.result_files import write_result
-from workbench.execution.task import Progress
 from workbench.tasks.ancf_tire import tire_from
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["solve_orientation"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +25,10 @@ from contracts.series import TimeSeries, write_series
 from contracts.terrain import Plane, TerrainUnion
 from contracts.terrain_ridges import HalfRound
 from workbench.execution.result_files import write_result
-from workbench.execution.task import Progress
 from workbench.tasks.ancf_tire import tire_from
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["move_wheel"]
 

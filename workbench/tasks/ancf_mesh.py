@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ancf_reduced.tire.mesh import build_tire
 from ancf_reduced.tire.preset import TirePreset, refined_preset
@@ -16,7 +16,9 @@ from ancf_reduced.tire.static import TireEquilibria, solve_tire
 from ancf_reduced.tire.surfaces import outer_face_error
 from contracts.errors import ConvergenceError
 from workbench.execution.result_files import write_result
-from workbench.execution.task import Progress
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["solve_refined"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,11 @@ from ancf_reduced.tire.static import solve_tire
 from ancf_reduced.tire.surfaces import surface_grid
 from geometry.surface_step import step_points, write_surfaces_step
 from workbench.execution.result_files import write_result
-from workbench.execution.task import Progress
-from workbench.graph.fe import orientation_name
 from workbench.tasks.ancf_tire import tire_from
+from workbench.tasks.orientation import orientation_name
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["read_back_deviation", "write_surfaces"]
 

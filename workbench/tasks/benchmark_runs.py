@@ -8,10 +8,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from workbench.execution.result_files import write_result
-from workbench.execution.task import Progress
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["Numbers", "Runs", "run_with_control"]
 

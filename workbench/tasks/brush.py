@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contracts.curves import write_curve
 from rover_dynamics.tires.brush_tire import BrushTireParameters, stiffness_curve
-from workbench.execution.task import Progress
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["solve"]
 

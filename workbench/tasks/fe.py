@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,10 +21,12 @@ from reference_fe.material.hyperelastic import MaterialLaw
 from reference_fe.solver.newton import NewtonSettings
 from reference_fe.wheel.pressed import FieldSnapshot, WheelLoadCase, WheelResult, solve_wheel
 from workbench.execution.result_files import FAILURE, write_result
-from workbench.execution.task import Progress
 from workbench.tasks.contact import obstacle_of
 from workbench.tasks.field_file import POINTS_FILE, write_fields, write_points
 from workbench.tasks.mesh_file import MESH, read_mesh
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["converged_part", "load_case", "solve_orientation"]
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,12 +32,14 @@ from workbench.comparison.ancf_fit import (
     fitted_deflections,
     perturbed,
 )
-from workbench.comparison.results import mean_curve
+from workbench.comparison.curves import mean_curve
+from workbench.comparison.mesh_study import read_mesh_study
 from workbench.execution.result_files import FAILURE, write_result
-from workbench.execution.task import Progress
-from workbench.graph.fe import orientation_name
 from workbench.tasks.ancf_tire import preset_from, tire_from
-from workbench.topics.mesh_study import read_mesh_study
+from workbench.tasks.orientation import orientation_name
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["evaluate", "fit"]
 

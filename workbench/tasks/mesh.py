@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
@@ -15,9 +15,11 @@ from geometry.checks import check_matches_design, check_mesh
 from geometry.summary import summarize_mesh
 from geometry.wheel import WheelDesign
 from workbench.execution.result_files import write_result
-from workbench.execution.task import Progress
-from workbench.study.model_parameters import design_from
+from workbench.study.wheel_design import design_from
 from workbench.tasks.mesh_file import MESH, write_mesh
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["build", "measure"]
 

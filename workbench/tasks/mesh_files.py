@@ -5,16 +5,18 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from geometry.msh import write_msh
 from geometry.step import write_step
 from geometry.vtu import write_vtu
-from workbench.execution.task import Progress
 from workbench.figures.stills import draw_parts
-from workbench.study.model_parameters import design_from
+from workbench.study.wheel_design import design_from
 from workbench.tasks.mesh import measure
 from workbench.tasks.mesh_file import MESH, read_mesh
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["write_files"]
 

@@ -7,14 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
+from workbench.comparison.curves import CURVE, ModelCurves, model_curves
 from workbench.comparison.metrics import compare_curves
-from workbench.comparison.results import CURVE, ModelCurves, model_curves
 from workbench.execution.result_files import write_result
-from workbench.execution.task import Progress
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["measure"]
 

@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rover_dynamics.multibody.verification.work_precision import PROBLEMS, compile_loops, control_for, work
 from workbench.execution.result_files import write_result
-from workbench.execution.task import Progress
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["measure_work"]
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contracts.frames import ground_direction_h
-from workbench.execution.task import Progress
 from workbench.figures.stills import draw_deformed, draw_parts
 from workbench.tasks.mesh_file import MESH, read_mesh
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["draw"]
 

@@ -8,15 +8,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contracts.series import write_series
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.scenario import run_scenario, scenario_series
 from workbench.execution.result_files import FAILURE, write_result
-from workbench.execution.task import Progress
 from workbench.tasks.motion_file import MOTION, write_motion
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["drive_rover"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,13 +22,15 @@ from rover_dynamics.flexible.flexible_system import FlexibleSystem
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from workbench.execution.result_files import FAILURE, read_result, write_result
-from workbench.execution.task import Progress
 from workbench.tasks.ancf_tire import preset_from
 from workbench.tasks.motion_file import MOTION, write_motion
 from workbench.tasks.rover_ancf_runs import ancf_run, fitted_run
 from workbench.tasks.rover_close_look import write_close_look
 from workbench.tasks.rover_shapes import Watch
 from workbench.tasks.rover_tires import resuming, watching
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["ACCOUNT", "SERIES", "drive_on_ancf_tires", "drive_on_fitted_tires"]
 

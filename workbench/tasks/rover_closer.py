@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -26,10 +26,12 @@ from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward, st
 from rover_dynamics.rover.scenarios.scenario import Scenario, run_scenario
 from rover_dynamics.rover.standing import stand_under_loads
 from workbench.execution.result_files import FAILURE, write_result
-from workbench.execution.task import Progress
 from workbench.tasks.motion_file import MOTION, read_motion
 from workbench.tasks.rover_close_look import EVERY, body_series, coarse_skin
 from workbench.tasks.rover_tires import DAMPING_RATIO, LAW, START_HEIGHT, on_ancf_tires
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["ANIMATION", "animate", "drive_closely", "stands"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,8 +22,10 @@ from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.standing import Standing, stand_under_loads
 from workbench.comparison.rover_crosscheck import WheelPoint, lattice
 from workbench.execution.result_files import FAILURE, read_result, write_result
-from workbench.execution.task import Progress
 from workbench.tasks.ancf_tire import preset_from
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["stand"]
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rover_dynamics.rover.rover_file import read_rover
-from workbench.execution.task import Progress
 from workbench.figures.rover_scene import draw_still
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["ROVER_STILL", "draw"]
 

@@ -8,15 +8,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from contracts.curves import write_curve
 from geometry.planar import build_planar_mesh
 from reference_fe.wheel.section import solve_section
 from workbench.execution.result_files import FAILURE, write_result
-from workbench.execution.task import Progress
-from workbench.study.model_parameters import design_from
+from workbench.study.wheel_design import design_from
 from workbench.tasks.fe import converged_part, load_case
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["solve_orientation"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,8 +19,10 @@ from reference_fe.verification.cantilever import THICKNESS, EndLoad, cantilever_
 from reference_fe.verification.hemisphere import TWENTY_NODES, hemisphere_path, hemisphere_table
 from reference_fe.verification.load_path import LoadPath, relative_error
 from reference_fe.verification.manufactured_solution import Convergence, convergence, with_shear_modulus
-from workbench.execution.task import Progress
 from workbench.tasks.benchmark_runs import Numbers, Runs, run_with_control
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["run_benchmark"]
 

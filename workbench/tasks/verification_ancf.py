@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, astuple
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,8 +19,10 @@ from ancf_reduced.verification.cantilever import EndLoad, cantilever_path, canti
 from ancf_reduced.verification.narrow_cantilever import BentCantilever, bent_cantilever
 from ancf_reduced.verification.pendulum import pendulum_fall
 from ancf_reduced.verification.plate_matrices import misread_shape, plate_errors
-from workbench.execution.task import Progress
 from workbench.tasks.benchmark_runs import Numbers, Runs, run_with_control
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
 
 __all__ = ["run_benchmark"]
 

@@ -15,7 +15,6 @@ from contracts.series import TimeSeries, read_series
 from workbench.checks.rules import Claim, at_most
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, ancf_tire
 from workbench.topics.topic import Topic
@@ -94,8 +93,6 @@ def _tasks(study: Study) -> Sequence[Task]:
             name=f"ancf_{name}",
             function="workbench.tasks.ancf_dynamics:move_wheel",
             inputs=common | motion,
-            sources=(*FILES, "ancf_reduced", "workbench.tasks.ancf_tire"),
-            libraries=("numpy", "numba", "scipy"),
             cost=5.0,
         )
         for name, motion in motions.items()

@@ -17,7 +17,7 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
 from workbench.comparison.ancf_fit import FittedTire, read_fit
-from workbench.comparison.results import ModelCurves, model_curves
+from workbench.comparison.curves import ModelCurves, model_curves
 from workbench.execution.task import Task
 from workbench.graph.fit import AS_IT_IS, fit_name, fit_tasks
 from workbench.study.full import rotational_period

@@ -14,7 +14,6 @@ from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset
 from workbench.topics.topic import Topic
@@ -83,8 +82,6 @@ def _tasks(study: Study) -> Sequence[Task]:
                 "orientations_deg": _orientations(study),
                 "deflections": deflections,
             },
-            sources=(*FILES, "ancf_reduced"),
-            libraries=("numpy", "numba", "scipy"),
             cost=2.0 * factor,
         )
         for factor in FACTORS

@@ -11,10 +11,11 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.contact import AUGMENTED, penalty_check, penetration_check
-from workbench.comparison.results import CURVE
+from workbench.comparison.curves import CURVE
 from workbench.execution.task import Task
-from workbench.graph.fe import INNER_STIFFNESS, degrees, fe_inputs, fe_task, mesh_task, without_fields
+from workbench.graph.fe import INNER_STIFFNESS, fe_inputs, fe_task, mesh_task, without_fields
 from workbench.study.model import Study
+from workbench.tasks.orientation import degrees
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:

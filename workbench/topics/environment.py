@@ -17,20 +17,13 @@ from contracts.materials import Material
 from contracts.materials_tables import KELVIN_AT_ZERO_CELSIUS
 from contracts.materials_temperature import REFERENCE_TEMPERATURE
 from workbench.checks.environment import EnvironmentRun, Series, environment_checks
-from workbench.comparison.results import CURVE
+from workbench.comparison.curves import CURVE
 from workbench.execution.task import Task
-from workbench.graph.fe import (
-    curve_deflections,
-    degrees,
-    fe_inputs,
-    fe_task,
-    material_inputs,
-    orientation_name,
-    without_fields,
-)
+from workbench.graph.fe import curve_deflections, fe_inputs, fe_task, material_inputs, without_fields
 from workbench.study.environment import EnvironmentSection
 from workbench.study.model import Study
-from workbench.study.model_parameters import materials, wheel_design
+from workbench.study.wheel_design import materials, wheel_design
+from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.topic import Topic
 
 __all__ = ["ENVIRONMENT", "environment_tasks"]

@@ -15,12 +15,13 @@ import numpy as np
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
-from workbench.comparison.results import CURVE
+from workbench.comparison.curves import CURVE
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import HUB_PARTS, degrees, fe_inputs, fe_task, mesh_task, without_fields
+from workbench.graph.fe import HUB_PARTS, fe_inputs, fe_task, mesh_task, without_fields
 from workbench.study.model import Study
-from workbench.study.model_parameters import wheel_design
+from workbench.study.wheel_design import wheel_design
+from workbench.tasks.orientation import degrees
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:

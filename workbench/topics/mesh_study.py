@@ -10,15 +10,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from contracts.curves import StiffnessCurve, read_curve
+from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
-from workbench.comparison.mesh_study import MeshRun, MeshStudy, sorted_runs
-from workbench.comparison.results import CURVE
-from workbench.execution.result_files import read_result
+from workbench.comparison.mesh_study import MeshStudy, mesh_run_name, read_mesh_study
 from workbench.execution.task import Task
-from workbench.graph.fe import degrees, fe_inputs, fe_task, mesh_task, orientation_name, without_fields
+from workbench.graph.fe import fe_inputs, fe_task, mesh_task, without_fields
 from workbench.study.model import Study
+from workbench.tasks.orientation import degrees
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:
@@ -57,33 +56,9 @@ def mesh_study_inputs(study: Study) -> dict[str, Any]:
 def mesh_study_runs(study: Study) -> tuple[str, ...]:
     """Names of the tasks whose results `read_mesh_study` reads."""
     inputs = mesh_study_inputs(study)
-    return tuple(_run_name(factor, inputs["curves_factor"], inputs["orientation_deg"]) for factor in inputs["factors"])
-
-
-def read_mesh_study(
-    *,
-    orientation_deg: float,
-    deflections: Sequence[float],
-    factors: Sequence[float],
-    curves_factor: float,
-    folders: Mapping[str, Path],
-) -> MeshStudy:
-    """The mesh study from the result folders of its runs."""
-    runs = []
-    for factor in factors:
-        folder = folders[_run_name(factor, curves_factor, orientation_deg)]
-        curve = read_curve(folder / CURVE, model="fe", orientation_deg=orientation_deg)
-        runs.append(MeshRun(factor=factor, curve=curve, numbers=read_result(folder)))
-    return MeshStudy(
-        orientation_deg=orientation_deg,
-        deflections=tuple(deflections),
-        runs=sorted_runs(runs),
-        curves_factor=curves_factor,
+    return tuple(
+        mesh_run_name(factor, inputs["curves_factor"], inputs["orientation_deg"]) for factor in inputs["factors"]
     )
-
-
-def _run_name(factor: float, curves_factor: float, orientation_deg: float) -> str:
-    return orientation_name("fe", orientation_deg) if factor == curves_factor else f"fe_x{factor:g}"
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> MeshStudy:

@@ -15,7 +15,6 @@ from contracts.records import Check, Role
 from workbench.checks.rules import Claim, at_least, at_most
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
 
@@ -85,8 +84,6 @@ def _tasks(study: Study) -> Sequence[Task]:
             name=_name(problem),
             function="workbench.tasks.multibody:measure_work",
             inputs={"problem": problem, "explicit": list(explicit), "implicit": list(implicit)},
-            sources=(*FILES, "rover_dynamics"),
-            libraries=("numpy", "numba", "scipy"),
             cost=8.0 if problem == "four_bar_40" else 3.0,
         )
         for problem, (explicit, implicit) in ALLOWED.items()

@@ -17,7 +17,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
-from workbench.comparison.results import model_curves
+from workbench.comparison.curves import model_curves
 from workbench.execution.task import Task
 from workbench.study.full import is_mirrored, rotational_period
 from workbench.study.model import Study

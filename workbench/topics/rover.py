@@ -19,14 +19,13 @@ from workbench.checks.mission import MISSION_SOURCE
 from workbench.checks.rules import Claim, at_least, at_most, near
 from workbench.execution.result_files import FAILURE, read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:
     from workbench.comparison.comparison import Comparison
 
-__all__ = ["DRAWN", "ROVER", "RoverResult", "RoverResults"]
+__all__ = ["ROVER", "RoverResult", "RoverResults"]
 
 THESIS = {
     "static": ("static equilibrium", "Fig. 15"),
@@ -49,11 +48,6 @@ MISSION = {
 
 THESIS_TORQUE = 3.5
 """Moment on each drive in the thesis' section 3.5 [N m]."""
-_DRAWN = ("rover_scene", "rover_animation", "rover_solids", "solids", "stills", "palette")
-
-
-DRAWN = ("workbench.tasks.motion_file", "workbench.figures.rover_solids", "workbench.figures.solids")
-"""What decides what is recorded of a motion."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,8 +102,6 @@ def _tasks(study: Study) -> Sequence[Task]:
         name="rover_still",
         function="workbench.tasks.rover_still:draw",
         inputs={},
-        sources=(*FILES, "rover_dynamics", *(f"workbench.figures.{name}" for name in _DRAWN)),
-        libraries=("numpy", "numba", "pyvista", "pillow"),
         cost=5.0,
     )
     return [still, *_scenario_tasks()]
@@ -121,8 +113,6 @@ def _scenario_tasks() -> list[Task]:
             name=f"rover_{name}",
             function="workbench.tasks.rover:drive_rover",
             inputs={"scenario": name},
-            sources=(*FILES, *DRAWN, "rover_dynamics"),
-            libraries=("numpy", "numba", "scipy"),
             cost=2.0,
         )
         for name in (*THESIS, *MISSION)

@@ -17,13 +17,11 @@ from contracts.records import Check, Role
 from contracts.series import TimeSeries
 from workbench.checks.mission import mission_checks
 from workbench.checks.rules import Claim, at_least, at_most, near
-from workbench.comparison.results import model_curves
+from workbench.comparison.curves import model_curves
 from workbench.comparison.rover_ancf_results import OBSERVED, AncfRover
 from workbench.comparison.rover_drive import Drive, read_drive
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES
 from workbench.study.model import Study
-from workbench.topics.rover import DRAWN
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:
@@ -67,17 +65,6 @@ def _tasks(study: Study) -> Sequence[Task]:
             name=f"rover_ancf_{name}",
             function="workbench.tasks.rover_ancf:drive_on_ancf_tires",
             inputs={"run": name, **_KEPT.get(name, {})},
-            sources=(
-                *FILES,
-                *DRAWN,
-                "rover_dynamics",
-                "ancf_reduced",
-                "workbench.tasks.rover_tires",
-                "workbench.tasks.rover_shapes",
-                "workbench.tasks.rover_ancf_runs",
-                "workbench.tasks.rover_close_look",
-            ),
-            libraries=("numpy", "numba", "scipy"),
             cost=(SHORT | LONG)[name],
             resumable=True,
         )

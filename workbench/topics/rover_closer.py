@@ -20,7 +20,6 @@ from workbench.comparison.rover_closer_results import GROUNDS, CloserLook, Resti
 from workbench.comparison.rover_drive import read_drive
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES
 from workbench.study.model import Study
 from workbench.topics.rover_mission import ROVER_MISSION
 from workbench.topics.topic import Topic
@@ -33,7 +32,6 @@ __all__ = ["ROVER_CLOSER"]
 TASK, ANIMATION, STRAIGHT = "rover_closer", "rover_animation", "rover_ancf_straight"
 _RULE = TableRule(what="pressure file", first=("time_s",), units="give SI units")
 _FIGURES = ("rover_animation", "tire_animation", "rover_solids", "solids", "stills", "palette")
-_DRAWN = ("tasks.motion_file", *(f"figures.{name}" for name in _FIGURES))
 
 
 def _tasks(study: Study) -> Sequence[Task]:
@@ -43,15 +41,6 @@ def _tasks(study: Study) -> Sequence[Task]:
             name=TASK,
             function="workbench.tasks.rover_closer:drive_closely",
             inputs={"lasts": 20.0, "rocks": 3},
-            sources=(
-                *FILES,
-                "ancf_reduced",
-                "rover_dynamics",
-                "workbench.tasks.rover_tires",
-                "workbench.tasks.rover_shapes",
-                "workbench.tasks.rover_close_look",
-            ),
-            libraries=("numpy", "numba", "scipy"),
             cost=14.0,
         ),
         Task(
@@ -59,8 +48,6 @@ def _tasks(study: Study) -> Sequence[Task]:
             function="workbench.tasks.rover_closer:animate",
             inputs={"motion": STRAIGHT, "frames": 60, "title": "Straight path at 70 m/h on ANCF tires"},
             needs=(STRAIGHT,),
-            sources=(*FILES, "ancf_reduced", *(f"workbench.{name}" for name in _DRAWN)),
-            libraries=("numpy", "pyvista", "pillow"),
             cost=14.0,
         ),
     ]

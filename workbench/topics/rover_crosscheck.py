@@ -17,7 +17,8 @@ from contracts.materials_temperature import temperature_data
 from contracts.records import Check, Role
 from rover_dynamics.rover.rover_file import read_rover
 from workbench.checks.rules import Claim, at_most
-from workbench.comparison.results import CURVE, model_curves
+from workbench.comparison.curves import CURVE, model_curves
+from workbench.comparison.mesh_study import read_mesh_study
 from workbench.comparison.rover_crosscheck import (
     ALLOWED,
     CrossCheck,
@@ -29,12 +30,13 @@ from workbench.comparison.rover_crosscheck import (
 )
 from workbench.execution.result_files import FAILURE, read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES, curve_deflections, degrees, orientation_name
+from workbench.graph.fe import curve_deflections
 from workbench.graph.fit import fit_name
 from workbench.graph.section import section_task, without_planar_model
 from workbench.study.full import is_mirrored, rotational_period
 from workbench.study.model import Study
-from workbench.topics.mesh_study import mesh_study_inputs, read_mesh_study
+from workbench.tasks.orientation import degrees, orientation_name
+from workbench.topics.mesh_study import mesh_study_inputs
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:
@@ -64,14 +66,6 @@ def _tasks(study: Study) -> Sequence[Task]:
                 "modulus_ratios": [ratio for _, ratio in _modulus_ratios()] if tire == section.kept else [],
             },
             needs=(fit_name(tire.name),),
-            sources=(
-                *FILES,
-                "ancf_reduced",
-                "rover_dynamics",
-                "workbench.tasks.ancf_tire",
-                "workbench.comparison.rover_crosscheck",
-            ),
-            libraries=("numpy", "numba", "scipy"),
             cost=10.0,
         )
         for tire in section.tires

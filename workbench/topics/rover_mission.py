@@ -16,7 +16,6 @@ from workbench.checks.mission import mission_checks
 from workbench.comparison.mission_row import MissionRow, mission_rows
 from workbench.comparison.rover_drive import Drive, read_drive
 from workbench.execution.task import Task
-from workbench.graph.fe import FILES
 from workbench.graph.fit import fit_name
 from workbench.study.model import Study
 from workbench.topics.rover_crosscheck import ROVER_CROSSCHECK
@@ -64,17 +63,6 @@ def _tasks(study: Study) -> Sequence[Task]:
             function="workbench.tasks.rover_ancf:drive_on_fitted_tires",
             inputs={"run": name, "fit": fit},
             needs=(fit,),
-            sources=(
-                *FILES,
-                "rover_dynamics",
-                "ancf_reduced",
-                "workbench.tasks.rover_tires",
-                "workbench.tasks.rover_shapes",
-                "workbench.tasks.rover_ancf_runs",
-                "workbench.tasks.rover_close_look",
-                "workbench.tasks.ancf_tire",
-            ),
-            libraries=("numpy", "numba", "scipy"),
             cost=(SHORT | LONG)[name],
             resumable=True,
         )

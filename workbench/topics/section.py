@@ -11,7 +11,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.section import largest_difference, section_checks
-from workbench.comparison.results import ModelCurves, model_curves
+from workbench.comparison.curves import ModelCurves, model_curves
 from workbench.graph.section import section_tasks, without_planar_model
 from workbench.study.model import Study
 from workbench.topics.topic import Topic

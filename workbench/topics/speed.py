@@ -20,7 +20,7 @@ from workbench.checks.speed_aim import Aim
 from workbench.checks.speed_ancf import ARITHMETIC, CHRONO, TIRE, ancf_aims
 from workbench.checks.speed_flexible import flexible_aims
 from workbench.checks.speed_rover import rover_aims
-from workbench.comparison.results import ModelCurves, model_curves
+from workbench.comparison.curves import ModelCurves, model_curves
 from workbench.execution.task import Task
 from workbench.graph.section import without_planar_model
 from workbench.study.model import Study

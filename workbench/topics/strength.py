@@ -13,11 +13,11 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_least
-from workbench.comparison.results import model_curves
+from workbench.comparison.curves import model_curves
 from workbench.comparison.yielding import FirstYield, first_yield, smallest_yield_load, utilisation
 from workbench.execution.task import Task
 from workbench.study.model import Study
-from workbench.study.model_parameters import part_materials
+from workbench.study.wheel_design import part_materials
 from workbench.topics.topic import Topic
 
 __all__ = ["STRENGTH", "StrengthResults"]

@@ -16,7 +16,6 @@ from workbench.checks.verification_ancf import ANCF_BENCHMARKS
 from workbench.comparison.verification_lines import Benchmark, Reader, benchmark_lines
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.graph.fe import FE, FILES, Origin
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
 
@@ -24,10 +23,6 @@ if TYPE_CHECKING:
     from workbench.comparison.comparison import Comparison
 
 __all__ = ["VERIFICATION", "ModelVerification", "Verification"]
-
-_RUNS = "workbench.tasks.benchmark_runs"
-_FE = Origin(sources=(*FE["sources"], _RUNS), libraries=FE["libraries"])
-_ANCF = Origin(sources=(*FILES, "geometry", "ancf_reduced", _RUNS), libraries=("numpy", "numba", "scipy"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,14 +59,14 @@ class Verification:
 
 def _tasks(study: Study) -> Sequence[Task]:
     return [
-        *(_task(name, "workbench.tasks.verification", 5.0, _FE) for name in BENCHMARKS),
-        *(_task(name, "workbench.tasks.verification_ancf", 2.0, _ANCF) for name in ANCF_BENCHMARKS),
+        *(_task(name, "workbench.tasks.verification", 5.0) for name in BENCHMARKS),
+        *(_task(name, "workbench.tasks.verification_ancf", 2.0) for name in ANCF_BENCHMARKS),
     ]
 
 
-def _task(benchmark: str, module: str, cost: float, origin: Origin) -> Task:
+def _task(benchmark: str, module: str, cost: float) -> Task:
     inputs = {"benchmark": benchmark}
-    return Task(name=_task_name(benchmark), function=f"{module}:run_benchmark", inputs=inputs, cost=cost, **origin)
+    return Task(name=_task_name(benchmark), function=f"{module}:run_benchmark", inputs=inputs, cost=cost)
 
 
 def _task_name(benchmark: str) -> str:

@@ -1,0 +1,185 @@
+"""What decides a result: the modules that its function reaches, found from imports; a changed line changes those keys.
+
+Source: Python's import statements; the package below has each kind of them. That nothing is missed is held against what
+workers load, in tests/end_to_end/test_reached.py.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib.metadata
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from workbench.execution import reach
+from workbench.execution.reach import PACKAGES, reached, reached_libraries
+from workbench.graph.study_graph import report_tasks
+from workbench.study.reading import built_in_study, read_study
+
+ROOT = Path(__file__).parents[2]
+TREE = {
+    "geometry/__init__.py": "from geometry.all import everything\n",
+    "geometry/all.py": "everything = 1\n",
+    "geometry/task.py": (
+        "from typing import TYPE_CHECKING\nimport json\nimport geometry.plain\nfrom geometry import part as p\n"
+        "from geometry.deep.names import value\n"
+        "if TYPE_CHECKING:\n    from geometry.types_only import T\nelse:\n    import geometry.otherwise\n"
+        "def f():\n    from geometry.lazy import g\n    return open('table.csv'), 'note', 'words.toml'\n"
+    ),
+    "geometry/plain.py": "import numpy.linalg\nimport geometry.task\n",
+    "geometry/part.py": "",
+    "geometry/lazy.py": "try:\n    from geometry.second import h\nexcept ImportError:\n    pass\n",
+    "geometry/second.py": "from PIL import Image\n",
+    "geometry/otherwise.py": "",
+    "geometry/types_only.py": "",
+    "geometry/unrelated.py": "import scipy\nname = 'secret.csv'\n",
+    "geometry/deep/__init__.py": "import geometry.unrelated\n",
+    "geometry/deep/names.py": "value = 1\n",
+    "geometry/whole.py": "from geometry import everything\n",
+    "geometry/data/table.csv": "1\n",
+    "geometry/secret.csv": "2\n",
+    "geometry/note.csv": "3\n",
+    "workbench/__init__.py": "",
+    "workbench/words.toml": "a = 1\n",
+}
+
+
+@pytest.fixture
+def tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Packages of our names with each kind of import."""
+    for name, text in TREE.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    monkeypatch.setattr(reach, "PACKAGES", ("geometry", "workbench"))
+    monkeypatch.setattr(reach, "_root", _Roots(tmp_path))
+    _clear = (
+        reach.reached,
+        reach.reached_libraries,
+        reach.source_hash,
+        reach._named,
+        reach._data_files,
+        reach._is_module,
+    )
+    for one in _clear:
+        one.cache_clear()
+    yield tmp_path
+    for one in _clear:
+        one.cache_clear()
+
+
+class _Roots:
+    """Packages in a folder of the test's."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+
+    def __call__(self, package: str) -> Path:
+        if not (self.root / package).is_dir():
+            raise ModuleNotFoundError(package)
+        return self.root / package
+
+
+@pytest.mark.usefixtures("tree")
+def test_imports_of_any_kind_are_followed_and_nothing_else() -> None:
+    names = ("deep.names", "lazy", "otherwise", "part", "plain", "second", "task")
+    assert set(reached("geometry.task")) == {"geometry/data/table.csv", *(f"geometry.{name}" for name in names)}
+    assert reached_libraries("geometry.task") == ("numpy", "pillow")
+    assert list(reached("geometry.whole")) == ["geometry", "geometry.all", "geometry.whole"]
+    assert list(reached("geometry.unrelated")) == ["geometry.unrelated", "geometry/secret.csv"]
+    with pytest.raises(ModuleNotFoundError):
+        reached("geometry.nowhere")
+
+
+def test_a_changed_byte_of_what_is_reached_changes_the_hashes(tree: Path) -> None:
+    before = reached("geometry.task")
+    for name in TREE:
+        path = tree / name
+        path.write_text(TREE[name] + " ", encoding="utf-8")
+        reach.reached.cache_clear()
+        reach.source_hash.cache_clear()
+        named = name if not name.endswith(".py") else name.removesuffix(".py").replace("/", ".")
+        assert (reached("geometry.task") != before) is (named in before), name
+        path.write_text(TREE[name], encoding="utf-8")
+
+
+SCRIPT = """
+import json, sys
+from pathlib import Path
+from workbench.execution import reach
+from workbench.execution.task import task_keys
+from workbench.graph.study_graph import report_tasks
+from workbench.study.reading import built_in_study, read_study
+root = Path(sys.argv[1])
+tasks = report_tasks(read_study(built_in_study()), built_in_study().parent)
+before, found = task_keys(tasks), {}
+for name in json.loads(sys.argv[2]):
+    path = root / name
+    text = path.read_bytes()
+    path.write_bytes(text + b"\\n# changed\\n")
+    reach.reached.cache_clear(), reach.source_hash.cache_clear()
+    after = task_keys(tasks)
+    found[name] = sorted(task for task in before if after[task] != before[task])
+    path.write_bytes(text)
+print(json.dumps(found))
+"""
+FE, ROVER = ("fe_", "mesh", "environment_", "section_"), ("rover_",)
+CHANGED = {
+    "workbench/tasks/contact.py": {"fe_phi000", "fe_phi060", "fe_x2"},
+    "workbench/study/quantities.py": {"mesh", "mesh_whole", "fe_phi000", "section_phi000"},
+    "workbench/study/wheel.py": {"mesh", "mesh_whole", "fe_phi000", "section_phi000"},
+    "workbench/tasks/ancf_tire.py": {"ancf_phi000", "ancf_phi045"},
+    "workbench/comparison/grid_convergence.py": {"ancf_fit_six_spokes"},
+    "reference_fe/contact/law.py": {"fe_phi000"},
+    "rover_dynamics/rover/exomars_rover.toml": {"rover_straight", "rover_ancf_straight"},
+    "contracts/published/hertz_line.csv": {"verify_hertz"},
+    "workbench/report/page.py": set(),
+    "workbench/figures/interactive.py": set(),
+    "workbench/checks/fe.py": set(),
+    "workbench/data/ranges.toml": set(),
+    "workbench/study/reading.py": set(),
+}
+"""File -> some of the tasks whose keys a changed line must change; none at all where there is none."""
+
+
+def test_a_changed_line_changes_the_keys_of_what_can_reach_it(tmp_path: Path) -> None:
+    """The first five are those that a list kept by hand had missed."""
+    for package in PACKAGES:
+        shutil.copytree(ROOT / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "studies", tmp_path / "studies")
+    files = [name for name in CHANGED if (ROOT / name).is_file()]
+    assert len(files) == len(CHANGED), set(CHANGED) - set(files)
+    command = [sys.executable, "-c", SCRIPT, str(tmp_path), json.dumps(files)]
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=600)
+    assert run.returncode == 0, run.stderr
+    found = json.loads(run.stdout)
+    for name, some in CHANGED.items():
+        assert some <= set(found[name]), (name, some - set(found[name]))
+        assert found[name] or not some
+        assert some or found[name] == [], name
+
+
+def test_every_library_has_its_distribution() -> None:
+    """A version that reads "missing" would never change."""
+    tasks = report_tasks(read_study(built_in_study()), built_in_study().parent)
+    names = {name for task in tasks for name in reached_libraries(task.function.partition(":")[0])}
+    installed = {str(one.name).lower().replace("_", "-") for one in importlib.metadata.distributions()}
+    assert names <= installed
+    assert {"numpy", "numba", "gmsh", "dolfinx-solver-real", "fenics-ffcx", "vtk"} <= names
+
+
+def test_nothing_reached_imports_by_a_name_made_at_run_time() -> None:
+    """No import of ours hides from the text."""
+    tasks = report_tasks(read_study(built_in_study()), built_in_study().parent)
+    modules = {name for task in tasks for name in reached(task.function.partition(":")[0]) if "/" not in name}
+    for module in modules:
+        calls = [n for n in ast.walk(ast.parse(reach._file(module).read_text("utf-8"))) if isinstance(n, ast.Call)]
+        hidden = [
+            ast.unparse(n) for n in calls if ast.unparse(n.func).rpartition(".")[2] in ("import_module", "__import__")
+        ]
+        assert hidden == [], module
