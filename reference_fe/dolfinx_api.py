@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING, Any
 from reference_fe.form_cache import sole_compiler
 from reference_fe.solver import triangular_product
 from reference_fe.solver.loopback import keep_to_this_machine
+from reference_fe.solver.signals import leave_signals_alone
 
 with contextlib.suppress(ModuleNotFoundError):
     keep_to_this_machine()  # before MPI is loaded
+    leave_signals_alone()  # before PETSc is loaded
     triangular_product.provide()  # before PETSc is loaded
     import dolfinx_solver  # noqa: F401  (sets up the libraries of the PyPI wheel)
 
