@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.end_to_end.small_study import run
+from tests.end_to_end.small_study import run, said
 from workbench.cli import _run
 
 OURS = "deflection_m,load_N\n0,0\n0.01,88\n0.02,176\n0.03,264\n"
@@ -38,6 +38,15 @@ def test_two_curves_from_anywhere(tmp_path: Path) -> None:
     assert ended.returncode == 0, ended.stderr
     for text in ("10.000 %", "25.000 N", "ISO/TS 18571", "0.8333 N/mm", "energy to 250 N", "-9.09 %"):
         assert text in ended.stdout
+
+
+def test_a_curve_of_metres_is_told(files: tuple[Path, Path], tmp_path: Path) -> None:
+    (tmp_path / "wide.csv").write_text("deflection_m,load_N\n0,0\n8,275\n", encoding="utf-8")
+    ended = said("compare", tmp_path / "wide.csv", files[1])
+    assert ended.returncode == 0
+    told = f"workbench: warning: {tmp_path / 'wide.csv'}: largest deflection = 8000 mm is unusual"
+    assert ended.stderr.startswith(told)
+    assert ended.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize(

@@ -163,3 +163,9 @@ def test_numbers_that_no_tire_has_are_refused(tmp_path: Path, factor: tuple[floa
 def test_an_uncertainty_beyond_numbers_is_refused() -> None:
     with pytest.raises(InputError, match="must not exceed 1e12 N"):
         load_uncertainty("1e200 N", np.ones(3))
+
+
+def test_a_tire_that_carries_nothing_is_a_curve(tmp_path: Path) -> None:
+    """Zero is a load; next to zero is a mistaken unit."""
+    (tmp_path / "c.csv").write_text("deflection_mm,load_N\n0,0\n10,0\n20,0\n", encoding="utf-8")
+    assert read_measured_curve(tmp_path / "c.csv").curve.load.max() == 0.0

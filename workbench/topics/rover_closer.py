@@ -31,7 +31,6 @@ __all__ = ["ROVER_CLOSER"]
 
 TASK, ANIMATION, STRAIGHT = "rover_closer", "rover_animation", "rover_ancf_straight"
 _RULE = TableRule(what="pressure file", first=("time_s",), units="give SI units")
-_FIGURES = ("rover_animation", "tire_animation", "rover_solids", "solids", "stills", "palette")
 
 
 def _tasks(study: Study) -> Sequence[Task]:
