@@ -23,15 +23,16 @@ _PACKAGE = Path(__file__).parents[1]
 
 
 def compiled[F: Callable[..., object]](function: F) -> F:
-    """Compile with numba; sums may be re-associated and contracted, nothing else is relaxed.
+    """Compile with numba, no rule of arithmetic relaxed, cached on disk for the present sources of the package.
 
-    Cached on disk for the present sources of the package.
+    Where sums may be contracted, the digits depend on which functions were compiled together and which came from the
+    cache: a run that was killed and started again ended with other last digits. It was no faster either.
     """
     config = cast(Any, numba.config)
     users = config.CACHE_DIR
     config.CACHE_DIR = users or str(compile_cache(_PACKAGE))
     try:
-        jit = numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})
+        jit = numba.njit(cache=True, error_model="numpy")
         return cast(F, jit(function))
     finally:
         config.CACHE_DIR = users

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
+from numba.core.registry import CPUDispatcher
 from scipy.spatial.transform import Rotation
 
 from rover_dynamics.multibody.compiled import (
@@ -63,3 +66,11 @@ def test_rate_is_the_derivative_of_a_rotation_about_a_world_axis() -> None:
     at = [(Rotation.from_rotvec(k * h * w) * start).as_quat(scalar_first=True) for k in (-1, 0, 1)]
     rate = quaternion_rates(at[1][None], w[None])[0]
     np.testing.assert_allclose(rate, (at[2] - at[0]) / (2 * h), atol=1e-9)
+
+
+def test_no_rule_of_arithmetic_is_relaxed() -> None:
+    """Else the last digits depend on what was compiled together: seen in runs killed while they compiled."""
+    modules = [m for name, m in sys.modules.items() if name.startswith("rover_dynamics")]
+    functions = {f for m in modules for f in vars(m).values() if isinstance(f, CPUDispatcher)}
+    assert len(functions) > 10
+    assert [f.__name__ for f in functions if f.targetoptions.get("fastmath")] == []
