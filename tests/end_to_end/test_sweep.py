@@ -125,3 +125,12 @@ def test_bad_input_is_one_message_before_anything_runs(tmp_path: Path, swept: st
     assert message in line
     assert not (tmp_path / "out").exists()
     assert not (tmp_path / "store").exists()
+
+
+def test_many_points_are_announced_before_they_are_read(tmp_path: Path) -> None:
+    """Ten thousand took minutes without a word."""
+    swept = '[sweep]\ndesign = "latin-hypercube"\nsamples = 120\nstrip_thickness = ["0.5 mm", "0 mm"]\n'
+    (tmp_path / "study.toml").write_text(f"{small_study_text()}\n{swept}", encoding="utf-8")
+    ended = said("sweep", "study.toml", "--out", "out", "--store", "store", folder=tmp_path)
+    assert (ended.returncode, len(ended.stderr.splitlines())) == (2, 1)
+    assert ended.stdout.startswith("reading 120 points, each as a whole study")

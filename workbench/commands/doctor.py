@@ -17,6 +17,7 @@ __all__ = ["run_doctor"]
 
 def run_doctor(*, mend: bool = False) -> int:
     """Show what was found; 2 if something is missing. With ``mend``, install the system's packages and look again."""
+    console.print("every library is loaded and used once, some seconds")
     found = examine()
     if mend and found.packages:
         install(found.packages)

@@ -23,19 +23,23 @@ from workbench.report.sweep_page import sweep_page
 from workbench.study.magnitudes import unusual
 from workbench.study.model import Study
 from workbench.study.reading import read_study_table, study_of
-from workbench.study.sweep_points import Point, sweep_points
+from workbench.study.sweep_points import Point, design_points, sweep_points
 
 __all__ = ["run_sweep"]
 
 _FILES = ("sweep.csv", "sweep.parquet", "sweep.html")
 _MOST_WARNINGS = 20
+_MANY = 100
+"""Points that take so long to read, some 40 ms each, that it is said."""
 
 
 def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) -> int:
     """Every point of the study's [sweep]; 0 if all have a curve, else everything is written and RunError raised."""
     content = read_study_table(study_path)
-    points = sweep_points(study_path, content)
     study = study_of(study_path, content)
+    if study.sweep is not None and (count := len(design_points(study.sweep))) > _MANY:
+        console.print(f"reading {count} points, each as a whole study: some {count // 25} s", soft_wrap=True)
+    points = sweep_points(study_path, content)
     assert study.sweep is not None
     warn(study_path, _warnings(study, points))
     check_folder(out)
