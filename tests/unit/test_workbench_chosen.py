@@ -9,6 +9,8 @@ import pytest
 from contracts.errors import InputError
 from rover_dynamics.tires.brush_settings import BrushSettings
 from workbench.report.chosen import chosen_groups
+from workbench.study.key_units import nameless
+from workbench.study.magnitudes import warnings_of
 from workbench.study.reading import built_in_study, read_study
 
 STUDY = read_study(built_in_study())
@@ -33,6 +35,19 @@ def test_values_are_those_of_the_study_the_rover_file_and_the_code() -> None:
     assert NUMBERS["Relaxation length"].value == f"{1e3 * BrushSettings().relaxation_length:g} mm"
     assert NUMBERS["Centre of mass of the principal body (x, y, z)"].value == "(-20.2, 0, 430) mm"
     assert NUMBERS["Lean allowed over obstacles"].value == "30 deg"
+
+
+def test_a_reason_for_no_key_of_the_study_is_told() -> None:
+    given = {"wheel.tire.thicknes": "a", "whee.*": "b", "wheel.*.material": "c", "": "d", "fe.orientations": "e"}
+    told = [
+        warning for warning in warnings_of(STUDY.model_copy(update={"inferred": given})) if "names no key" in warning
+    ]
+    assert [warning.split("'")[1] for warning in told] == ["wheel.tire.thicknes", "whee.*", ""]
+
+
+def test_every_reason_in_the_study_files_is_for_a_key() -> None:
+    for file in built_in_study().parent.glob("*.toml"):
+        assert nameless(read_study(file)) == ()
 
 
 def _thin(thickness: float) -> object:

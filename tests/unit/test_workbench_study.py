@@ -75,7 +75,11 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     "nan with unit": (THICKNESS, 'thickness = "nan mm"', ["wheel.tire.thickness", "finite"]),
     "infinite": (THICKNESS, "thickness = inf", ["wheel.tire.thickness = inf", "finite"]),
     "boolean": (THICKNESS, "thickness = true", ["wheel.tire.thickness", "must be a length"]),
-    "unknown key": (THICKNESS, 'thicknes = "0.6 mm"', ["wheel.tire.thicknes = '0.6 mm'", "not a known key"]),
+    "unknown key": (
+        THICKNESS,
+        'thicknes = "0.6 mm"',
+        ["wheel.tire.thicknes = '0.6 mm'", "not a known key; use thickness"],
+    ),
     "missing key": (THICKNESS, "", ["wheel.tire.thickness: is missing; add it"]),
     "unknown section": (r"\[wheel.tire\]", "[wheel.tyre]", ["wheel.tyre", "not a known key"]),
     "hub larger than rim": (

@@ -1,12 +1,13 @@
-"""What the study says of one of its keys: the SI unit of its number, and whether it is a whole number.
+"""What the study says of one of its keys: whether it is one, the SI unit of its number, whether it is a whole number.
 
-Verified by tests/unit/test_workbench_sweep_points.py.
+Verified by tests/unit/test_workbench_sweep_points.py and tests/unit/test_workbench_chosen.py.
 """
 
 from __future__ import annotations
 
+import difflib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, TypeAliasType, get_args
 
 from pydantic import BeforeValidator
@@ -15,7 +16,7 @@ from workbench.study.model import Study
 from workbench.study.quantities import InUnit
 from workbench.study.section import Section
 
-__all__ = ["is_whole_number", "parts_of", "unit_of"]
+__all__ = ["is_whole_number", "nameless", "nearest_key", "parts_of", "unit_of"]
 
 _PART = re.compile(r"\[(\d+)\]|([^.\[\]]+)")
 
@@ -38,12 +39,28 @@ def is_whole_number(key: str) -> bool:
     return int in list(_types(key)) and unit_of(key) is None
 
 
-def _types(key: str) -> list[Any]:
+def nearest_key(key: Sequence[str | int]) -> str | None:
+    """The key of the same section that is spelled most like this unknown one; None if none is."""
+    sections = [kind for kind in _types(key[:-1]) if isinstance(kind, type) and issubclass(kind, Section)]
+    names = [name for kind in sections for name in kind.model_fields]
+    return next(iter(difflib.get_close_matches(str(key[-1]), names, n=1)), None)
+
+
+def nameless(study: Study) -> tuple[str, ...]:
+    """Keys of [inferred] that name no key of a study file, a line each; ``*`` stands for any key of a section."""
+    return tuple(
+        f"inferred.{key!r} names no key of the study; correct its spelling, e.g. wheel.tire.thickness or wheel.*"
+        for key in study.inferred
+        if not key or not _types(key)
+    )
+
+
+def _types(key: str | Sequence[str | int]) -> list[Any]:
     """Types and validators of a key, outermost first; none for a key that the study does not have."""
     found: list[Any] = [Study]
-    for part in parts_of(key):
+    for part in parts_of(key) if isinstance(key, str) else key:
         sections = [kind for kind in found if isinstance(kind, type) and issubclass(kind, Section)]
-        fields = [kind.model_fields[part] for kind in sections if isinstance(part, str) and part in kind.model_fields]
+        fields = [field for kind in sections for name, field in kind.model_fields.items() if part in (name, "*")]
         if fields:
             found = [kind for field in fields for kind in (*_nested(field.annotation), *field.metadata)]
         elif isinstance(part, str) and sections and dict not in found:

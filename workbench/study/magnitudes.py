@@ -14,6 +14,7 @@ from pydantic import BaseModel
 
 from contracts.errors import InputError
 from contracts.ranges import Key, Oddity, RangeTable, dotted, oddities, range_table
+from workbench.study.key_units import nameless
 from workbench.study.loosened import loosened
 from workbench.study.model import DATA, Study
 
@@ -62,8 +63,8 @@ def unusual(study: Study) -> tuple[str, ...]:
 
 
 def warnings_of(study: Study) -> tuple[str, ...]:
-    """What a report says of its study: unusual numbers, gates that are easier than the project's own."""
-    return (*unusual(study), *loosened(study))
+    """What a report says of its study: unusual numbers, gates easier than the project's own, reasons for no key."""
+    return (*unusual(study), *loosened(study), *nameless(study))
 
 
 def unusual_curve(deflection: NDArray[np.float64], load: NDArray[np.float64]) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ from contracts.errors import InputError, StudyError
 from contracts.input_file import input_table
 from contracts.ranges import Key, dotted
 from workbench.study.curve_file import in_si
+from workbench.study.key_units import nearest_key
 from workbench.study.magnitudes import impossible
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
@@ -111,6 +112,8 @@ def _study_error(path: Path, error: ValidationError) -> StudyError:
     value = "" if first["type"] == "missing" else _shown(first["input"])
     if first["type"] in _HINTS:
         rule, hint = _HINTS[first["type"]]
+        if first["type"] == "extra_forbidden" and (meant := nearest_key(first["loc"])):
+            hint = f"use {meant}, if that is meant; else remove it"
     elif first["type"] == "key_in_section":
         rule, hint, value = (str(first["ctx"][name]) for name in ("rule", "hint", "value"))
         key += f".{first['ctx']['key']}"
