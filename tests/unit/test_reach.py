@@ -23,16 +23,19 @@ from workbench.graph.study_graph import report_tasks
 from workbench.study.reading import built_in_study, read_study
 
 ROOT = Path(__file__).parents[2]
+FILES = [path.relative_to(ROOT).with_suffix("") for name in PACKAGES for path in (ROOT / name).rglob("*.py")]
+MODULES = sorted(".".join(path.parts[:-1] if path.name == "__init__" else path.parts) for path in FILES)
 TREE = {
     "geometry/__init__.py": "from geometry.all import everything\n",
     "geometry/all.py": "everything = 1\n",
     "geometry/task.py": (
-        "from typing import TYPE_CHECKING\nimport json\nimport geometry.plain\nfrom geometry import part as p\n"
+        "from typing import TYPE_CHECKING\nimport json\nimport geometry.plain\n"
+        "from geometry import (\n    part as p,  # (the) part\n)\n"
         "from geometry.deep.names import value\n"
         "if TYPE_CHECKING:\n    from geometry.types_only import T\nelse:\n    import geometry.otherwise\n"
         "def f():\n    from geometry.lazy import g\n    return open('table.csv'), 'note', 'words.toml'\n"
     ),
-    "geometry/plain.py": "import numpy.linalg\nimport geometry.task\n",
+    "geometry/plain.py": "import numpy.linalg as la, geometry.task  # import scipy\n",
     "geometry/part.py": "",
     "geometry/lazy.py": "try:\n    from geometry.second import h\nexcept ImportError:\n    pass\n",
     "geometry/second.py": "from PIL import Image\n",
@@ -83,6 +86,40 @@ class _Roots:
         if not (self.root / package).is_dir():
             raise ModuleNotFoundError(package)
         return self.root / package
+
+
+def _parsed(module: str) -> tuple[set[str], set[str]]:
+    """Names that a module imports and words in its quotes, by Python's own parser; without ``if TYPE_CHECKING``."""
+    imported, words, waiting = set[str](), set[str](), [ast.parse(reach._file(module).read_text(encoding="utf-8"))]
+    while waiting:
+        node: ast.AST = waiting.pop()
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            words.add(node.value)
+        elif isinstance(node, ast.Import):
+            imported |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            assert node.level == 0
+            imported |= reach._from(node.module, [alias.name for alias in node.names])
+        only_types = isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        waiting += node.orelse if only_types else ast.iter_child_nodes(node)  # type: ignore[attr-defined,arg-type]
+    return imported, words
+
+
+def test_of_every_module_nothing_is_missed_that_the_parser_finds() -> None:
+    """More is found only where a program is kept as text, or a file is named in a docstring."""
+    more, data = set[str](), set(reach._data_files())
+    data |= {name.removesuffix(".csv") for name in data}
+    for module in MODULES:
+        imported, words = _parsed(module)
+        found = reach._named(module)
+        assert {name for name in imported if name.partition(".")[0] in PACKAGES} <= found.modules, module
+        tops = {name.partition(".")[0] for name in imported}
+        assert tops - sys.stdlib_module_names - set(PACKAGES) <= found.libraries, module
+        assert words & data <= found.words, module
+        if found.modules - imported or found.words & data - words:
+            more.add(module)
+    assert more <= {"workbench.execution.load_checks", "contracts.published"}
+    assert len(MODULES) > 500
 
 
 @pytest.mark.usefixtures("tree")

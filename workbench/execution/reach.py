@@ -1,18 +1,18 @@
 """What a task's function can reach: the modules of ours it imports, at any depth and moment, and their data files.
 
 Found from the text of the imports, nothing is imported: this stays cheap for packages that load PETSc or gmsh. Imports
-within functions count, those for types alone do not. A package's ``__init__`` counts only where it is named itself:
-that ``geometry.build`` is imported does not make the names that ``geometry`` collects an input. A data file counts
-where a module of its package that is reached names it.
+within functions and in programs kept as text count, those for types alone do not. A package's ``__init__`` counts only
+where it is named itself: that ``geometry.build`` is imported does not make the names that ``geometry`` collects an
+input. A data file counts where a module of its package that is reached names it.
 
 Verified by tests/unit/test_reach.py and, against what workers load, tests/end_to_end/test_reached.py.
 """
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import importlib.util
+import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -32,6 +32,11 @@ _DISTRIBUTIONS = {
     "objective_rating_metrics": ("objective-rating-metrics",),
 }
 """Name of an import -> the distributions behind it, where it is not its own."""
+_IMPORT = re.compile(r"^ *(?:from ([\w.]+) import (\([^)]*\)|.+)|import (.+))", re.MULTILINE)
+_COMMENT = re.compile("#.*")
+_TYPES_ALONE = re.compile(r"^( *)if TYPE_CHECKING:\n(?:\1 .*\n|\n)*", re.MULTILINE)
+_WORD = re.compile(r"[\"']([\w.-]+)[\"']")
+"""Reading the text costs a quarter of parsing it; tests/unit/test_reach.py parses every module and finds the same."""
 
 
 @cache
@@ -106,37 +111,25 @@ class _Named:
 
 @cache
 def _named(module: str) -> _Named:
-    imported, words = set[str](), set[str]()
-    for node in _met(ast.parse(_file(module).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            words.add(node.value)
-        elif isinstance(node, ast.Import):
-            imported |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            imported |= _from(node)
+    text = _TYPES_ALONE.sub("", _file(module).read_text(encoding="utf-8"))
+    imported = set[str]()
+    for package, names, packages in _IMPORT.findall(_COMMENT.sub("", text)):
+        if packages:
+            imported |= {name.split()[0] for name in packages.split(",")}
+        else:
+            imported |= _from(package, [name.split()[0] for name in names.strip("()").split(",") if name.strip()])
     ours = frozenset(name for name in imported if name.partition(".")[0] in PACKAGES)
     tops = {name.partition(".")[0] for name in imported - ours}
-    return _Named(modules=ours, libraries=frozenset(tops - sys.stdlib_module_names), words=frozenset(words))
+    return _Named(
+        modules=ours, libraries=frozenset(tops - sys.stdlib_module_names), words=frozenset(_WORD.findall(text))
+    )
 
 
-def _met(tree: ast.AST) -> Iterator[ast.AST]:
-    """Every node that runs: all but what stands under ``if TYPE_CHECKING``."""
-    waiting = [tree]
-    while waiting:
-        node = waiting.pop()
-        yield node
-        only_types = isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
-        waiting += node.orelse if only_types and isinstance(node, ast.If) else ast.iter_child_nodes(node)
-
-
-def _from(node: ast.ImportFrom) -> set[str]:
+def _from(package: str, names: list[str]) -> set[str]:
     """Modules behind ``from a.b import c``: ``a.b.c`` where that is one, else ``a.b``, which has a name ``c``."""
-    if node.level or node.module is None:
-        return set()
-    if node.module.partition(".")[0] not in PACKAGES:
-        return {node.module}
-    names = {f"{node.module}.{alias.name}" for alias in node.names}
-    return {name if _is_module(name) else node.module for name in names}
+    if package.partition(".")[0] not in PACKAGES:
+        return {package}
+    return {whole if _is_module(whole) else package for whole in (f"{package}.{name}" for name in names)}
 
 
 def _data_of(module: str, published: bool) -> Iterator[str]:
