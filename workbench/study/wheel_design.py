@@ -6,7 +6,7 @@ Verified by tests/unit/test_workbench_study.py.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 from contracts.errors import InputError
@@ -61,10 +61,16 @@ def wheel_design(study: WheelStudy) -> WheelDesign:
     SectionInputError
         If a part breaks a rule or names a material the study does not have; its section is the part's key.
     """
+    parts = tuple(_WheelParts(study).build().items())
+    return in_section("wheel", lambda: _fitting(study.name, parts))
+
+
+@lru_cache(maxsize=16)
+def _fitting(name: str, parts: tuple[tuple[str, Any], ...]) -> WheelDesign:
+    """Kept, for a report asks forty times whether the parts fit together, and that takes 20 ms."""
     from geometry.wheel import WheelDesign
 
-    parts = _WheelParts(study).build()
-    return in_section("wheel", lambda: WheelDesign(name=study.name, **parts))
+    return WheelDesign(name=name, **dict(parts))
 
 
 def design_from(wheel: Mapping[str, Any]) -> WheelDesign:
