@@ -39,6 +39,7 @@ PURPOSES = {
     "rich": "tables and progress on the terminal",
     "scipy": "sparse matrices, splines, statistics",
     "shapely": "exact distances between polylines",
+    "tomlkit": "study files written with a change, comments kept",
     "trame": "the viewer's page",
     "trame-vtk": "the viewer's 3D view",
     "typer": "the command line",

@@ -200,11 +200,13 @@ def test_bad_sections_are_refused(tmp_path: Path, old: str, new: str, message: s
 
 
 def test_a_table_is_rewritten_with_its_comments() -> None:
-    text = '[a]\nspokes = 4 # four\n\n[ancf]\nspokes = 4   # radial\nlist = ["1", "2"]\n[b]\nspokes = 4\n'
-    new = rewritten_table(text, "ancf", {"spokes": "6", "list": '["3"]', "phase": '"0.1 rad"'})
-    assert (
-        new
-        == '[a]\nspokes = 4 # four\n\n[ancf]\nphase = "0.1 rad"\nspokes = 6   # radial\nlist = ["3"]\n[b]\nspokes = 4\n'
+    """An array over several lines had been cut in two."""
+    text = (
+        '[a]\nspokes = 4 # four\n\n[ancf]\nspokes = 4   # radial\nlist = [\n  "1",  # one\n  "2",\n]\n[b]\nspokes = 4\n'
+    )
+    new = rewritten_table(text, "ancf", {"spokes": 6, "list": ["3"], "phase": "0.1 rad"})
+    assert new == (
+        '[a]\nspokes = 4 # four\n\n[ancf]\nspokes = 6   # radial\nlist = ["3"]\nphase = "0.1 rad"\n[b]\nspokes = 4\n'
     )
 
 

@@ -85,3 +85,21 @@ def test_curves_of_the_user_are_still_found() -> None:
     new = rewritten_study(text, {}, "note", Path("/somewhere"))
     assert tomllib.loads(new)["compare"]["curves"] == [{"file": "/somewhere/mine.csv", "label": "file"}]
     assert "# digitised" in new
+
+
+LAYOUTS = {
+    "inline tables": '[wheel]\ntire = {thickness = "1 mm", a = 2}\nsprings = [{name = "s", thickness = "1 mm"}]\n',
+    "dotted keys": 'wheel.tire.thickness = "1 mm"\n[[wheel.springs]]\nname = \'s\'\nthickness = """1 mm"""\n',
+    "apart": '[[wheel.springs]]\nthickness="1 mm" # thin\nname="s"\n[fe]\na=1\n[wheel.tire]\nthickness = "1 mm"\n',
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_however_the_old_study_is_laid_out(layout: str) -> None:
+    old = LAYOUTS[layout]
+    new = tomllib.loads(rewritten_study(old, {"tire": 2e-3, "s": 3e-3}, "note", Path()))
+    found = [part.pop("thickness") for part in (new["wheel"]["tire"], *new["wheel"]["springs"])]
+    assert found == ["2.0000 mm", "3.0000 mm"]
+    rest = tomllib.loads(old)
+    del rest["wheel"]["tire"]["thickness"], rest["wheel"]["springs"][0]["thickness"]
+    assert new == rest

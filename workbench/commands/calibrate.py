@@ -5,6 +5,7 @@ Verified by tests/end_to_end/test_calibrate.py.
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -33,7 +34,7 @@ from workbench.report.outputs import publish, to_json
 from workbench.study.magnitudes import require_possible
 from workbench.study.model import Study
 from workbench.study.quantities import to_si
-from workbench.study.reading import built_in_study, read_study
+from workbench.study.reading import built_in_study, study_of
 from workbench.study.rewrite import rewritten_study
 from workbench.study.wheel_design import wheel_design
 from workbench.tasks.orientation import degrees
@@ -58,8 +59,12 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     note = f"strip thickness found by workbench calibrate for an initial tangent of {wanted * 1e-3:g} N/mm"
     thickness = strip_thicknesses(study, found.corrected.factor)
     text = rewritten_study(input_text(path, "study file"), thickness, note, path.parent)
-    tell_kept(publish(out, "calibrate", {name: text, "calibration.json": to_json(_summary(study, found))}))
-    _check_rewritten(out / name, thickness)
+    files = {"calibration.json": to_json(_summary(study, found))}
+    try:
+        _check_rewritten(out / name, text, thickness)
+        files[name] = text
+    finally:  # a study that says something else is not written, but what was found is
+        tell_kept(publish(out, "calibrate", files))
     _print(study, found)
     console.print(f"study: {out / name}", soft_wrap=True)
     return 0 if abs(found.difference) <= study.tolerances.initial_tangent else 1
@@ -140,9 +145,9 @@ def _summary(study: Study, found: Calibration) -> dict[str, Any]:
     }
 
 
-def _check_rewritten(path: Path, thickness: dict[str, float]) -> None:
-    """Make sure that the study written says what was found, however the old one was laid out."""
-    if strip_thicknesses(read_study(path)) != thickness:
+def _check_rewritten(path: Path, text: str, thickness: dict[str, float]) -> None:
+    """Make sure that the study to be written can be read, and says what was found."""
+    if strip_thicknesses(study_of(path, tomllib.loads(text))) != thickness:
         shown = ", ".join(f"{name} {t * 1e3:.4f} mm" for name, t in thickness.items())
         raise RunError(f"{path}: the thicknesses could not be written into this file; set them by hand: {shown}")
 

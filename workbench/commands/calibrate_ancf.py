@@ -5,6 +5,7 @@ Verified by tests/end_to_end/test_calibrate_ancf.py.
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -28,7 +29,7 @@ from workbench.report.number_format import displayed
 from workbench.report.outputs import publish, to_json
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset
-from workbench.study.reading import built_in_study, read_study
+from workbench.study.reading import built_in_study, study_of
 from workbench.study.rewrite import rewritten_study, rewritten_table
 from workbench.tasks.ancf_tire import preset_from
 
@@ -60,8 +61,12 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     summary["tires"] = [{"name": t.name, **t.numbers} for t in tires]
     curves = [curve for t in tires for curve in (*t.curves.values(), t.average)]
     text = rewritten_table(text, "ancf", _values(kept), without=["surfaces"])
-    tell_kept(publish(out, "calibrate ancf", {name: text, "ancf_fit.json": to_json(summary)}, curves))
-    _check_rewritten(out / name, kept)
+    files = {"ancf_fit.json": to_json(summary)}
+    try:
+        _check_rewritten(out / name, text, kept)
+        files[name] = text
+    finally:  # a study that says something else is not written, but what was found is
+        tell_kept(publish(out, "calibrate ancf", files, curves))
     _print([own, *tires], kept)
     console.print(f"study: {out / name}", soft_wrap=True)
     return 0 if abs(kept.numbers["average"]["largest"]) <= study.tolerances.ancf_fit else 1
@@ -93,21 +98,18 @@ def _with_needs(wanted: Sequence[Task], known: Sequence[Task]) -> list[Task]:
     return [task for task in known if task.name in needed]
 
 
-def _values(tire: FittedTire) -> dict[str, str]:
-    """Keys of [ancf] as TOML text, with the fitted tire's numbers to seven digits, the FE's orientations."""
+def _values(tire: FittedTire) -> dict[str, object]:
+    """Keys of [ancf], with the fitted tire's numbers to seven digits, the FE's orientations."""
     preset = tire.numbers["preset"]
-    values = {name: f'"{1e3 * preset[name]:.7g} mm"' for name in _LENGTHS}
-    values |= {name: f'"{preset[name]:.7g} {unit}"' for name, unit in _UNITS.items()}
-    values |= {name: str(preset[name]) for name in _COUNTS}
-    orientations = ", ".join(f'"{o:g} deg"' for o in tire.numbers["orientations_deg"])
-    return values | {"orientations": f"[{orientations}]", "thesis_preset": "false"}
+    values: dict[str, object] = {name: f"{1e3 * preset[name]:.7g} mm" for name in _LENGTHS}
+    values |= {name: f"{preset[name]:.7g} {unit}" for name, unit in _UNITS.items()}
+    values |= {name: preset[name] for name in _COUNTS}
+    return values | {"orientations": [f"{o:g} deg" for o in tire.numbers["orientations_deg"]], "thesis_preset": False}
 
 
-def _check_rewritten(path: Path, tire: FittedTire) -> None:
-    """Make sure that the study written says what was found, however the old one was laid out."""
-    study = read_study(path)
-    if study.ancf.surfaces is not None:
-        raise RunError(f"{path}: [ancf] surfaces could not be taken out of this file; remove it by hand")
+def _check_rewritten(path: Path, text: str, tire: FittedTire) -> None:
+    """Make sure that the study to be written can be read, and says what was found."""
+    study = study_of(path, tomllib.loads(text))
     found, wanted = ancf_preset(study), preset_from(tire.numbers["preset"])
     for name in (*_LENGTHS, *_UNITS, *_COUNTS):
         value, goal = getattr(found, name), getattr(wanted, name)
