@@ -45,6 +45,7 @@ class Range:
     hint : what to try
     zero : whether zero is as good as a usual number; what is all but zero, such as the sine of 180 degrees, is
         then told and never refused
+    positive : whether a negative number is unusual, whatever its magnitude
     """
 
     keys: tuple[str, ...]
@@ -54,6 +55,7 @@ class Range:
     usual: Limits
     hint: str
     zero: bool = False
+    positive: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,7 +132,7 @@ def _of_range(key: Key, number: float, row: Range) -> Iterator[Oddity]:
         span = f"must not exceed {high}" if row.zero else f"must lie between {low} and {high}"
         rule = span + (" in magnitude" if number < 0.0 else "")
         yield Oddity(key=key, value=value, rule=rule, hint=row.hint, impossible=True)
-    elif not _within(size, row.usual):
+    elif not _within(size, row.usual) or (row.positive and number < 0.0):
         low, high = (_quantity(limit, row.unit) for limit in row.usual)
         rule = f"is unusual for {row.what} ({low} to {high})"
         yield Oddity(key=key, value=value, rule=rule, hint=row.hint, impossible=False)

@@ -28,7 +28,7 @@ _STAGE_GAP = 0.467
 """Middle of the widest gap between two stages of DOP853, 0.333 and 0.6 of the step."""
 _STEP_STATE = ("t", "y", "f", "h_abs", "t_old", "y_old", "h_previous", "status")
 _NEARER = 6
-"""Tries for a step that ends on the constraints to the error allowed; then the first is taken after all."""
+"""Tries for a step that ends on the constraints to the error allowed; then the longest is taken after all."""
 _SHORTER = 0.9
 """Length of such a try to the one before; much shorter ones creep up to a singular position."""
 

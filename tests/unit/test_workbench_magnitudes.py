@@ -60,6 +60,7 @@ ABSURD: dict[str, tuple[str, Any]] = {
     "plates of titanium": ("ancf.young_modulus", "113.8 GPa"),
     "elements as large as the wheel": ("mesh.element_size", "140 mm"),
     "ground on its side": ("fe.camber", "80 deg"),
+    "a slip of sign": ("poisson_ratio", -0.3),
     "steps without end": ("full.orientation_step", "1e-12 deg"),
 }
 
@@ -67,7 +68,7 @@ ABSURD: dict[str, tuple[str, Any]] = {
 def changed(key: str, value: object, base: dict[str, Any] = TABLE) -> dict[str, Any]:
     """The study's content with another value at a dotted key."""
     table = copy.deepcopy(base)
-    if key in ("density", "yield_strength", "young_modulus"):
+    if key in ("density", "yield_strength", "young_modulus", "poisson_ratio"):
         table["materials"]["Ti-6Al-4V"][key] = value
         return table
     *parents, last = parts_of(key)
