@@ -56,7 +56,8 @@ class StiffnessCurve:
         if not (np.all(np.isfinite(self.deflection)) and np.all(np.isfinite(self.load))):
             raise InputError("curve", self.model, "has values that are not finite", "remove NaN and infinite rows")
         if not np.all(np.diff(self.deflection) > 0.0):
-            raise InputError("deflection", self.model, "must increase strictly", "sort the rows and drop repeats")
+            hint = "sort the rows, drop repeats; loading and unloading are two curves, and compression is positive"
+            raise InputError("deflection", self.model, "must increase strictly", hint)
         for name, values in self.columns.items():
             if values.shape != self.deflection.shape:
                 rule = f"must have one value per point, shape {self.deflection.shape}"

@@ -19,16 +19,18 @@ __all__ = ["input_bytes", "input_table", "input_text", "require_ordinary_file"]
 
 _MOST = 100_000_000
 """Largest file read at once [byte]: a curve of a million points, the shipped study five thousand times."""
+_MOST_TABLE, _MOST_POINTS = 1_000_000, 2000
+"""Largest TOML file [byte], and points in one of its lines: reading a key takes a time that grows as their square."""
 _DEEPEST = 20
 """Tables and lists within each other; a study has six."""
 _KINDS = {stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket"}
 
 
-def input_text(path: Path, what: str) -> str:
+def input_text(path: Path, what: str, most: int = _MOST) -> str:
     """Text of a file in UTF-8, without the byte-order mark that some editors begin it with; raises as `input_bytes`,
     and InputError if it is not UTF-8."""
     try:
-        text = input_bytes(path, what).decode("utf-8-sig")
+        text = input_bytes(path, what, most).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         rule = f"is not UTF-8 text (byte {error.start})"
         raise InputError(what, path, rule, "save the file as text in UTF-8") from error
@@ -62,7 +64,10 @@ def input_bytes(path: Path, what: str, most: int = _MOST) -> bytes:
 
 def input_table(path: Path, what: str, example: str) -> dict[str, Any]:
     """Content of a TOML file, raising as `input_text`, and InputError if it is none; ``example`` is one to look at."""
-    text, hint = input_text(path, what), f"correct it there; {example} is an example"
+    text, hint = input_text(path, what, _MOST_TABLE), f"correct it there; {example} is an example"
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.count(".") > _MOST_POINTS:
+            raise InputError(what, path, f"has more than {_MOST_POINTS} points in line {number}", hint)
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

@@ -187,7 +187,10 @@ def compare(
         Path, typer.Argument(help="CSV such as deflection_m,load_N or deflection_mm,load_kN.", show_default=False)
     ],
     reference: Annotated[Path, typer.Argument(help="CSV it is held against.", show_default=False)],
-    max_load: Annotated[float | None, typer.Option(help="End where the reference reaches this load [N].")] = None,
+    max_load: Annotated[
+        str | None,
+        typer.Option(help="Load of the reference to end at, 250 or '0.25 kN'.", show_default=False),
+    ] = None,
     uncertainty: Annotated[
         str | None,
         typer.Option(

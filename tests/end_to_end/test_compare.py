@@ -89,7 +89,12 @@ def test_bad_input_writes_nothing(files: tuple[Path, Path], tmp_path: Path, caps
     plates.write_text("diameter_change_mm,load_N\n0,0\n30,240\n", encoding="utf-8")
     out = tmp_path / "out"
     _refused(run("compare", ours, plates, "--out", out), "neither follows from the other", "plates")
-    for option, value in (("--tolerance", "5 N"), ("--uncertainty", "lots"), ("--max-load", "-1")):
+    for option, value in (
+        ("--tolerance", "5 N"),
+        ("--uncertainty", "lots"),
+        ("--max-load", "-1 N"),
+        ("--max-load", "3 mm"),
+    ):
         assert _run(["compare", *map(str, files), option, value, "--out", str(out)]) == 2
         assert f"= {value}" in capsys.readouterr().err
     assert not out.exists()

@@ -134,3 +134,15 @@ def test_many_points_are_announced_before_they_are_read(tmp_path: Path) -> None:
     ended = said("sweep", "study.toml", "--out", "out", "--store", "store", folder=tmp_path)
     assert (ended.returncode, len(ended.stderr.splitlines())) == (2, 1)
     assert ended.stdout.startswith("reading 120 points, each as a whole study")
+
+
+def test_a_parameter_that_no_model_reads_is_told(tmp_path: Path) -> None:
+    """Equal rows had looked like a curve that it does not move."""
+    swept = (
+        '[sweep]\nmodels = ["brush"]\norientation = ["0 deg", "7 deg"]\nbrush.radial_stiffness = ["8 N/mm", "9 N/mm"]\n'
+    )
+    (tmp_path / "study.toml").write_text(f"{small_study_text()}\n{swept}", encoding="utf-8")
+    ended = said("sweep", "study.toml", "--out", "out", "--store", "store", folder=tmp_path)
+    assert ended.returncode == 0
+    assert "sweep.orientation changes nothing that brush computes; leave it out" in ended.stderr
+    assert "sweep.brush.radial_stiffness" not in ended.stderr

@@ -11,7 +11,7 @@ import pytest
 
 from contracts.curves import read_curve
 from contracts.errors import InputError, StudyError
-from contracts.input_file import input_bytes, input_text, require_ordinary_file
+from contracts.input_file import input_bytes, input_table, input_text, require_ordinary_file
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER, read_rover
 from workbench.comparison.baseline import read_baseline
 from workbench.study.curve_file import in_si, read_measured_curve
@@ -47,7 +47,7 @@ HOSTILE: dict[str, tuple[Callable[[Path], Path], str]] = {
     "endless device": (lambda _: Path("/dev/zero"), "is a device, not a file"),
     "socket": (_socket, "is a socket, not a file"),
     "folder": (lambda folder: folder, "is a folder, not a file"),
-    "huge": (_huge, "is larger than 100 MB"),
+    "huge": (_huge, "is larger than 1(00)? MB"),
     "missing": (lambda folder: folder / "none", "does not exist"),
     "below a file": (lambda _: EXOMARS_ROVER / "below", "cannot be read"),
     "link to itself": (_loop, "cannot be read"),
@@ -101,3 +101,17 @@ def test_studies_and_rovers_may_begin_with_a_byte_order_mark(tmp_path: Path, sou
     path, read = tmp_path / source.name, read_rover if source == EXOMARS_ROVER else read_study
     path.write_bytes(b"\xef\xbb\xbf" + source.read_bytes())
     assert read(path) == read(source)
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        (".".join(["a"] * 30_000) + " = 1", "has more than 2000 points in line 1"),
+        ("[" + "x" * 2_000_000 + "]", "is larger than 1 MB"),
+    ],
+)
+def test_a_key_that_takes_minutes_to_read_is_refused_at_once(tmp_path: Path, text: str, rule: str) -> None:
+    """The first takes time as its length squared."""
+    (tmp_path / "a.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=rule):
+        input_table(tmp_path / "a.toml", "study file", "studies/first.toml")

@@ -39,10 +39,13 @@ def test_values_are_those_of_the_study_the_rover_file_and_the_code() -> None:
 
 def test_a_reason_for_no_key_of_the_study_is_told() -> None:
     given = {"wheel.tire.thicknes": "a", "whee.*": "b", "wheel.*.material": "c", "": "d", "fe.orientations": "e"}
+    given |= {"...": "f", "[]": "g", "fe.friction.banana": "h", "name[3].foo": "i", f"wheel.springs[{'9' * 5000}]": "j"}
     told = [
         warning for warning in warnings_of(STUDY.model_copy(update={"inferred": given})) if "names no key" in warning
     ]
-    assert [warning.split("'")[1] for warning in told] == ["wheel.tire.thicknes", "whee.*", ""]
+    wrong = ["wheel.tire.thicknes", "whee.*", "", "...", "[]", "fe.friction.banana", "name[3].foo"]
+    assert [warning.split("'")[1] for warning in told][:7] == wrong
+    assert len(told) == 8
 
 
 def test_every_reason_in_the_study_files_is_for_a_key() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from contracts.curves import read_curve
 from contracts.errors import InputError
-from workbench.study.curve_file import MeasuredCurve, in_si, load_uncertainty, read_measured_curve
+from workbench.study.curve_file import MeasuredCurve, in_si, load_uncertainty, newtons, read_measured_curve
 
 
 def _read(folder: Path, text: str) -> MeasuredCurve:
@@ -169,3 +169,21 @@ def test_a_tire_that_carries_nothing_is_a_curve(tmp_path: Path) -> None:
     """Zero is a load; next to zero is a mistaken unit."""
     (tmp_path / "c.csv").write_text("deflection_mm,load_N\n0,0\n10,0\n20,0\n", encoding="utf-8")
     assert read_measured_curve(tmp_path / "c.csv").curve.load.max() == 0.0
+
+
+def test_an_endless_header_is_refused_at_once(tmp_path: Path) -> None:
+    """Looking for its unit took time as its length squared."""
+    (tmp_path / "a.csv").write_text(f"deflection{'_' * 100_000}!,load_N\n0,0\n1,5\n", encoding="utf-8")
+    with pytest.raises(InputError, match="has no column of deformation"):
+        read_measured_curve(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize(("text", "newton"), [("250", 250.0), (" 1e3 ", 1000.0), ("0.25 kN", 250.0), ("-1", -1.0)])
+def test_loads_of_the_command_line(text: str, newton: float) -> None:
+    assert newtons("max load", text) == newton
+
+
+@pytest.mark.parametrize("text", ["", "3 mm", "lots", "1e999", "nan"])
+def test_loads_that_are_none(text: str) -> None:
+    with pytest.raises(InputError, match="max load"):
+        newtons("max load", text)

@@ -268,9 +268,10 @@ def test_files_that_are_no_study(tmp_path: Path) -> None:
     [
         (f"a = {'[' * 5000}", "is not valid TOML: brackets in brackets without end"),
         (f"a = {'9' * 5000}", "is not valid TOML: a number of thousands of digits"),
-        (f"{'a.' * 5000}a = 1", "has tables within tables, more than 20 deep"),
+        (f"{'a.' * 5000}a = 1", "has more than 2000 points in line 1"),
+        (f"{'a.' * 1000}a = 1", "has tables within tables, more than 20 deep"),
     ],
-    ids=["brackets", "digits", "key"],
+    ids=["brackets", "digits", "key", "tables"],
 )
 def test_what_no_parser_bears(tmp_path: Path, text: str, wanted: str) -> None:
     path = tmp_path / "study.toml"
@@ -292,3 +293,17 @@ def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr("contracts.input_file.os.open", refuse)
     with pytest.raises(StudyError, match="cannot be read"):
         read_study(path)
+
+
+def test_a_material_with_a_dot_in_its_name_is_blamed_by_it(tmp_path: Path) -> None:
+    own = '[materials."x.source"]\nyoung_modulus = 1e11\npoisson_ratio = 0.3\ndensity = 4000\nyield_strength = 1e9\n'
+    own += 'source = "s"\ntemperature_data = "nonsense"\n[materials.x]\nsource = "s"\n'
+    with pytest.raises(StudyError, match=r"nonsense: temperature data is not known|x\.young_modulus: is missing"):
+        read_study(_write(tmp_path, r"\[mesh\]\n", f"{own}[mesh]\n"))
+
+
+def test_names_that_differ_in_what_is_not_shown_are_refused(tmp_path: Path) -> None:
+    """The later one had replaced the earlier one without a word."""
+    own = "".join(f'[materials."steel{mark}1"]\nsource = "s"\n' for mark in ("\\t", " "))
+    with pytest.raises(StudyError, match=r"name = 'steel 1': stands for two names"):
+        read_study(_write(tmp_path, r"\[mesh\]\n", f"{own}[mesh]\n"))

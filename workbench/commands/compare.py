@@ -5,7 +5,6 @@ Verified by tests/end_to_end/test_compare.py.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +15,7 @@ from contracts.errors import InputError
 from workbench.commands.computing import console, tell_kept, warn
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import put_files
-from workbench.study.curve_file import load_uncertainty, read_measured_curve
+from workbench.study.curve_file import load_uncertainty, newtons, read_measured_curve
 from workbench.study.magnitudes import unusual_curve
 
 if TYPE_CHECKING:
@@ -33,13 +32,13 @@ class CompareChoices:
 
     Attributes
     ----------
-    max_load : the range ends where the reference reaches this load [N]; None for all they share
+    max_load : the range ends where the reference reaches this load, "250" [N] or with its unit; None for all they share
     uncertainty : of the reference's load, ``"3 %"`` or ``"5 N"``, instead of what its file states
     tolerance : largest relative L2 difference allowed, ``"5 %"``
     out : folder of the page, the picture and the numbers, or None for none
     """
 
-    max_load: float | None = None
+    max_load: str | None = None
     uncertainty: str | None = None
     tolerance: str | None = None
     out: Path | None = None
@@ -55,9 +54,9 @@ def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices)
     """
     from workbench.comparison.curve_pair import compared
 
-    max_load = choices.max_load
-    if max_load is not None and not (math.isfinite(max_load) and max_load > 0.0):
-        raise InputError("max load", f"{max_load} N", "must be finite and > 0", "give newtons such as 250")
+    max_load = None if choices.max_load is None else newtons("max load", choices.max_load)
+    if max_load is not None and not max_load > 0.0:
+        raise InputError("max load", f"{max_load:g} N", "must be > 0", "give newtons such as 250, or '0.25 kN'")
     tolerance = None if choices.tolerance is None else _tolerance(choices.tolerance)
     if choices.out is not None:
         check_folder(choices.out)
@@ -79,7 +78,10 @@ def _tolerance(text: str) -> float:
     """Largest relative difference [-] from ``"5 %"``."""
     import numpy as np
 
-    found = float(load_uncertainty(text, np.ones(1), "tolerance")[0])
+    try:
+        found = float(load_uncertainty(text, np.ones(1), "tolerance")[0])
+    except InputError as error:
+        raise InputError(error.what, error.value, error.rule, "write it like '5 %'") from error
     if "N" in text or not found > 0.0:
         raise InputError("tolerance", text, "must be a share above zero, not a load", "write it like '5 %'")
     return found

@@ -5,9 +5,11 @@ Verified by tests/end_to_end/test_sweep.py.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
+from contracts.errors import InputError, StudyError
 from workbench.commands.computing import console, naming, tell_kept, warn
 from workbench.comparison.sweep import Outcome, outcomes, references
 from workbench.comparison.sweep_table import SweepTable, sweep_table
@@ -23,7 +25,7 @@ from workbench.report.sweep_page import sweep_page
 from workbench.study.magnitudes import unusual
 from workbench.study.model import Study
 from workbench.study.reading import read_study_table, study_of
-from workbench.study.sweep_points import Point, design_points, sweep_points
+from workbench.study.sweep_points import Point, design_points, probes, sweep_points
 
 __all__ = ["run_sweep"]
 
@@ -41,7 +43,7 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
         console.print(f"reading {count} points, each as a whole study: some {count // 50} s", soft_wrap=True)
     points = sweep_points(study_path, content)
     assert study.sweep is not None
-    warn(study_path, _warnings(study, points))
+    warn(study_path, (*_warnings(study, points), *_without_effect(study_path, content, study, points)))
     check_folder(out)
     check_targets(out, _FILES)
     with naming(study_path):
@@ -66,6 +68,19 @@ def _warnings(study: Study, points: Sequence[Point]) -> list[str]:
         for warning in unusual(point.study):
             found.setdefault(warning, f"[sweep] point {point.number} ({point.label}): ")
     return [where + warning for warning, where in found.items()][:_MOST_WARNINGS]
+
+
+def _without_effect(path: Path, content: dict[str, Any], study: Study, points: Sequence[Point]) -> Iterator[str]:
+    """Parameters of which no other value changes what any of the models computes, the rest as the study has it."""
+    assert study.sweep is not None
+    for key in study.sweep.parameters:
+        values = list(dict.fromkeys(point.values[key] for point in points if key in point.values))
+        try:
+            graph = sweep_graph(probes(path, content, key, values[:: max(len(values) - 1, 1)]), study.sweep.models)
+        except (StudyError, InputError):  # fits only together with other parameters
+            continue
+        if len(values) > 1 and len({run.tasks for run in graph.runs}) == len(study.sweep.models):
+            yield f"sweep.{key} changes nothing that {' or '.join(study.sweep.models)} computes; leave it out"
 
 
 def _publish(out: Path, table: SweepTable, page: str) -> None:

@@ -25,7 +25,7 @@ from workbench.study.deformation import DEFORMATIONS, Deformation, Kind, deforma
 from workbench.study.magnitudes import require_possible
 from workbench.study.quantities import to_si
 
-__all__ = ["MeasuredCurve", "in_si", "load_uncertainty", "read_measured_curve"]
+__all__ = ["MeasuredCurve", "in_si", "load_uncertainty", "newtons", "read_measured_curve"]
 
 _OWN = ("deflection_m", "load_N")
 _LOADS = ("load", "force", "wheel_load", "vertical_load")
@@ -34,6 +34,7 @@ _ROLES = {"deformation": tuple(DEFORMATIONS), "load": _LOADS, "uncertainty": (_U
 _WHAT = "curve file"
 _HEADER = re.compile(r"(.*?)[\s_]*(?:\[([^][]*)\]|\(([^()]*)\)|(?<=[\s_])([^\W\d_]+|%))")
 """A name and its unit: ``deflection_mm``, ``deflection [mm]``, ``Load (kN)``."""
+_LONGEST_HEADER = 200
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -207,7 +208,7 @@ def _columns(path: Path, names: Sequence[str], *, own: bool) -> dict[str, _Colum
 
 def _parts(name: str) -> tuple[str, str]:
     """Quantity and unit of a header; a header without a unit is all quantity."""
-    parts = _HEADER.fullmatch(name)
+    parts = _HEADER.fullmatch(name) if len(name) <= _LONGEST_HEADER else None
     whole = "_".join(name.lower().replace("_", " ").split())
     if parts is None or whole in DEFORMATIONS or whole in (*_LOADS, _UNCERTAINTY):
         return whole, ""
@@ -275,6 +276,12 @@ def _stated(
 def _others(table: CsvTable, used: Mapping[str, _Column]) -> dict[str, NDArray[np.float64]]:
     places = {column.place for role, column in used.items() if role != "uncertainty"}
     return {name: table.values[:, i] for i, name in enumerate(table.names) if i not in places}
+
+
+def newtons(what: str, text: str) -> float:
+    """A load of the command line [N]: ``"250"`` or ``"0.25 kN"``; raises InputError for what is neither."""
+    bare = re.fullmatch(r"\s*[-+.\d]+([eE][-+]?\d+)?\s*", text)
+    return _number(what, f"{text} N" if bare else text, "N")
 
 
 def _number(what: str, text: str, unit: str) -> float:

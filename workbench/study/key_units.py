@@ -18,7 +18,7 @@ from workbench.study.section import Section
 
 __all__ = ["is_whole_number", "nameless", "nearest_key", "parts_of", "unit_of"]
 
-_PART = re.compile(r"\[(\d+)\]|([^.\[\]]+)")
+_PART = re.compile(r"\[(\d{1,9})\]|([^.\[\]]+)")
 
 
 def parts_of(key: str) -> list[str | int]:
@@ -43,7 +43,7 @@ def nearest_key(key: Sequence[str | int]) -> str | None:
     """The key of the same section that is spelled most like this unknown one; None if none is."""
     sections = [kind for kind in _types(key[:-1]) if isinstance(kind, type) and issubclass(kind, Section)]
     names = [name for kind in sections for name in kind.model_fields]
-    return next(iter(difflib.get_close_matches(str(key[-1]), names, n=1)), None)
+    return next(iter(difflib.get_close_matches(str(key[-1]), names, n=1, cutoff=0.8)), None)
 
 
 def nameless(study: Study) -> tuple[str, ...]:
@@ -51,7 +51,7 @@ def nameless(study: Study) -> tuple[str, ...]:
     return tuple(
         f"inferred.{key!r} names no key of the study; correct its spelling, e.g. wheel.tire.thickness or wheel.*"
         for key in study.inferred
-        if not key or not _types(key)
+        if not parts_of(key) or not _types(key)
     )
 
 
@@ -63,7 +63,7 @@ def _types(key: str | Sequence[str | int]) -> list[Any]:
         fields = [field for kind in sections for name, field in kind.model_fields.items() if part in (name, "*")]
         if fields:
             found = [kind for field in fields for kind in (*_nested(field.annotation), *field.metadata)]
-        elif isinstance(part, str) and sections and dict not in found:
+        elif isinstance(part, str) and dict not in found:
             return []
     return found
 

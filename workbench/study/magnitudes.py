@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_magnitudes.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -43,7 +44,7 @@ def _numbers(key: Key, value: Any) -> Iterator[tuple[Key, float]]:
     elif isinstance(value, tuple):
         inner = dict(enumerate(value))
     elif isinstance(value, int | float) and not isinstance(value, bool):
-        yield key, float(value)
+        yield key, float(value) if abs(value) < 1e308 else math.inf
     for part, content in inner.items():
         yield from _numbers((*key, part), content)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any
@@ -104,7 +105,6 @@ def to_si(value: object, unit: str) -> float:
 
 def _from_text(text: str, unit: str) -> float:
     """Split ``text`` into one number and its unit, and convert it to ``unit``; only the unit is read by pint."""
-    import pint
 
     kind, example = _KINDS[unit]
     number, given = _split(text, unit)
@@ -114,25 +114,27 @@ def _from_text(text: str, unit: str) -> float:
         return number
     try:
         quantity = _registry().Quantity(number, given)
-        _refuse_another_kind(quantity, unit)
+        _refuse_another_kind(quantity, unit, given)
         number = float(quantity.to(unit or "dimensionless").magnitude)
         return number if unit == "rad" else float(f"{number:.15g}")  # 142.5 mm is 0.1425 m to the last digit
     except PydanticCustomError:
         raise
-    except pint.DimensionalityError as error:
-        raise _refuse(f"must be {kind}, not {error.dim1 or 'a plain number'}", f"write it like {example!r}") from error
     except Exception as error:  # pint raises many kinds for text it cannot read
         raise _refuse(f"cannot be read as {kind} ({error})", f"write it like {example!r}") from error
 
 
-def _refuse_another_kind(quantity: pint.Quantity[float], unit: str) -> None:
-    """pint counts an angle as a plain number: percent and counts are no angle to us, degrees no plain number."""
-    wanted = {"rad": "radian", "": "dimensionless"}.get(unit)
-    root = str(quantity.to_root_units().units)
-    if wanted is not None and quantity.dimensionless and root != wanted:
+def _refuse_another_kind(quantity: pint.Quantity[float], unit: str, given: str) -> None:
+    """pint counts an angle as a plain number: percent and counts are no angle to us, N/deg and N/rad no force."""
+    root = quantity.to_root_units().units
+    if root != _root(unit):
         kind, example = _KINDS[unit]
-        other = {"radian": "an angle", "dimensionless": "a plain number"}.get(root, root)
+        other = next((words for known, (words, _) in _KINDS.items() if _root(known) == root), given)
         raise _refuse(f"must be {kind}, not {other}", f"write it like {example!r}")
+
+
+@cache
+def _root(unit: str) -> object:
+    return _registry().Quantity(1.0, unit or "dimensionless").to_root_units().units
 
 
 def _split(text: str, unit: str) -> tuple[float, str]:
@@ -146,7 +148,8 @@ def _split(text: str, unit: str) -> tuple[float, str]:
     given = found[2]
     if len(given) > _LONGEST_UNIT or (given and not _UNIT.fullmatch(given)):
         rule = f"cannot be read as {kind}: it must be one number and at most one unit"
-        raise _refuse(rule, f"write it like {example!r}, without arithmetic")
+        power = ", exponents as in m^2" if re.search(r"[^\W\d_]\d", given) else ""
+        raise _refuse(rule, f"write it like {example!r}, without arithmetic{power}")
     return float(found[1]), given
 
 
@@ -167,7 +170,7 @@ def number_and_unit(value: object) -> tuple[float, str] | None:
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         return None
     if not isinstance(value, str):
-        return float(value), ""
+        return (float(value), "") if abs(value) <= sys.float_info.max else None
     found = _TEXT.fullmatch(value.strip())
     return (float(found[1]), found[2].strip()) if found and math.isfinite(float(found[1])) else None
 

@@ -72,6 +72,8 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         study = Study.model_validate(in_one_line(table))
     except ValidationError as error:
         raise _study_error(path, error) from error
+    except InputError as error:
+        raise StudyError(path, error.what, error.value, error.rule, error.hint) from error
     odd = impossible(study)
     if odd is not None:
         written = None if odd.key[:-1] in _SORTED else _at(table, odd.key)
@@ -169,6 +171,10 @@ def _leaves(section: str, table: Mapping[str, Any]) -> list[tuple[str, str]]:
     content: Any = table
     for part in re.findall(r"[^.\[\]]+", section):
         content = content[int(part)] if isinstance(content, list) else content.get(part, {})
+        if not isinstance(content, dict | list):
+            break
+    if not isinstance(content, dict):  # a name with a dot in it
+        return []
     leaves: list[tuple[str, str]] = []
     for field, value in content.items():
         leaves += _named(f"{section}.{field}", field, value)

@@ -20,7 +20,7 @@ __all__ = ["MOST_POINTS", "SweepRange", "SweepSection", "SweptModel", "Value"]
 type Value = str | int | float | bool
 """A value as the study file has it, with its unit."""
 SweptModel = Literal["fe", "section", "ancf", "brush"]
-MOST_POINTS = 10_000
+MOST_POINTS, MOST_PARAMETERS = 10_000, 100
 
 
 class SweepRange(Section):
@@ -64,6 +64,10 @@ class SweepSection(Section):
         found = dict(_flattened("", others))
         if not found:
             raise in_key("strip_thickness", "", "must be given, or another key to vary", 'e.g. ["0.5 mm", "0.6 mm"]')
+        if len(found) > MOST_PARAMETERS:
+            raise in_key(
+                next(iter(found)), "", f"is one of {len(found)} keys, more than {MOST_PARAMETERS}", "vary fewer"
+            )
         checked = {key: _checked_values(key, values) for key, values in found.items()}
         return {key: value for key, value in section.items() if key in own} | {"parameters": checked}
 
@@ -124,6 +128,6 @@ def _checked_range(key: str, values: Mapping[str, object]) -> SweepRange:
         raise in_key(key, dict(values), "must have low and high, two numbers and nothing else", example)
     if ends[0][1] != ends[1][1]:
         raise in_key(key, f"{low} to {high}", "has two units", "write low and high in one unit")
-    if not ends[0][0] < ends[1][0] < math.inf:
+    if not ends[0][0] < ends[1][0] or math.isinf(ends[1][0] - ends[0][0]):
         raise in_key(key, f"{low} to {high}", "must have finite ends, low less than high", example)
     return SweepRange.model_validate({"low": low, "high": high})

@@ -26,7 +26,7 @@ from workbench.study.reading import study_of
 from workbench.study.sweep import SweepRange, SweepSection, Value
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["Point", "design_points", "sweep_points"]
+__all__ = ["Point", "design_points", "probes", "sweep_points"]
 
 NAMED = {"strip_thickness": "wheel.tire.thickness", "plates": "ancf.circumferential_plates"}
 """Names of parameters that are more than one key -> the key that says what kind of value they take."""
@@ -106,6 +106,12 @@ def sweep_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
     return points
 
 
+def probes(path: Path, table: Mapping[str, Any], key: str, values: Sequence[Value]) -> list[Point]:
+    """The study with each of the ``values`` of one parameter, else as it is; raises StudyError as `sweep_points`."""
+    base = {name: value for name, value in table.items() if name != "sweep"}
+    return [_point(path, base, number, {key: value}) for number, value in enumerate(values, start=1)]
+
+
 def _point(path: Path, base: Mapping[str, Any], number: int, values: Mapping[str, Value]) -> Point:
     shown = ", ".join(f"{key} = {value!r}" for key, value in values.items())
     table = copy.deepcopy(dict(base))
@@ -164,7 +170,7 @@ def _turn(table: dict[str, Any], value: Value) -> None:
 
 def _replated(ancf: Mapping[str, Any], value: Value) -> dict[str, Any]:
     """Other plates around the rim, with the same contact stiffness of the whole rim: each plate has as many points."""
-    if isinstance(value, bool) or not isinstance(value, int) or value <= 0:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 < value < 1e9:
         return {"circumferential_plates": value}  # refused where the point is checked
     stiffness = to_si(ancf["contact_stiffness"], "N/m") * ancf["circumferential_plates"] / value
     return {"circumferential_plates": value, "contact_stiffness": stiffness}
