@@ -42,14 +42,26 @@ _LONGEST_MESSAGE = 1600
 app = typer.Typer(
     name="workbench",
     no_args_is_help=True,
+    invoke_without_command=True,
     add_completion=False,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
-    help="Verify the airless wheel of a Mars rover: continuum finite elements against ANCF and brush tires.",
 )
 
 app.add_typer(calibrate_app, name="calibrate")
 app.add_typer(results_app, name="results")
+
+
+@app.callback()
+def whole(
+    version: Annotated[bool, typer.Option("--version", help="Show the version.", is_eager=True)] = False,
+) -> None:
+    """Verify the airless wheel of a Mars rover: continuum finite elements against ANCF and brush tires."""
+    if version:
+        from importlib.metadata import version as installed
+
+        typer.echo(f"workbench {installed('wheel-workbench')}")
+        raise typer.Exit
 
 
 @app.command()
@@ -91,6 +103,25 @@ def accept(
     from workbench.commands.accept import run_accept
 
     raise typer.Exit(run_accept(folder, baseline))
+
+
+@app.command()
+def new(
+    file: Annotated[Path, typer.Argument(help="Study file to write; it must not exist yet.", show_default=False)],
+    like: Annotated[str, typer.Option("--from", help="exomars, amalia, first or strip_sweep.")] = "first",
+) -> None:
+    """Write a commented study file to begin with."""
+    from workbench.commands.studies import run_new
+
+    raise typer.Exit(run_new(file, like))
+
+
+@app.command()
+def check(study: StudyArgument) -> None:
+    """Say whether a study can be used, what is unusual about it, and how many tasks its report takes."""
+    from workbench.commands.studies import run_check
+
+    raise typer.Exit(run_check(study))
 
 
 @app.command()

@@ -1,0 +1,58 @@
+"""A study file to begin with, and whether one can be used: as a user does it."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+from tests.end_to_end.small_study import run, said
+from workbench.graph.study_graph import report_tasks
+from workbench.study.reading import built_in_study, read_study
+
+SHIPPED = sorted(built_in_study().parent.glob("*.toml"))
+
+
+def test_version() -> None:
+    assert run("--version").stdout == f"workbench {version('wheel-workbench')}\n"
+
+
+@pytest.mark.parametrize("shipped", SHIPPED, ids=lambda path: path.stem)
+def test_a_new_study_is_the_shipped_one_wherever_it_lies(shipped: Path, tmp_path: Path) -> None:
+    made = run("new", "my-wheel.toml", "--from", shipped.stem, folder=tmp_path)
+    assert (made.returncode, made.stderr) == (0, "")
+    text, old = ((path.read_text(encoding="utf-8")) for path in (tmp_path / "my-wheel.toml", shipped))
+    assert text.count("#") == old.count("#") + 1
+    assert tomllib.loads(text)["name"] == "my-wheel"
+    study, before = read_study(tmp_path / "my-wheel.toml"), read_study(shipped)
+    assert study.wheel == before.wheel
+    checked = run("check", "my-wheel.toml", folder=tmp_path)
+    assert (checked.returncode, checked.stderr) == (0, "")
+    assert f"its report takes {len(report_tasks(before, shipped.parent))} tasks" in checked.stdout
+    assert [path.name for path in tmp_path.iterdir()] == ["my-wheel.toml"]
+
+
+def test_nothing_is_overwritten_and_nothing_unusable_is_written(tmp_path: Path) -> None:
+    (tmp_path / "a.toml").write_text("mine", encoding="utf-8")
+    for arguments, words in (
+        (("new", "a.toml"), "is there already"),
+        (("new", "b.toml", "--from", "nothing"), "choose one of amalia, exomars, first, strip_sweep"),
+        (("new", "b c.toml"), "name = 'b c': must begin with a letter"),
+        (("new", "none/b.toml"), "No such file or directory"),
+        (("check", "a.toml"), "is not valid TOML"),
+    ):
+        ended = said(*arguments, folder=tmp_path)
+        assert ended.returncode == 2
+        (line,) = ended.stderr.splitlines()
+        assert words in line
+    assert [(path.name, path.read_text(encoding="utf-8")) for path in tmp_path.iterdir()] == [("a.toml", "mine")]
+
+
+def test_what_is_unusual_is_told(tmp_path: Path) -> None:
+    text = SHIPPED[1].read_text(encoding="utf-8").replace("poisson_ratio = 0.342", "poisson_ratio = -0.342")
+    (tmp_path / "a.toml").write_text(text, encoding="utf-8")
+    ended = run("check", "a.toml", folder=tmp_path)
+    assert ended.returncode == 0
+    assert "poisson_ratio = -0.342 is unusual" in ended.stderr

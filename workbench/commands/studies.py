@@ -1,0 +1,47 @@
+"""``workbench new`` and ``workbench check``: a study file to begin with, and whether one can be used.
+
+Verified by tests/end_to_end/test_studies_commands.py.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import tomlkit
+
+from contracts.errors import InputError
+from contracts.input_file import input_text
+from workbench.commands.computing import console, naming, read_and_warn
+from workbench.graph.study_graph import report_tasks
+from workbench.study.reading import built_in_study, study_of
+from workbench.study.rewrite import rewritten_study
+
+__all__ = ["run_check", "run_new"]
+
+
+def run_new(path: Path, like: str) -> int:
+    """Write a copy of a shipped study, comments and all, named after the new file, which must not exist yet."""
+    shipped = {one.stem: one for one in sorted(built_in_study().parent.glob("*.toml"))}
+    if like not in shipped:
+        raise InputError("--from", repr(like), "is no study to begin with", f"choose one of {', '.join(shipped)}")
+    source = shipped[like]
+    text = rewritten_study(input_text(source, "study file"), {}, f"begun as a copy of {source.name}", source.parent)
+    document = tomlkit.parse(text)
+    document["name"] = path.stem
+    study_of(path, document.unwrap())  # the file's name may be none that a study may have
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(tomlkit.dumps(document))
+    except FileExistsError as error:
+        raise InputError("study file", path, "is there already", "give another name") from error
+    console.print(f"study: {path}; next: workbench check {path}", soft_wrap=True)
+    return 0
+
+
+def run_check(path: Path) -> int:
+    """Read a study as every command does and plan its report; what is unusual goes to stderr."""
+    study = read_and_warn(path)
+    with naming(path):
+        tasks = report_tasks(study, path.parent)
+    console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)
+    return 0
