@@ -24,7 +24,8 @@ _LARGEST_JSON = 50_000_000
 def require_inside(path: Path, folder: Path, what: str) -> None:
     """Raise InputError if a file of a folder leads out of it by a symbolic link, or to itself."""
     try:
-        inside = path.resolve().is_relative_to(folder.resolve())
+        found = path.resolve()  # from Python 3.13 on, what leads to itself stays a link
+        inside = found.is_relative_to(folder.resolve()) and not found.is_symlink()
     except (OSError, RuntimeError):
         inside = False
     if not inside:

@@ -11,7 +11,7 @@ import os
 import sys
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TextIO
 
 import typer
 from typer.exceptions import TyperException
@@ -283,16 +283,17 @@ def _flushed(status: int) -> int:
     try:
         sys.stdout.flush()
     except BrokenPipeError:  # the reader, such as head, has seen enough
-        _drop_output()
+        _drop(sys.stdout)
     except OSError as error:
-        _drop_output()
+        _drop(sys.stdout)
         return status if status == 2 else _complain(f"standard output: {error.strerror}; check path and space")
     return status
 
 
-def _drop_output() -> None:
+def _drop(stream: TextIO) -> None:
     """Send what is left to nowhere, so that the interpreter's end does not complain again."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    with contextlib.suppress(OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _run(arguments: list[str]) -> int:
@@ -353,7 +354,9 @@ def _complain(message: str) -> int:
     line = for_terminal(" ".join(message.split()))
     if len(line) > _LONGEST_MESSAGE:
         line = f"{line[: _LONGEST_MESSAGE // 2]} [...] {line[-_LONGEST_MESSAGE // 2 :]}"
-    with contextlib.suppress(OSError):  # nobody can be told
+    try:
         sys.stderr.write(f"workbench: error: {line}\n")
         sys.stderr.flush()
+    except OSError:  # nobody can be told
+        _drop(sys.stderr)
     return 2
