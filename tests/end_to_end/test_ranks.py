@@ -72,12 +72,15 @@ def test_processes_end_with_their_launcher(tmp_path: Path) -> None:
     places = {"folder": str(tmp_path), "checkpoint": None, "store": None}
     (tmp_path / "job.json").write_text(json.dumps(job | places), encoding="utf-8")
     command = [mpiexec(), "-n", "2", sys.executable, "-m", "workbench.execution.ranks", str(tmp_path / "job.json")]
-    with subprocess.Popen(command, env=environment()) as launcher:
-        _until(lambda: told.exists() or launcher.poll() is not None)
-        assert told.exists()  # by one of them, after MPI's start, at which they wait for each other
-        processes = family(launcher.pid) - {launcher.pid}
-        assert len(processes) >= 2
-        launcher.kill()
+    processes = set[int]()
+    for _ in range(3):  # MPI itself did not start once in thousands of runs: "invalid bandwidth 0.00", says its UCX
+        with subprocess.Popen(command, env=environment()) as launcher:
+            _until(lambda launcher=launcher: told.exists() or launcher.poll() is not None)  # type: ignore[misc]
+            if told.exists():  # by one of them, after MPI's start, at which they wait for each other
+                processes = family(launcher.pid) - {launcher.pid}
+                launcher.kill()
+                break
+    assert len(processes) >= 2
     _until(lambda: not any(_runs(pid) for pid in processes))
 
 
