@@ -6,12 +6,10 @@ tests/end_to_end/test_commands.py and tests/end_to_end/test_interrupt.py.
 
 from __future__ import annotations
 
-import contextlib
 import os
 import sys
-from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, TextIO
+from typing import Annotated
 
 import typer
 from typer.exceptions import TyperException
@@ -19,6 +17,7 @@ from typer.exceptions import TyperException
 from contracts.errors import WorkbenchError
 from contracts.text import for_terminal
 from workbench.commands.calibrate_app import calibrate_app
+from workbench.commands.ending import complain, flushed, full_disk
 from workbench.commands.options import (
     DEFAULT_STORE,
     Ranks,
@@ -38,7 +37,6 @@ __all__ = ["app", "main"]
 _INTERRUPTED = "interrupted; finished results are kept, start again to go on"
 _TYPER_INTERRUPTED = 130
 """What Typer makes of Ctrl-C within a command."""
-_LONGEST_MESSAGE = 1600
 app = typer.Typer(
     name="workbench",
     no_args_is_help=True,
@@ -275,25 +273,7 @@ def main() -> None:
     exec(
         ""
     )  # Python forgets that Ctrl-C came while a library ran text as code, and ends with our status, not by signal
-    sys.exit(_flushed(status))
-
-
-def _flushed(status: int) -> int:
-    """The exit status, or 2 if what was printed could not be written: a full disk behind a redirected output."""
-    try:
-        sys.stdout.flush()
-    except BrokenPipeError:  # the reader, such as head, has seen enough
-        _drop(sys.stdout)
-    except OSError as error:
-        _drop(sys.stdout)
-        return status if status == 2 else _complain(f"standard output: {error.strerror}; check path and space")
-    return status
-
-
-def _drop(stream: TextIO) -> None:
-    """Send what is left to nowhere, so that the interpreter's end does not complain again."""
-    with contextlib.suppress(OSError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    sys.exit(flushed(status))
 
 
 def _run(arguments: list[str]) -> int:
@@ -307,7 +287,7 @@ def _run(arguments: list[str]) -> int:
     if status == _TYPER_INTERRUPTED or (status == 2 and came()):
         status, message = 2, _INTERRUPTED
     if message:
-        _complain(message)
+        complain(message)
     return status
 
 
@@ -329,34 +309,9 @@ def _ended(arguments: list[str]) -> tuple[int, str]:
         return 2, str(error)
     except OSError as error:
         other = f"{error.filename or 'file system'}: {error.strerror or error}; check path, space and rights"
-        return 2, _full_disk(error, arguments) or other
+        return 2, full_disk(error, arguments) or other
     except Exception as error:
         if os.environ.get("WORKBENCH_TRACEBACK"):
             raise
         text = f"{type(error).__name__}: {error}; this is a defect of the workbench, please report it"
         return 2, f"{text} (set WORKBENCH_TRACEBACK=1 to see where)"
-
-
-def _full_disk(error: OSError, arguments: list[str]) -> str:
-    """Which disk is full, of those the command writes to by its arguments; ``""`` if the error is another."""
-    from workbench.execution.disk import OUT, STORE, disk_full
-
-    found = {OUT: Path("build"), STORE: Path(os.environ.get("WORKBENCH_STORE") or DEFAULT_STORE)}
-    for name, following in pairwise([*arguments, ""]):
-        option, _, joined = name.partition("=")
-        if option in ("--out", "--store") and (joined or following):
-            found[OUT if option == "--out" else STORE] = Path(joined or following)
-    return disk_full(error, found)
-
-
-def _complain(message: str) -> int:
-    """Say it in one line, whatever a file made a message hold; the middle of a very long one is left out."""
-    line = for_terminal(" ".join(message.split()))
-    if len(line) > _LONGEST_MESSAGE:
-        line = f"{line[: _LONGEST_MESSAGE // 2]} [...] {line[-_LONGEST_MESSAGE // 2 :]}"
-    try:
-        sys.stderr.write(f"workbench: error: {line}\n")
-        sys.stderr.flush()
-    except OSError:  # nobody can be told
-        _drop(sys.stderr)
-    return 2
