@@ -297,7 +297,7 @@ def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_a_material_with_a_dot_in_its_name_is_blamed_by_it(tmp_path: Path) -> None:
     numbers = 'young_modulus = 1e11\npoisson_ratio = 0.3\ndensity = 4000\nyield_strength = 1e9\nsource = "s"\n'
-    own = f'[materials.x]\n{numbers}[materials."x.source"]\n{numbers}temperature_data = "nonsense"\n'
+    own = f'[materials.x]\n{numbers}[materials."x.source.y"]\n{numbers}temperature_data = "nonsense"\n'
     with pytest.raises(StudyError, match="nonsense: temperature data is not known"):
         read_study(_write(tmp_path, r"\[mesh\]\n", f"{own}[mesh]\n"))
 
