@@ -30,7 +30,8 @@ CHANGES = {
     r"enabled = true": "enabled = false",
     r"realisations = \d+": "realisations = 3",
     r"variants = \[[^\]]*\]": "variants = []",
-    r"\[tolerances\]": '[rover]\non_ancf_tires = "none"\n\n[tolerances]\nmesh_uncertainty = 0.5\nfe_energy = 0.1',
+    r'on_ancf_tires = "short"': 'on_ancf_tires = "none"',
+    r"\[tolerances\]": "[tolerances]\nmesh_uncertainty = 0.5\nfe_energy = 0.1",
     r"initial_tangent = \S+": 'initial_tangent = 0.9\nreach_deflection = "6 mm"',
 }
 """Pattern in the built-in study -> what the small study has; the first match only, which is the FE's."""

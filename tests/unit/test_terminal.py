@@ -78,3 +78,14 @@ def test_nothing_else_writes_to_the_terminal() -> None:
             if isinstance(node, ast.Call) and ast.unparse(node.func) in ("Console", "rich.print", "print"):
                 found.add(f"{path.relative_to(ROOT)}: {ast.unparse(node.func)}")
     assert found == {"workbench/commands/results.py: print", "workbench/execution/ranks.py: print"}
+
+
+def test_no_command_writes_markup() -> None:
+    """The terminal would show it as it is: "[green]pass[/]"."""
+    found = [
+        f"{path.relative_to(ROOT)}:{node.lineno}"
+        for path in sorted((ROOT / "workbench").rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and re.search(r"\[/[a-z ]*\]", node.value)
+    ]
+    assert not found

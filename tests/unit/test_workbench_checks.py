@@ -115,19 +115,25 @@ def test_reach_fails_for_a_run_that_stopped_early() -> None:
 
 
 def test_spread_and_yield_are_findings() -> None:
-    spread = _by_id(spread_checks(_fe((9000.0, 4000.0)), TOLERANCES))
+    spread = _by_id(spread_checks(_fe((9000.0, 4000.0)), TOLERANCES, 0.036))
     assert [c.status for c in spread.values()] == ["fail"] * 3
     assert spread["fe.spread_20mm"].value == pytest.approx(5000.0 / 6500.0)
-    assert yield_check(_fe(), {"tire": 880e6}).status == "pass"
-    over = yield_check(_fe(max_von_mises_tire_Pa=9e8), {"tire": 880e6})
+    assert yield_check(_fe(), {"tire": 880e6}, 250.0).status == "pass"
+    over = yield_check(_fe(max_von_mises_tire_Pa=9e8), {"tire": 880e6}, 250.0)
     assert (over.status, over.role) == ("fail", "finding")
 
 
-def test_spread_of_one_orientation_and_yield_of_a_short_curve_are_not_evaluated() -> None:
+def test_a_spread_is_asked_of_several_orientations_and_where_the_study_goes() -> None:
     fe = _fe()
     one = replace(fe, by_orientation={0.0: fe.by_orientation[0.0]})
-    assert {c.status for c in spread_checks(one, TOLERANCES)} == {"error"}
-    assert yield_check(_fe((8600.0, 7000.0)), {"tire": 880e6}).status == "error"  # 234 N at 36 mm
+    assert spread_checks(one, TOLERANCES, 0.036) == []
+    assert [c.id for c in spread_checks(fe, TOLERANCES, 0.020)] == ["fe.spread_5mm", "fe.spread_20mm"]
+
+
+def test_yield_of_a_curve_too_short_is_not_evaluated() -> None:
+    short = _fe((8600.0, 7000.0))  # 234 N at 36 mm
+    assert yield_check(short, {"tire": 880e6}, 250.0).status == "error"
+    assert yield_check(short, {"tire": 880e6}, 230.0).status == "pass"
 
 
 def test_mesh_checks_catch_lost_mass_and_bad_cells() -> None:
@@ -186,7 +192,7 @@ def test_agreement_and_user_checks_are_findings() -> None:
         "brush": numbers,
         "user_0": {"relative_l2": 0.05},
     }
-    checks = _by_id(agreement_checks(metrics, TOLERANCES))
+    checks = _by_id(agreement_checks(["ancf", "brush"], metrics, TOLERANCES))
     assert {c.role for c in checks.values()} == {"finding"}
     assert {c.id for c in checks.values() if c.status == "fail"} == {
         "ancf_vs_fe.relative_l2",
@@ -194,7 +200,7 @@ def test_agreement_and_user_checks_are_findings() -> None:
     }
     assert all("0.0 to 30.0 mm" in c.title and "up to 231 N" in c.source for c in checks.values())
     metrics["ancf_average"]["iso_rating"] = None
-    assert _by_id(agreement_checks(metrics, TOLERANCES))["ancf_vs_fe.iso_18571"].status == "error"
+    assert _by_id(agreement_checks(["ancf", "brush"], metrics, TOLERANCES))["ancf_vs_fe.iso_18571"].status == "error"
     user = UserCurve(label="paper", curve=replace(_fe_curve(0.0, 8000.0), source="a paper"), orientation_deg=None)
     (check,) = user_checks([user], metrics, TOLERANCES)
     assert (check.status, check.role) == ("pass", "finding")

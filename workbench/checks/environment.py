@@ -25,7 +25,6 @@ from workbench.study.model import Study
 
 __all__ = ["EnvironmentRun", "Series", "environment_checks"]
 
-_LARGEST_WHEEL_LOAD = 250.0
 _SIMILARITY = 2e-3
 _MODULUS_ALONE = 0.01
 
@@ -129,7 +128,7 @@ def environment_checks(study: Study, found: object, results: tuple[Series, ...])
         if one_metal:
             checks.append(_similarity(series, one_metal))
         checks += [_ratio(series, run) for run in one_metal]
-        checks += [_yield(series, run) for run in series.others if run.yield_is_known]
+        checks += [_yield(series, run, study.fe.judged_load) for run in series.others if run.yield_is_known]
     return checks
 
 
@@ -155,7 +154,7 @@ def _ratio(series: Series, run: EnvironmentRun) -> Check:
     return near(claim, partial(series.mean_load_ratio, run), run.modulus_ratio, _MODULUS_ALONE)
 
 
-def _yield(series: Series, run: EnvironmentRun) -> Check:
+def _yield(series: Series, run: EnvironmentRun, up_to: float) -> Check:
     claim = _claim(
         f"first_yield_{_celsius(run)}",
         f"FE at {_celsius(run)}, {{where}}: load at which a part begins to yield (or where the curve ends)",
@@ -163,7 +162,7 @@ def _yield(series: Series, run: EnvironmentRun) -> Check:
         "yield strength of the metal against temperature, docs/theory.md 2.6",
     )
     claim = Claim(id=claim.id, title=claim.title, quantity="load", unit="N", role="finding", source=claim.source)
-    return at_least(claim, lambda: smallest_yield_load([run.first_yield], _LARGEST_WHEEL_LOAD), _LARGEST_WHEEL_LOAD)
+    return at_least(claim, lambda: smallest_yield_load([run.first_yield], up_to), up_to)
 
 
 def _celsius(run: EnvironmentRun) -> str:

@@ -98,8 +98,11 @@ def surfaces_check(read_back: Mapping[str, float], tolerances: ToleranceSection)
     )
 
 
-def agreement_checks(metrics: Mapping[str, Mapping[str, Any]], tolerances: ToleranceSection) -> list[Check]:
-    """ANCF and brush against the FE average, over the range they share up to 250 N: findings."""
+def agreement_checks(
+    models: Sequence[str], metrics: Mapping[str, Mapping[str, Any]], tolerances: ToleranceSection
+) -> list[Check]:
+    """Those of ``"ancf"`` and ``"brush"`` that there are against the FE average, over the range they share up to 250 N:
+    findings."""
     ancf, brush = metrics.get("ancf_average", _UNKNOWN), metrics.get("brush", _UNKNOWN)
     agree = tolerances.model_agreement
     against = "ANCF average against FE average"
@@ -133,7 +136,12 @@ def agreement_checks(metrics: Mapping[str, Mapping[str, Any]], tolerances: Toler
             agree,
         ),
     ]
-    return [replace(check, reference=None, tolerance="not known") if ancf is _UNKNOWN else check for check in checks]
+    unknown = {"ancf": ancf is _UNKNOWN, "brush": brush is _UNKNOWN}
+    return [
+        replace(check, reference=None, tolerance="not known") if unknown[model] else check
+        for check in checks
+        if (model := check.id.partition("_")[0]) in models
+    ]
 
 
 def _agreement_claim(numbers: Mapping[str, Any], id: str, title: str, quantity: str, unit: str = "-") -> Claim:

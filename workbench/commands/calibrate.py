@@ -50,7 +50,7 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     study = read_and_warn(path)
     if (reason := without_planar_model(study)) is not None:
         raise reason
-    wanted = study.reference.initial_tangent if target is None else _target(target)
+    wanted = _of_the_reference(study) if target is None else _target(target)
     check_folder(out)
     name = f"{path.stem}_calibrated.toml"
     check_targets(out, ("calibration.json", name))
@@ -68,6 +68,12 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     _print(study, found)
     console.print(f"study: {out / name}", soft_wrap=True)
     return 0 if abs(found.difference) <= study.tolerances.initial_tangent else 1
+
+
+def _of_the_reference(study: Study) -> float:
+    if study.reference is None:
+        raise InputError("target", "", "is missing, and the study has no [reference]", "give --target '8.25 N/mm'")
+    return study.reference.initial_tangent
 
 
 def _target(text: str) -> float:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from rich.table import Table
+from rich.text import Text
 
 from contracts.records import Check
 from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn, tell_kept
@@ -73,9 +74,7 @@ def run_report(
         folders = {name: entry.path for name, entry in entries.items()}
         found = compare(study, folders)
     timings, origin = task_timings(entries), provenance(path, entries)
-    curves = [found.mesh_study.stated(curve) for curve in (*found.fe.by_orientation.values(), found.fe.average)]
-    curves += [*found.ancf.by_orientation.values(), found.ancf.average, found.brush]
-    curves += [curve for topic in topics_of(study) for curve in topic.curves(study, found.topics[topic.name])]
+    curves = [*found.curves, *(c for topic in topics_of(study) for c in topic.curves(study, found.topics[topic.name]))]
     series = [one for topic in topics_of(study) for one in topic.series(study, found.topics[topic.name])]
     named = [f"curves/{curve_file(curve)}" for curve in curves] + [f"series/{name}" for name in series_files(series)]
     evidence = evidence_of(study, found, origin["tasks"], named)
@@ -144,6 +143,11 @@ def _print_checks(checks: Sequence[Check]) -> None:
         table.add_column(column, overflow="fold")
     colours = {"pass": "green", "fail": "red", "error": "yellow"}
     for c in checks:
-        status = f"[{colours[c.status]}]{c.status}[/]"
-        table.add_row(status, c.role, c.title, displayed(c.value, c.unit, c.quantity), c.tolerance)
+        table.add_row(
+            Text(c.status, style=colours[c.status]),
+            c.role,
+            c.title,
+            displayed(c.value, c.unit, c.quantity),
+            c.tolerance,
+        )
     console.print(table)

@@ -50,7 +50,7 @@ def verdict(distance: float, uncertainty: float | None, limit: float) -> Verdict
 
 
 def agreements(
-    metrics: Mapping[str, Mapping[str, Any]], fe: ModelCurves, study: MeshStudy, limit: float
+    metrics: Mapping[str, Mapping[str, Any]], fe: ModelCurves, study: MeshStudy | None, limit: float
 ) -> dict[str, Agreement]:
     """Judge every pair of the metrics; each has a continuum curve in it."""
     return {pair: _judge(pair, numbers, _continuum_curve(pair, fe), study, limit) for pair, numbers in metrics.items()}
@@ -60,10 +60,14 @@ def _continuum_curve(pair: str, fe: ModelCurves) -> StiffnessCurve:
     return fe.by_orientation[float(pair.removeprefix("ancf_phi"))] if pair.startswith("ancf_phi") else fe.average
 
 
-def _judge(pair: str, numbers: Mapping[str, Any], curve: StiffnessCurve, study: MeshStudy, limit: float) -> Agreement:
+def _judge(
+    pair: str, numbers: Mapping[str, Any], curve: StiffnessCurve, study: MeshStudy | None, limit: float
+) -> Agreement:
     distance = float(numbers["relative_l2"])
     try:
-        uncertainty = study.l2_uncertainty(curve, float(numbers["start"]), float(numbers["end"]))
+        uncertainty = (
+            None if study is None else study.l2_uncertainty(curve, float(numbers["start"]), float(numbers["end"]))
+        )
     except InputError:
         uncertainty = None
     return Agreement(

@@ -45,8 +45,9 @@ class Comparison:
 
     Attributes
     ----------
-    fe, ancf : curves of both wheel models
-    brush : the brush line
+    fe : curves of the continuum model
+    ancf : curves of the ANCF tire, None where the study has none
+    brush : the brush line, None where the study has none
     users : the user's own curves
     mesh, mesh_whole : numbers of both meshes
     metrics : distances between curves by pair
@@ -57,8 +58,8 @@ class Comparison:
     """
 
     fe: ModelCurves
-    ancf: ModelCurves
-    brush: StiffnessCurve
+    ancf: ModelCurves | None
+    brush: StiffnessCurve | None
     users: tuple[UserCurve, ...]
     mesh: Mapping[str, Any]
     mesh_whole: Mapping[str, Any]
@@ -69,11 +70,19 @@ class Comparison:
     topic_of: Mapping[str, str]
 
     @property
-    def mesh_study(self) -> MeshStudy:
-        """Three meshes, and the numerical uncertainty they give every FE curve."""
-        study = self.topics[MESH_STUDY.name]
-        assert isinstance(study, MeshStudy)
+    def mesh_study(self) -> MeshStudy | None:
+        """Three meshes, and the numerical uncertainty they give every FE curve; None where the study has none."""
+        study = self.topics.get(MESH_STUDY.name)
+        assert study is None or isinstance(study, MeshStudy)
         return study
+
+    @property
+    def curves(self) -> list[StiffnessCurve]:
+        """Those of the models, with their numerical uncertainty where it is known."""
+        fe, study = [*self.fe.by_orientation.values(), self.fe.average], self.mesh_study
+        ancf = [] if self.ancf is None else [*self.ancf.by_orientation.values(), self.ancf.average]
+        stated = fe if study is None else [study.stated(curve) for curve in fe]
+        return [*stated, *ancf, *([] if self.brush is None else [self.brush])]
 
     @property
     def agreements(self) -> Mapping[str, Agreement]:
@@ -89,12 +98,11 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
     study : supplies references and tolerances
     folders : result folder of each task by name
     """
-    fe, ancf = model_curves("fe", folders), model_curves("ancf", folders)
     metrics = read_result(folders["metrics"])
     comparison = Comparison(
-        fe=fe,
-        ancf=ancf,
-        brush=brush_curve(study, folders["brush"]),
+        fe=model_curves("fe", folders),
+        ancf=None if study.ancf is None else model_curves("ancf", folders),
+        brush=None if study.brush is None else brush_curve(study, folders["brush"]),
         users=_users(study, folders["metrics"]),
         mesh=mesh_numbers(study, folders["mesh"]),
         mesh_whole=mesh_numbers(study, folders["mesh_whole"]),
@@ -127,19 +135,23 @@ def _with_own_limit(check: Check, tolerances: ToleranceSection) -> Check:
 def _checks(study: Study, found: Comparison, folders: Mapping[str, Path]) -> list[Check]:
     tol, fe = study.tolerances, found.fe
     strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
-    checks = band_checks(fe, study.reference, tol)
-    checks += [*solver_checks(fe, found.mesh_study.runs, tol), reach_check(fe, tol)]
+    checks = [] if study.reference is None else band_checks(fe, study.reference, tol)
+    checks += solver_checks(fe, () if found.mesh_study is None else found.mesh_study.runs, tol)
+    checks += [reach_check(fe, tol)] if tol.asks_for_reach else []
     checks.append(energy_check(list(fe.by_orientation.values()), tol.fe_energy))
     checks += mesh_checks(found.mesh, found.mesh_whole, tol)
-    checks.append(surfaces_check(read_result(folders[SURFACES])["read_back_m"], tol))
-    checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
-    checks += noted(agreement_checks(found.metrics, tol), found.agreements)
+    if study.ancf is not None and found.ancf is not None:
+        checks.append(surfaces_check(read_result(folders[SURFACES])["read_back_m"], tol))
+        checks += ancf_checks(found.ancf, tol) if study.ancf.thesis_preset else []
+    models = [name for name, curves in (("ancf", found.ancf), ("brush", found.brush)) if curves is not None]
+    checks += noted(agreement_checks(models, found.metrics, tol), found.agreements)
     checks += [
-        *spread_checks(fe, tol),
-        yield_check(fe, strength),
-        *overlap_checks(fe, inner_contact=study.fe.inner_contact),
+        *spread_checks(fe, tol, study.fe.max_deflection),
+        yield_check(fe, strength, study.fe.judged_load),
+        *overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.fe.judged_load),
     ]
-    checks.append(circumferential_tangent_check(fe, study.reference, tol, rotational_period(study)))
+    if study.reference is not None:
+        checks.append(circumferential_tangent_check(fe, study.reference, tol, rotational_period(study)))
     return checks + noted(user_checks(found.users, found.metrics, tol), found.agreements)
 
 

@@ -60,8 +60,8 @@ def plotly_script() -> str:
     return f"{plotly_source()}\n{_DRAW_ALL}"
 
 
-def fe_figure(found: Comparison, band: Band) -> str:
-    """FE at each orientation, their average with the mesh uncertainty, the band."""
+def fe_figure(found: Comparison, band: Band | None) -> str:
+    """FE at each orientation, their average with the mesh uncertainty, the band if there is one."""
     figure = empty_figure()
     _add_band(figure, band)
     _add_orientations(figure, found.fe, "FE")
@@ -71,23 +71,25 @@ def fe_figure(found: Comparison, band: Band) -> str:
     return figure_html(figure, "fe-curves")
 
 
-def ancf_figure(found: Comparison) -> str:
+def ancf_figure(fe: StiffnessCurve, ancf: ModelCurves) -> str:
     """ANCF at each orientation and their average, with the FE average behind."""
     figure = empty_figure()
-    _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=2.0, dash="dot")
-    _add_orientations(figure, found.ancf, "ANCF", first_colour=1)
-    _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0)
+    _add_line(figure, fe, "FE average", MODEL_COLOURS["fe"], width=2.0, dash="dot")
+    _add_orientations(figure, ancf, "ANCF", first_colour=1)
+    _add_line(figure, ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0)
     return figure_html(figure, "ancf-curves")
 
 
-def models_figure(found: Comparison, band: Band) -> str:
+def models_figure(found: Comparison, band: Band | None) -> str:
     """The averages of all models together, with the band and the user's curves."""
     figure = empty_figure()
     _add_band(figure, band)
     _add_uncertainty(figure, found.fe.average, found.mesh_study)
     _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
-    _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
-    _add_line(figure, found.brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
+    if found.ancf is not None:
+        _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
+    if found.brush is not None:
+        _add_line(figure, found.brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
     _add_users(figure, found.users)
     return figure_html(figure, "model-curves")
 
@@ -253,8 +255,10 @@ def _add_cloud(figure: go.Figure, curves: ModelCurves, model: str) -> None:
         )
 
 
-def _add_uncertainty(figure: go.Figure, average: StiffnessCurve, study: MeshStudy) -> None:
-    """The average's numerical uncertainty as a grey band; nothing if the mesh study does not give one."""
+def _add_uncertainty(figure: go.Figure, average: StiffnessCurve, study: MeshStudy | None) -> None:
+    """The average's numerical uncertainty as a grey band; nothing if no mesh study gives one."""
+    if study is None:
+        return
     try:
         low, high = study.band(average)
     except InputError:
@@ -271,8 +275,10 @@ def _add_uncertainty(figure: go.Figure, average: StiffnessCurve, study: MeshStud
     )
 
 
-def _add_band(figure: go.Figure, band: Band) -> None:
+def _add_band(figure: go.Figure, band: Band | None) -> None:
     """The band as it is known: a slope near the origin and one interval of deflection at each load."""
+    if band is None:
+        return
     end = 8.0
     slope = band.initial_tangent * 1e-3
     figure.add_scatter(

@@ -122,4 +122,5 @@ def curve_deflections(study: Study) -> list[float]:
     """Deflections [m] of the points of every FE curve."""
     fe = study.fe
     grid = np.linspace(0.0, fe.max_deflection, fe.points + 1)[1:].round(12).tolist()
-    return sorted({*grid, *np.round(study.mesh_study.deflections, 12).tolist()})
+    more = [] if study.mesh_study is None else np.round(study.mesh_study.deflections, 12).tolist()
+    return sorted({*grid, *more})

@@ -15,8 +15,9 @@ from workbench.graph.foresight import foreseen
 from workbench.graph.section import section_tasks
 from workbench.graph.surfaces import report_surfaces_task
 from workbench.study.curve_file import in_si
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.model_parameters import ancf_tire, brush_parameters
+from workbench.study.sections import AncfSection
 from workbench.study.wheel_design import wheel_design
 from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.registry import topics_of
@@ -34,12 +35,14 @@ _COMPARED_UP_TO = 250.0
 def report_tasks(study: Study, curve_folder: Path) -> tuple[Task, ...]:
     """Everything the report shows. ``curve_folder`` is where the study's own curve files lie."""
     fe = tuple(degrees(o) for o in study.fe.orientations)
-    ancf = tuple(degrees(o) for o in study.ancf.orientations)
     tasks = [*mesh_tasks(study), *_fe_tasks(study, fe)]
-    tasks += [*_ancf_tasks(study, ancf), _brush_task(study), report_surfaces_task(study)]
+    if study.ancf is not None:
+        tasks += [*_ancf_tasks(study, study.ancf, ()), report_surfaces_task(study)]
+    if study.brush is not None:
+        tasks.append(_brush_task(study))
     tasks += [task for topic in topics_of(study) for task in topic.tasks(study)]
-    curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi"))]
-    tasks.append(_metrics_task(study, (*curves, "brush"), curve_folder))
+    curves = [t.name for t in tasks if t.name.startswith(("fe_phi", "ancf_phi")) or t.name == "brush"]
+    tasks.append(_metrics_task(study, curves, curve_folder))
     tasks.append(_picture_task(study, fe))
     return foreseen(tasks)
 
@@ -67,7 +70,8 @@ def stiffness_tasks(study: Study, model: Model, orientations_deg: Sequence[float
     if model == "section":
         return foreseen(section_tasks(study, orientations_deg))
     if model == "ancf":
-        return tuple(_ancf_tasks(study, orientations_deg or [degrees(o) for o in study.ancf.orientations]))
+        return tuple(_ancf_tasks(study, stated(study.ancf, "ancf"), orientations_deg))
+    stated(study.brush, "brush")
     return (_brush_task(study),)
 
 
@@ -76,10 +80,10 @@ def _fe_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
     return [fe_task(orientation_name("fe", o), fe_inputs(study, o, points)) for o in orientations_deg]
 
 
-def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
-    ancf = study.ancf
+def _ancf_tasks(study: Study, ancf: AncfSection, orientations_deg: Sequence[float]) -> list[Task]:
+    """Curves of the ANCF tire; no orientation means those of the study."""
     grid = np.linspace(0.0, ancf.max_deflection, ancf.points + 1).round(12).tolist()
-    points = sorted({*grid, *_table_deflections(study)})
+    points = sorted({*grid, *_table_deflections(ancf)})
     tire = ancf_tire(study)
     return [
         Task(
@@ -88,19 +92,19 @@ def _ancf_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
             inputs=tire | {"orientation_deg": orientation, "deflections": points},
             cost=10.0,
         )
-        for orientation in orientations_deg
+        for orientation in orientations_deg or [degrees(o) for o in ancf.orientations]
     ]
 
 
-def _table_deflections(study: Study) -> list[float]:
+def _table_deflections(ancf: AncfSection) -> list[float]:
     """Deflections of the preset's table [m] that the study reaches, solved themselves and never interpolated."""
-    if not study.ancf.thesis_preset:
+    if not ancf.thesis_preset:
         return []
-    return [d for d in preset_table()[:, 0].round(12).tolist() if d <= study.ancf.max_deflection]
+    return [d for d in preset_table()[:, 0].round(12).tolist() if d <= ancf.max_deflection]
 
 
 def _brush_task(study: Study) -> Task:
-    end = max(study.fe.max_deflection, study.ancf.max_deflection)
+    end = max([study.fe.max_deflection, *([study.ancf.max_deflection] if study.ancf is not None else [])])
     parameters = {name: value for name, value in asdict(brush_parameters(study)).items() if name != "source"}
     inputs = {"parameters": parameters, "max_deflection": end}
     return Task(name="brush", function="workbench.tasks.brush:solve", inputs=inputs)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from workbench.execution.task import Task
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.model_parameters import ancf_tire
 from workbench.tasks.orientation import degrees
 
@@ -29,6 +29,5 @@ def surfaces_task(study: Study, orientation_deg: float, deflections: Sequence[fl
 
 def report_surfaces_task(study: Study) -> Task:
     """What the report states: the first orientation, unloaded and at 10 mm."""
-    return surfaces_task(
-        study, degrees(study.ancf.orientations[0]), [min(_REPORTED_DEFLECTION, study.ancf.max_deflection)]
-    )
+    ancf = stated(study.ancf, "ancf")
+    return surfaces_task(study, degrees(ancf.orientations[0]), [min(_REPORTED_DEFLECTION, ancf.max_deflection)])

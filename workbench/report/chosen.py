@@ -65,7 +65,8 @@ def chosen_groups(study: Study, data: Path = DATA) -> tuple[ChosenGroup, ...]:
 
 
 def _applies(study: Study, row: Mapping[str, Any]) -> bool:
-    return study.tolerances.reference_wheel or not row.get("reference_wheel", False)
+    asked = "section" not in row or getattr(study, row["section"]) is not None
+    return asked and (study.tolerances.reference_wheel or not row.get("reference_wheel", False))
 
 
 def _chosen(study: Study, row: Mapping[str, Any]) -> Chosen:

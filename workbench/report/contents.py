@@ -46,7 +46,8 @@ _GROUPS: Mapping[str, Sequence[str]] = {
 }
 """Group -> names of its sections; a section named nowhere stands in the last one."""
 
-_FIRST = {"models": "Models compared", "wheel": "Wheel", "fe": "Finite elements", "ancf": "ANCF"}
+_FIRST = {"models": "Models compared", "wheel": "Wheel", "fe": "Finite elements"}
+_ANCF = {"ancf": "ANCF"}
 _REST = {
     "numerics": "Mesh and solver",
     "checks": "All checks",
@@ -84,7 +85,8 @@ _SECTIONS = {
 
 def section_titles(study: Study) -> dict[str, str]:
     """Section -> its title in the contents, of every section a study's report has."""
-    return _FIRST | {topic.name: topic.title for topic in topics_of(study)} | _REST
+    ancf = {} if study.ancf is None else _ANCF
+    return _FIRST | ancf | {topic.name: topic.title for topic in topics_of(study)} | _REST
 
 
 def contents(titles: Mapping[str, str]) -> list[Group]:

@@ -33,7 +33,7 @@ def page_figures(
     strengths = {p: study.materials[n["material"]].yield_strength for p, n in found.mesh["parts"].items()}
     figures = {
         "fe": fe_figure(found, study.reference),
-        "ancf": ancf_figure(found),
+        "ancf": "" if found.ancf is None else ancf_figure(found.fe.average, found.ancf),
         "models": models_figure(found, study.reference),
         "stress": stress_figure(first, strengths),
         **_scenes(found, results, min(strengths.values())),

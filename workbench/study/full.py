@@ -9,6 +9,7 @@ import math
 
 from contracts.errors import InputError
 from workbench.study.model import Study
+from workbench.study.rover import RoverSection
 from workbench.study.wheel import ImpactSpringsSection
 from workbench.tasks.orientation import degrees
 
@@ -63,6 +64,7 @@ def full_study(study: Study) -> Study:
         if not any(abs(orientation - o) < _SAME for o in steps):
             rule = f"is not among 0 to {steps[-1]:g} deg by {step:g} deg"
             raise InputError("fe.orientations", f"{orientation:g} deg", rule, "choose another full.orientation_step")
+    mesh_study = study.mesh_study
     chosen_on = study.tolerances.initial_tangent_orientations or study.fe.orientations
     return study.model_copy(
         update={
@@ -70,15 +72,17 @@ def full_study(study: Study) -> Study:
             "title": f"{study.title}: full study",
             "fe": study.fe.model_copy(update={"orientations": tuple(math.radians(o) for o in steps)}),
             "mesh": study.mesh.model_copy(update={"factor": full.factor}),
-            "rover": study.rover.model_copy(update={"on_ancf_tires": _more(study.rover.on_ancf_tires)}),
-            "mesh_study": study.mesh_study.model_copy(update={"factors": full.mesh_study_factors}),
+            "rover": _all_runs(study.rover),
+            "mesh_study": mesh_study and mesh_study.model_copy(update={"factors": full.mesh_study_factors}),
         }
     )
 
 
-def _more(on_ancf_tires: str) -> str:
+def _all_runs(rover: RoverSection | None) -> RoverSection | None:
     """Every run on ANCF tires, unless the rover does not run on ANCF tires at all."""
-    return "none" if on_ancf_tires == "none" else "all"
+    if rover is None or rover.on_ancf_tires == "none":
+        return rover
+    return rover.model_copy(update={"on_ancf_tires": "all"})
 
 
 def _is_whole(number: float) -> bool:

@@ -10,8 +10,9 @@ from functools import cache
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
+from contracts.errors import InputError
 from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
@@ -31,7 +32,7 @@ from workbench.study.sections import (
 from workbench.study.sweep import SweepSection
 from workbench.study.wheel import WheelStudy
 
-__all__ = ["Band", "BandPoint", "CompareSection", "Study", "thesis_band"]
+__all__ = ["Band", "BandPoint", "CompareSection", "Study", "stated", "thesis_band"]
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -64,23 +65,30 @@ class CompareSection(Section):
     curves: tuple[CurveSection, ...] = ()
 
 
+def stated[T](section: T | None, name: str) -> T:
+    """The section; raises InputError where the study has none of this name."""
+    if section is None:
+        raise InputError(f"[{name}]", "", "is not in the study", "add it, as in studies/exomars.toml")
+    return section
+
+
 class Study(WheelStudy):
-    """A whole study file; SI after parsing.
+    """A whole study file; SI after parsing. A section that is absent, None here, asks no question.
 
     Attributes
     ----------
     name, title : short name (file names, summary) and title of the report
-    wheel, materials, mesh : the wheel, its materials by name, its mesh
-    fe, ancf, brush : the three models' settings
-    environment : other temperatures, if the study asks for them
+    wheel, materials, mesh, fe : the wheel, its materials by name, its mesh, the continuum runs; every study has these
+    ancf, brush : the reduced tires
+    environment : other temperatures
     mesh_study : the meshes that give the numerical uncertainty of the FE curves
     full : what `workbench report --full` takes instead of the study's orientations and mesh
-    rover : what the rover does on ANCF tires
-    hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
-    penalty_study : where the load is held against other contact penalties; None to leave it out
+    rover : what the rover does
+    hub_study : where the compliance of hubs, cone and impact springs is measured
+    penalty_study : where the load is held against other contact penalties
     verification : whether the benchmarks of finite elements and plates are part of the report
-    sweep : what `workbench sweep` varies; None to have no sweep
-    ancf_fit : ANCF tires fitted to the FE curves; None to leave it out
+    sweep : what `workbench sweep` varies
+    ancf_fit : ANCF tires fitted to the FE curves
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
     """
@@ -88,18 +96,25 @@ class Study(WheelStudy):
     title: Annotated[str, Field(min_length=1)]
     mesh: MeshSection
     fe: FeSection
-    mesh_study: MeshStudySection
+    mesh_study: MeshStudySection | None = None
     hub_study: HubStudySection | None = None
     penalty_study: PenaltyStudySection | None = None
-    verification: VerificationSection = VerificationSection()
+    verification: VerificationSection | None = None
     full: FullSection = FullSection()
-    rover: RoverSection = RoverSection()
-    ancf: AncfSection
+    rover: RoverSection | None = None
+    ancf: AncfSection | None = None
     ancf_fit: AncfFitSection | None = None
-    brush: BrushSection
+    brush: BrushSection | None = None
     sweep: SweepSection | None = None
     compare: CompareSection = CompareSection()
     environment: EnvironmentSection | None = None
-    reference: Band = Field(default_factory=thesis_band)
+    reference: Band | None = None
     tolerances: ToleranceSection = ToleranceSection()
     inferred: dict[str, str] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _reference_of_its_wheel(self) -> Study:
+        """The wheel of the thesis is held against the thesis' band, unless the study states another."""
+        if self.reference is None and self.tolerances.reference_wheel:
+            return self.model_copy(update={"reference": thesis_band()})
+        return self

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.study.fit import FittedTireSection
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.wheel_design import in_section
 from workbench.tasks.ancf_tire import tire_values
 
@@ -34,7 +34,8 @@ def ancf_preset(study: Study) -> TirePreset:
     from ancf_reduced.tire.preset import TirePreset
 
     exclude = {"orientations", "max_deflection", "points", "thesis_preset", "surfaces"}
-    return in_section("ancf", lambda: TirePreset(**study.ancf.model_dump(exclude=exclude)))
+    values = stated(study.ancf, "ancf").model_dump(exclude=exclude)
+    return in_section("ancf", lambda: TirePreset(**values))
 
 
 def ancf_mesh(study: Study) -> PlateMesh | None:
@@ -45,7 +46,7 @@ def ancf_mesh(study: Study) -> PlateMesh | None:
     SectionInputError
         Of the section ``ancf.surfaces``, for a file or surfaces that make no tire of [ancf].
     """
-    path = study.ancf.surfaces
+    path = stated(study.ancf, "ancf").surfaces
     if path is None:
         return None
     from ancf_reduced.tire.from_surfaces import surface_mesh
@@ -78,6 +79,6 @@ def brush_parameters(study: Study) -> BrushTireParameters:
     """Parameters of the brush tire; raises SectionInputError if they break a rule."""
     from rover_dynamics.tires.brush_tire import BrushTireParameters
 
-    values = study.brush.model_dump()
+    values = stated(study.brush, "brush").model_dump()
     values["cornering_stiffness"] = values.pop("cornering_stiffness_per_degree") * 180.0 / math.pi
     return in_section("brush", lambda: BrushTireParameters(**values))

@@ -84,14 +84,17 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
     study = _with_surfaces_from(study, path.parent)
     try:
         wheel_design(study)
-        ancf_preset(study)
-        brush_parameters(study)
+        if study.ancf is not None:
+            ancf_preset(study)
+        if study.brush is not None:
+            brush_parameters(study)
     except SectionInputError as error:
         key = _key_of(error, table)
         raise StudyError(path, key, error.value, f"{error.what} {error.rule}", error.hint) from error
     for broken in broken_rules(study):
         raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
-    _check_surfaces(path, study, table)
+    if study.ancf is not None:
+        _check_surfaces(path, study, table)
     _check_curves(path, study)
     return study
 
@@ -199,7 +202,7 @@ def _field_names(key: str, part: str, field: str, value: Any) -> list[tuple[str,
 
 def _with_surfaces_from(study: Study, folder: Path) -> Study:
     """The study with the whole path of its ANCF tire's surfaces."""
-    if study.ancf.surfaces is None:
+    if study.ancf is None or study.ancf.surfaces is None:
         return study
     surfaces = str((folder / study.ancf.surfaces).absolute())
     return study.model_copy(update={"ancf": study.ancf.model_copy(update={"surfaces": surfaces})})

@@ -40,12 +40,25 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
             )
     yield from _of_the_curves(study)
     tire, ancf = study.wheel.tire, study.ancf
+    yield from _lonely(study)
     yield from _room(
         "fe", study.fe.max_deflection, tire.outer_radius - tire.thickness - study.wheel.outer_hub.outer_radius
     )
-    yield from _room("ancf", ancf.max_deflection, (ancf.datum_radius or ancf.outer_radius) - ancf.hub_radius)
+    if ancf is not None:
+        yield from _room("ancf", ancf.max_deflection, (ancf.datum_radius or ancf.outer_radius) - ancf.hub_radius)
     yield from _environment(study)
     yield from _of_the_fit(study)
+
+
+def _lonely(study: Study) -> Iterator[BrokenRule]:
+    """A section that asks for what another one has."""
+    if study.ancf_fit is not None:
+        for name, section in (("ancf", study.ancf), ("mesh_study", study.mesh_study)):
+            if section is None:
+                what = "the tire it starts from" if name == "ancf" else "the uncertainty of the curves it follows"
+                yield BrokenRule(
+                    key="ancf_fit", value="a table", rule=f"needs [{name}], {what}", hint=f"add [{name}], or remove it"
+                )
 
 
 def _environment(study: Study) -> Iterator[BrokenRule]:
@@ -90,7 +103,7 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
                 rule="must not exceed fe.max_deflection",
                 hint="choose smaller ones",
             )
-    if not any(abs(mesh_study.orientation - o) < 1e-9 for o in fe.orientations):
+    if mesh_study is not None and not any(abs(mesh_study.orientation - o) < 1e-9 for o in fe.orientations):
         yield BrokenRule(
             key="mesh_study.orientation",
             value=f"{math.degrees(mesh_study.orientation):g} deg",
@@ -112,7 +125,7 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
     if fe.turned and study.mesh.half_width:
         rule = "turns the ground out of the plane of symmetry that mesh.half_width relies on"
         yield BrokenRule(key="fe.camber", value="not 0", rule=rule, hint="set mesh.half_width = false")
-    if study.mesh.factor not in mesh_study.factors:
+    if mesh_study is not None and study.mesh.factor not in mesh_study.factors:
         yield BrokenRule(
             key="mesh_study.factors",
             value=", ".join(f"{factor:g}" for factor in mesh_study.factors),

@@ -37,6 +37,7 @@ __all__ = [
 ]
 
 NotNegative = Field(ge=0.0)
+_LARGEST_WHEEL_LOAD = 250.0
 
 
 def _all_different(orientations: tuple[float, ...]) -> tuple[float, ...]:
@@ -101,6 +102,12 @@ class FeSection(Section):
     @classmethod
     def _automatic(cls, value: object, check: ValidatorFunctionWrapHandler) -> object:
         return None if value == "auto" else check(value)
+
+    @property
+    def judged_load(self) -> float:
+        """Load up to which strength is judged [N]: 250, the largest of the thesis' sweep (Samarini 2020, section 3.2),
+        or what the runs are to carry if that is less."""
+        return min(_LARGEST_WHEEL_LOAD, self.max_load)
 
     @property
     def turned(self) -> bool:
@@ -206,3 +213,8 @@ class ToleranceSection(Section):
     orientation_spread: Annotated[Number, Positive] = 0.50
     reference_wheel: StrictBool = False
     """True states that this wheel is the one the reference describes: slope and reach of its curves are then gates."""
+
+    @property
+    def asks_for_reach(self) -> bool:
+        """Whether every orientation is to come somewhere: of the reference's wheel, and where a study says where to."""
+        return self.reference_wheel or bool({"reach_deflection", "reach_load"} & self.model_fields_set)

@@ -24,12 +24,15 @@ __all__ = ["measure"]
 def measure(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """Compare ANCF, brush and the user's curves with the continuum's: ``result.json``, ``user_{i}.csv``.
 
-    Pairs with a continuum curve of which no point converged are left out.
+    A study may have none of these. Pairs with a continuum curve of which no point converged are left out.
     """
-    fe, ancf = model_curves("fe", needs), model_curves("ancf", needs)
-    brush = read_curve(needs["brush"] / CURVE, model="brush")
-    pairs = {"ancf_average": (ancf.average, fe.average), "brush": (brush, fe.average)}
-    for orientation, curve in ancf.by_orientation.items():
+    fe, pairs = model_curves("fe", needs), {}
+    ancf = model_curves("ancf", needs) if any(name.startswith("ancf_phi") for name in needs) else None
+    if ancf is not None:
+        pairs["ancf_average"] = (ancf.average, fe.average)
+    if "brush" in needs:
+        pairs["brush"] = (read_curve(needs["brush"] / CURVE, model="brush"), fe.average)
+    for orientation, curve in ancf.by_orientation.items() if ancf is not None else ():
         if orientation in fe.by_orientation:
             pairs[f"ancf_phi{orientation:g}"] = (curve, fe.by_orientation[orientation])
     for i, user in enumerate(inputs["user_curves"]):

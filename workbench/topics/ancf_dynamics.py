@@ -155,4 +155,5 @@ ANCF_DYNAMICS = Topic(
     checks=_checks,
     figures=_figures,
     series=_series,
+    applies=lambda study: study.ancf is not None,
 )

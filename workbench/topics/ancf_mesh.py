@@ -14,7 +14,7 @@ from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.model_parameters import ancf_preset
 from workbench.topics.topic import Topic
 
@@ -66,21 +66,26 @@ class AncfMeshStudy:
 
 def _orientations(study: Study) -> list[float]:
     """On a spoke, and half-way between two."""
-    return [0.0, 180.0 / study.ancf.spokes]
+    return [0.0, 180.0 / stated(study.ancf, "ancf").spokes]
+
+
+def _deflections(study: Study) -> tuple[float, ...]:
+    """Those of the table that the study's tire reaches, or its largest [m]."""
+    end = stated(study.ancf, "ancf").max_deflection
+    return tuple(d for d in DEFLECTIONS if d <= end) or (end,)
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    preset = asdict(ancf_preset(study))
-    deflections = [d for d in DEFLECTIONS if d <= study.ancf.max_deflection] or [study.ancf.max_deflection]
+    preset = ancf_preset(study)
     return [
         Task(
             name=f"ancf_plates_x{factor}",
             function="workbench.tasks.ancf_mesh:solve_refined",
             inputs={
-                "preset": preset,
-                "plates": factor * study.ancf.circumferential_plates,
+                "preset": asdict(preset),
+                "plates": factor * preset.circumferential_plates,
                 "orientations_deg": _orientations(study),
-                "deflections": deflections,
+                "deflections": list(_deflections(study)),
             },
             cost=2.0 * factor,
         )
@@ -89,19 +94,18 @@ def _tasks(study: Study) -> Sequence[Task]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> AncfMeshStudy:
-    rows = []
+    rows, plates = [], ancf_preset(study).circumferential_plates
     for factor in FACTORS:
         found = read_result(folders[f"ancf_plates_x{factor}"])
         rows.append(
             AncfMeshRow(
-                plates=factor * study.ancf.circumferential_plates,
+                plates=factor * plates,
                 dofs=found["dofs"],
                 outer_face_error=found["outer_face_error_m"],
                 loads=tuple((float(o), tuple(loads)) for o, loads in found["loads"].items()),
             )
         )
-    deflections = tuple(d for d in DEFLECTIONS if d <= study.ancf.max_deflection) or (study.ancf.max_deflection,)
-    return AncfMeshStudy(deflections=deflections, rows=tuple(rows))
+    return AncfMeshStudy(deflections=_deflections(study), rows=tuple(rows))
 
 
 def _checks(study: Study, found: Comparison, results: AncfMeshStudy) -> Sequence[Check]:
@@ -119,7 +123,7 @@ def _checks(study: Study, found: Comparison, results: AncfMeshStudy) -> Sequence
 
 def _is_parametric(study: Study) -> bool:
     """A tire drawn in a file is not refined here: its numbers alone would give another one."""
-    return study.ancf.surfaces is None
+    return study.ancf is not None and study.ancf.surfaces is None
 
 
 ANCF_MESH = Topic(name="ancf_mesh", title="ANCF mesh", tasks=_tasks, read=_read, checks=_checks, applies=_is_parametric)

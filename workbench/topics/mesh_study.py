@@ -16,7 +16,7 @@ from workbench.checks.rules import Claim, at_most
 from workbench.comparison.mesh_study import MeshStudy, mesh_run_name, read_mesh_study
 from workbench.execution.task import Task
 from workbench.graph.fe import fe_inputs, fe_task, mesh_task, without_fields
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.tasks.orientation import degrees
 from workbench.topics.topic import Topic
 
@@ -32,7 +32,7 @@ _NO_LIMIT = 1e6
 def _tasks(study: Study) -> Sequence[Task]:
     """A mesh and a run for each factor but that of the curves, whose run is the curve itself."""
     tasks = []
-    section = study.mesh_study
+    section = stated(study.mesh_study, "mesh_study")
     for factor in section.factors:
         if factor != study.mesh.factor:
             mesh = mesh_task(study, f"mesh_x{factor:g}", factor=factor)
@@ -44,7 +44,7 @@ def _tasks(study: Study) -> Sequence[Task]:
 
 def mesh_study_inputs(study: Study) -> dict[str, Any]:
     """What `read_mesh_study` needs to know of a study, as JSON values."""
-    section = study.mesh_study
+    section = stated(study.mesh_study, "mesh_study")
     return {
         "orientation_deg": degrees(section.orientation),
         "deflections": list(section.deflections),
@@ -101,4 +101,5 @@ MESH_STUDY = Topic(
     checks=_checks,
     figures=_figures,
     curves=_curves,
+    applies=lambda study: study.mesh_study is not None,
 )

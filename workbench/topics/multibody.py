@@ -142,7 +142,7 @@ def _figures(study: Study, results: MultibodyResults) -> Mapping[str, str]:
 
 
 def _applies(study: Study) -> bool:
-    return study.verification.enabled
+    return study.verification is not None and study.verification.enabled
 
 
 MULTIBODY = Topic(

@@ -218,4 +218,13 @@ def _series(study: Study, results: RoverResults) -> Sequence[TimeSeries]:
     return [result.series for result in results.by_name.values()]
 
 
-ROVER = Topic(name="rover", title="Rover", tasks=_tasks, read=_read, checks=_checks, figures=_figures, series=_series)
+ROVER = Topic(
+    name="rover",
+    title="Rover",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    figures=_figures,
+    series=_series,
+    applies=lambda study: study.rover is not None,
+)

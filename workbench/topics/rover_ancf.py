@@ -22,6 +22,7 @@ from workbench.comparison.rover_ancf_results import OBSERVED, AncfRover
 from workbench.comparison.rover_drive import Drive, read_drive
 from workbench.execution.task import Task
 from workbench.study.model import Study
+from workbench.study.rover import runs_on_ancf_tires
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ _KEPT: Mapping[str, Mapping[str, object]] = {
 
 def runs_of(study: Study) -> Sequence[str]:
     """Names of the runs a study asks for."""
-    return {"none": (), "short": tuple(SHORT), "all": (*SHORT, *LONG)}[study.rover.on_ancf_tires]
+    return runs_on_ancf_tires(study.rover, SHORT, LONG)
 
 
 def _tasks(study: Study) -> Sequence[Task]:
@@ -191,5 +192,5 @@ ROVER_ANCF = Topic(
     checks=_checks,
     figures=_figures,
     series=_series,
-    applies=lambda study: study.rover.on_ancf_tires != "none",
+    applies=lambda study: bool(runs_of(study)),
 )

@@ -173,7 +173,9 @@ def _figures(study: Study, results: CrossCheck) -> Mapping[str, str]:
 
 def _applies(study: Study) -> bool:
     return (
-        study.ancf_fit is not None
+        study.rover is not None
+        and study.ancf is not None
+        and study.ancf_fit is not None
         and study.fe.max_deflection >= _REACH
         and bool(np.isclose(study.ancf.outer_radius, read_rover().wheel_radius))
     )

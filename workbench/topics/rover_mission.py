@@ -18,6 +18,7 @@ from workbench.comparison.rover_drive import Drive, read_drive
 from workbench.execution.task import Task
 from workbench.graph.fit import fit_name
 from workbench.study.model import Study
+from workbench.study.rover import runs_on_ancf_tires
 from workbench.topics.rover_crosscheck import ROVER_CROSSCHECK
 from workbench.topics.topic import Topic
 
@@ -47,7 +48,7 @@ class Mission:
 
 
 def _runs(study: Study) -> Sequence[str]:
-    return {"none": (), "short": tuple(SHORT), "all": (*SHORT, *LONG)}[study.rover.on_ancf_tires]
+    return runs_on_ancf_tires(study.rover, SHORT, LONG)
 
 
 def _kept(study: Study) -> str:
@@ -102,5 +103,5 @@ ROVER_MISSION = Topic(
     checks=_checks,
     figures=_figures,
     series=_series,
-    applies=lambda study: study.rover.on_ancf_tires != "none" and ROVER_CROSSCHECK.applies(study),
+    applies=lambda study: bool(_runs(study)) and ROVER_CROSSCHECK.applies(study),
 )

@@ -25,6 +25,7 @@ from workbench.execution.task import Task
 from workbench.graph.section import without_planar_model
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
+from workbench.topics.verification import VERIFICATION
 
 __all__ = ["SPEED", "CurveCost", "SpeedResults", "kept_runs"]
 
@@ -184,4 +185,4 @@ def _no_tasks(study: Study) -> Sequence[Task]:
     return ()
 
 
-SPEED = Topic(name="speed", title="Speed", tasks=_no_tasks, read=_read, checks=_checks)
+SPEED = Topic(name="speed", title="Speed", tasks=_no_tasks, read=_read, checks=_checks, applies=VERIFICATION.applies)

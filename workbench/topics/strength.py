@@ -22,8 +22,6 @@ from workbench.topics.topic import Topic
 
 __all__ = ["STRENGTH", "StrengthResults"]
 
-_LARGEST_WHEEL_LOAD = 250.0
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StrengthResults:
@@ -63,21 +61,23 @@ def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
 
 
 def _checks(study: Study, found: object, results: StrengthResults) -> list[Check]:
+    up_to = study.fe.judged_load
+    which = "fe.max_load" if up_to == study.fe.max_load else "the upper wheel load of the thesis' sweep"
     claim = Claim(
         id="fe.first_yield_load",
         title="FE: smallest load of any orientation at which a part begins to yield (or where the curve ends)",
         quantity="load",
         unit="N",
         role="finding",
-        source="yield strengths of the study's materials; 250 N is the upper wheel load of the thesis' sweep",
+        source=f"yield strengths of the study's materials; {up_to:g} N is {which}",
     )
 
     def smallest() -> float:
         if results.missing:
             raise InputError("curve", f"{results.missing[0]:g} deg", "is missing", "see its run's message")
-        return smallest_yield_load(list(results.by_orientation.values()), _LARGEST_WHEEL_LOAD)
+        return smallest_yield_load(list(results.by_orientation.values()), up_to)
 
-    return [at_least(claim, smallest, _LARGEST_WHEEL_LOAD)]
+    return [at_least(claim, smallest, up_to)]
 
 
 def _figures(study: Study, results: StrengthResults) -> dict[str, str]:

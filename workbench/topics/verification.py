@@ -93,7 +93,7 @@ def _figures(study: Study, results: Verification) -> Mapping[str, str]:
 
 
 def _applies(study: Study) -> bool:
-    return study.verification.enabled
+    return study.verification is not None and study.verification.enabled
 
 
 VERIFICATION = Topic(

@@ -1,0 +1,134 @@
+"""Wheel, materials, mesh and continuum runs are enough of a study; every other section adds what it asks for."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomlkit
+
+from contracts.errors import InputError, StudyError
+from workbench.checks.limits import overlap_checks
+from workbench.commands.calibrate import run_calibrate
+from workbench.comparison.curves import ModelCurves
+from workbench.execution.runner import Computing
+from workbench.graph.study_graph import report_tasks, stiffness_tasks
+from workbench.report.chosen import chosen_groups
+from workbench.report.contents import section_titles
+from workbench.study.full import full_study
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, study_of
+from workbench.topics.registry import topics_of
+
+ENOUGH = {"name", "title", "wheel", "materials", "mesh", "fe"}
+OTHERS = {"mesh", "mesh_whole", "metrics", "pictures"}
+ADDED = {
+    "ancf": {"ancf_mesh", "ancf_dynamics"},
+    "brush": set(),
+    "mesh_study": {"mesh_study"},
+    "hub_study": {"hub"},
+    "penalty_study": {"contact"},
+    "verification": {"multibody", "verification", "speed"},
+    "environment": {"environment"},
+    "rover": {"rover", "rover_ancf"},
+    "full": set(),
+    "tolerances": set(),
+    "inferred": set(),
+}
+"""Section of the built-in study that stands by itself -> the topics it adds."""
+
+
+def _table() -> dict[str, Any]:
+    return tomllib.loads(built_in_study().read_text(encoding="utf-8"))
+
+
+def _study(*sections: str) -> Study:
+    table = {"full": {}} | _table()
+    return study_of(built_in_study(), {name: table[name] for name in (*ENOUGH, *sections)})
+
+
+def _tasks(study: Study) -> set[str]:
+    return {task.name for task in report_tasks(study, built_in_study().parent)}
+
+
+def test_every_other_section_of_the_built_in_study_is_known_here() -> None:
+    assert _table().keys() | {"full"} == ENOUGH | ADDED.keys() | {"ancf_fit"}
+
+
+def test_the_wheel_alone_is_meshed_and_solved_and_nothing_else() -> None:
+    study = _study()
+    assert {topic.name for topic in topics_of(study)} == {"orientations", "section", "strength"}
+    assert all(name.startswith(("fe_phi", "section_")) for name in _tasks(study) - OTHERS)
+    assert "ancf" not in section_titles(study)
+    assert {group.title for group in chosen_groups(study)} == {"What curves are held against", "Continuum model"}
+
+
+@pytest.mark.parametrize("section", ADDED)
+def test_a_section_adds_what_it_asks_for(section: str) -> None:
+    alone, more = _study(), _study(section)
+    assert {t.name for t in topics_of(more)} - {t.name for t in topics_of(alone)} == ADDED[section]
+    assert {t.name for t in topics_of(alone)} <= {t.name for t in topics_of(more)}
+    assert _tasks(alone) <= _tasks(more)
+    assert (_tasks(more) > _tasks(alone)) == (section not in ("full", "tolerances", "inferred"))
+    full_study(more)
+
+
+@pytest.mark.parametrize(("present", "missing"), [("mesh_study", "ancf"), ("ancf", "mesh_study")])
+def test_a_fit_needs_a_tire_and_the_uncertainty_of_the_curves(present: str, missing: str) -> None:
+    with pytest.raises(StudyError, match=rf"ancf_fit.* needs \[{missing}\]"):
+        _study("ancf_fit", present)
+
+
+@pytest.mark.parametrize("model", ["ancf", "brush"])
+def test_a_model_the_study_does_not_have_is_refused(model: str) -> None:
+    with pytest.raises(InputError, match=rf"\[{model}\]: is not in the study"):
+        stiffness_tasks(_study(), model, ())
+
+
+def test_a_study_without_reference_names_its_own_slope_to_calibrate(tmp_path: Path) -> None:
+    table = {name: value for name, value in _table().items() if name in ENOUGH}
+    path = tmp_path / "study.toml"
+    path.write_text(tomlkit.dumps(table), encoding="utf-8")
+    with pytest.raises(InputError, match=r"target.* is missing, and the study has no \[reference\]"):
+        run_calibrate(path, None, tmp_path / "out", tmp_path / "store", Computing())
+
+
+def test_the_band_is_that_of_the_wheel_of_the_reference_only() -> None:
+    """ExoMars' numbers judge no other wheel."""
+    assert (_study().reference, _study().tolerances.asks_for_reach) == (None, False)
+    own = _study("tolerances")
+    assert own.reference is not None
+    assert own.reference.initial_tangent == pytest.approx(8250.0)
+    assert own.tolerances.asks_for_reach
+    table = _table()
+    table["tolerances"] = {"reach_load": "100 N"}
+    assert study_of(built_in_study(), table).tolerances.asks_for_reach
+
+
+def test_loads_beyond_what_the_runs_are_to_carry_are_not_judged() -> None:
+    table = _table()
+    table["fe"] |= {"max_load": "100 N", "snapshot_loads": []}
+    study = study_of(built_in_study(), table)
+    assert study.fe.judged_load == 100.0
+    assert _study().fe.judged_load == 250.0
+
+
+def test_rover_and_wheel_stay_apart() -> None:
+    """A study of another wheel computes nothing of the ExoMars rover."""
+    amalia = built_in_study().with_name("amalia.toml")
+    study = study_of(amalia, tomllib.loads(amalia.read_text(encoding="utf-8")))
+    assert not [name for name in _tasks(study) if "rover" in name or name.startswith(("ancf", "brush"))]
+    assert "rover" not in json.dumps([group.title for group in chosen_groups(study)]).lower()
+
+
+def test_an_overlap_is_judged_at_the_loads_that_are_asked_for() -> None:
+    """The two loads of the sweep, or what the study asks for where that is less."""
+    from tests.unit.test_workbench_limits import model
+
+    curves: ModelCurves = model({0.0: 8000.0})
+    named = [[c.id for c in overlap_checks(curves, inner_contact=True, up_to=load)] for load in (300.0, 200.0, 100.0)]
+    start = "fe.spring_rim_overlap_"
+    assert named == [[f"{start}160N", f"{start}250N"], [f"{start}160N", f"{start}200N"], [f"{start}100N"]]
