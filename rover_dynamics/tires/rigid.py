@@ -2,8 +2,8 @@
 
 Rigid means here: 1000 times the radial stiffness of Table II whatever that of the tire it is made of, unless that is
 more still (24 micrometres at rest under 197.92 N on Mars instead of 24 mm), with a damper of 5 ms, critical for a sixth
-of the rover. Friction, slip stiffnesses and rolling resistance stay the tire's own, so that the two differ by the radial
-deflection only; the deflections over which damper and bristles build up shrink as the stiffness grows.
+of the rover. Friction, slip stiffnesses and rolling resistance stay the tire's own, so that the two differ by the
+radial deflection only; the deflections over which damper and bristles build up shrink as the stiffness grows.
 
 Verified by tests/verification/test_rover_rigid.py.
 """

@@ -16,6 +16,7 @@ from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
+from workbench.study.ground import GroundSection
 from workbench.study.quantities import Force, Length, Stiffness
 from workbench.study.rover import RoverSection
 from workbench.study.section import Positive, Section
@@ -76,6 +77,7 @@ class Study(WheelStudy):
     mesh_study : the meshes that give the numerical uncertainty of the FE curves
     full : what `workbench report --full` takes instead of the study's orientations and mesh
     rover : what the rover does on ANCF tires
+    ground : friction under the rover
     hub_study : where the compliance of hubs, cone and impact springs is measured; None to leave it out
     penalty_study : where the load is held against other contact penalties; None to leave it out
     verification : whether the benchmarks of finite elements and plates are part of the report
@@ -94,6 +96,7 @@ class Study(WheelStudy):
     verification: VerificationSection = VerificationSection()
     full: FullSection = FullSection()
     rover: RoverSection = RoverSection()
+    ground: GroundSection = GroundSection()
     ancf: AncfSection
     ancf_fit: AncfFitSection | None = None
     brush: BrushSection

@@ -10,10 +10,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from workbench.study.fit import FittedTireSection
 from workbench.study.model import Study
 from workbench.study.wheel_design import in_section
 from workbench.tasks.ancf_tire import tire_values
+from workbench.tasks.brush import brush_values
 
 if TYPE_CHECKING:
     from ancf_reduced.plates.mesh import PlateMesh
@@ -26,6 +29,9 @@ __all__ = [
     "ancf_tire",
     "brush_parameters",
     "fit_start",
+    "fits_rover",
+    "rover_on_ancf",
+    "rover_on_brush",
 ]
 
 
@@ -81,3 +87,20 @@ def brush_parameters(study: Study) -> BrushTireParameters:
     values = study.brush.model_dump()
     values["cornering_stiffness"] = values.pop("cornering_stiffness_per_degree") * 180.0 / math.pi
     return in_section("brush", lambda: BrushTireParameters(**values))
+
+
+def rover_on_brush(study: Study) -> dict[str, Any]:
+    """Brush tire and ground of the rover as inputs of a task, see ``workbench.tasks.rover``."""
+    return {"brush": brush_values(brush_parameters(study)), "friction": study.ground.friction}
+
+
+def fits_rover(study: Study) -> bool:
+    """Whether the ANCF tire has the radius of the rover's wheels, so that the rover can stand on it."""
+    from rover_dynamics.rover.rover_file import read_rover
+
+    return bool(np.isclose(ancf_preset(study).zero_radius, read_rover().wheel_radius))
+
+
+def rover_on_ancf(study: Study) -> dict[str, Any]:
+    """ANCF tire and ground of the rover as inputs of a task, see ``workbench.tasks.rover_ancf``."""
+    return ancf_tire(study) | {"friction": study.ground.friction}
