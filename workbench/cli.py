@@ -181,6 +181,13 @@ def rover(
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)
     ] = None,
     tire: Annotated[str, typer.Option(help="rigid, brush or ancf: six flexible tires.")] = "brush",
+    study: Annotated[
+        Path | None,
+        typer.Option(
+            help="Study whose [brush], [ancf] and [ground] the rover drives on; the thesis' if left out.",
+            show_default=False,
+        ),
+    ] = None,
     rover_file: Annotated[
         Path | None, typer.Option("--rover", help="Rover file (TOML); the thesis' if left out.", show_default=False)
     ] = None,
@@ -205,7 +212,14 @@ def rover(
     from workbench.commands.rover import RoverChoices, list_scenarios, run_rover
 
     choices = RoverChoices(
-        tire=tire, rover=rover_file, gravity=gravity, terrain=terrain, start=start, rocks=rocks, animate=animate
+        tire=tire,
+        study=study,
+        rover=rover_file,
+        gravity=gravity,
+        terrain=terrain,
+        start=start,
+        rocks=rocks,
+        animate=animate,
     )
     raise typer.Exit(list_scenarios() if names else run_rover(scenario, out, choices, store))
 

@@ -8,7 +8,7 @@ rover's tire force, not to the static curve.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,14 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 
-__all__ = ["THESIS_BRUSH", "BrushTireParameters", "line_source", "radial_load", "stiffness_curve"]
+__all__ = [
+    "THESIS_BRUSH",
+    "BrushTireParameters",
+    "line_source",
+    "radial_load",
+    "stiffness_curve",
+    "with_friction",
+]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,6 +93,16 @@ THESIS_BRUSH = BrushTireParameters(
     source="Samarini 2020, Table II",
 )
 """Table II as printed; the slip stiffnesses read as N and N/deg (see BrushTireParameters)."""
+
+
+def with_friction(parameters: BrushTireParameters, friction: float | None) -> BrushTireParameters:
+    """The same tire on ground of one coefficient of friction, mu(s) = friction at every slip; None leaves its own.
+
+    Table II's two numbers are one ground's coefficient at full slip and at none; Coulomb's law has one for both.
+
+    Verified by tests/unit/test_brush_tire.py.
+    """
+    return parameters if friction is None else replace(parameters, friction_min=friction, friction_max=friction)
 
 
 def radial_load(parameters: BrushTireParameters, deflection: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,9 +1,9 @@
 """A rigid wheel: the brush tire with a radial contact so stiff that the rim keeps its radius.
 
-Rigid means here: 1000 times the radial stiffness of the tire it is made of (24 micrometres at rest under 197.92 N on
-Mars instead of 24 mm), with a damper of 5 ms, critical for a sixth of the rover. Friction, slip stiffnesses and rolling
-resistance stay the tire's own, so that the two differ by the radial deflection only; the deflections over which damper
-and bristles build up shrink as the stiffness grows.
+Rigid means here: 1000 times the radial stiffness of Table II whatever that of the tire it is made of, unless that is
+more still (24 micrometres at rest under 197.92 N on Mars instead of 24 mm), with a damper of 5 ms, critical for a sixth
+of the rover. Friction, slip stiffnesses and rolling resistance stay the tire's own, so that the two differ by the
+radial deflection only; the deflections over which damper and bristles build up shrink as the stiffness grows.
 
 Verified by tests/verification/test_rover_rigid.py.
 """
@@ -26,12 +26,12 @@ DAMPING_TIME = 5e-3
 
 def rigid_parameters(parameters: BrushTireParameters = THESIS_BRUSH) -> BrushTireParameters:
     """The same friction on a radial contact that hardly gives way."""
-    stiffness = TIMES_STIFFER * parameters.radial_stiffness
+    stiffness = max(TIMES_STIFFER * THESIS_BRUSH.radial_stiffness, parameters.radial_stiffness)
     return replace(
         parameters,
         radial_stiffness=stiffness,
         radial_damping=DAMPING_TIME * stiffness,
-        source=f"{parameters.source}; rigid: radially {TIMES_STIFFER:g} times as stiff",
+        source=f"{parameters.source}; rigid: radially {stiffness:g} N/m",
     )
 
 

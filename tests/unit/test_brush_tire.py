@@ -14,7 +14,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contracts.errors import InputError
-from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, radial_load, stiffness_curve
+from rover_dynamics.tires.brush_tire import (
+    THESIS_BRUSH,
+    BrushTireParameters,
+    radial_load,
+    stiffness_curve,
+    with_friction,
+)
 
 TABLES = Path(__file__).parents[1] / "data" / "thesis_tables.toml"
 
@@ -84,3 +90,12 @@ def test_bad_range_is_refused(max_deflection: float) -> None:
 def test_single_point_is_refused() -> None:
     with pytest.raises(InputError, match="brush curve points = 1: must be 2 or more"):
         stiffness_curve(THESIS_BRUSH, 0.03, points=1)
+
+
+def test_a_coefficient_of_the_ground_replaces_both_frictions_and_nothing_else() -> None:
+    slippery = with_friction(THESIS_BRUSH, 0.2)
+    assert (slippery.friction_min, slippery.friction_max) == (0.2, 0.2)
+    assert replace(slippery, friction_min=0.597, friction_max=0.757) == THESIS_BRUSH
+    assert with_friction(THESIS_BRUSH, None) == THESIS_BRUSH
+    with pytest.raises(InputError, match="brush smallest friction = 0 -: must be finite and > 0"):
+        with_friction(THESIS_BRUSH, 0.0)

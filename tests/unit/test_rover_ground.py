@@ -14,7 +14,14 @@ from contracts.terrain_cover import check_covered
 from rover_dynamics.rover.planets import gravity_named
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
-from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way, touching_height
+from rover_dynamics.rover.scenarios.ground import (
+    on_brush_tires,
+    on_friction,
+    on_rigid_tires,
+    on_terrain,
+    rocks_on_the_way,
+    touching_height,
+)
 from rover_dynamics.rover.scenarios.scenario import run_scenario
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
@@ -81,6 +88,45 @@ def test_rigid_tires_change_the_radial_contact_only() -> None:
     assert after.settings.touch_depth == pytest.approx(1e-7, rel=1e-12)
     depths = {"damping_ramp": 0.005, "touch_depth": 1e-4}
     assert replace(after.settings, **depths) == BrushSettings(**depths)
+
+
+def test_rigid_is_as_rigid_whatever_the_tire_is() -> None:
+    """On a softer one it would pitch the rover by more than statics on rigid wheels, to which it is held, allow."""
+    soft, hard = (replace(THESIS_BRUSH, radial_stiffness=k) for k in (800.0, 1e9))
+    assert on_rigid_tires(on_brush_tires(SCENARIOS["static"], soft)).tire.radial_stiffness == 8.25e6
+    assert on_rigid_tires(on_brush_tires(SCENARIOS["static"], hard)).tire.radial_stiffness == 1e9
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+def test_friction_of_the_ground_is_that_of_every_tire(design: RoverDesign, rigid: bool) -> None:
+    """It replaces what a scenario asks for and is said; the static stability is asked of a rover that holds fast."""
+    found = {name: on_friction(SCENARIOS[name], 0.3) for name in ("straight", "traction", "stability")}
+    driven = {name: (on_rigid_tires(one) if rigid else one).vehicle(design).tire for name, one in found.items()}
+    frictions = {name: (tire.friction_min, tire.friction_max) for name, tire in driven.items()}
+    assert frictions == {"straight": (0.3, 0.3), "traction": (0.3, 0.3), "stability": (10.0, 10.0)}
+    assert found["straight"].title.endswith("to stop, friction 0.3")
+    assert found["traction"].title.endswith("of settling, friction 0.3")
+    assert on_friction(SCENARIOS["traction"], None) == SCENARIOS["traction"]
+    own = SCENARIOS["straight"].vehicle(design).tire
+    assert own == THESIS_BRUSH
+
+
+def test_a_tire_that_sinks_in_beyond_its_hub_is_refused(design: RoverDesign) -> None:
+    soft = on_brush_tires(SCENARIOS["static"], replace(THESIS_BRUSH, radial_stiffness=1000.0))
+    with pytest.raises(
+        InputError, match=r"brush tires = 197\.9 mm: at rest must be below the wheel's radius, 142\.5 mm"
+    ):
+        run_scenario(soft, design)
+
+
+def test_wheels_that_spin_are_held_against_the_rovers_momentum(design: RoverDesign) -> None:
+    """The closed form is that of wheels that roll: of 16 N, which the ground bears, it would be 20 N."""
+    run = run_scenario(on_friction(SCENARIOS["traction"], 0.08), design)
+    wheel, mean, share, _ = SCENARIOS["traction"].judge(run)
+    assert mean.value == pytest.approx(mean.reference, rel=5e-4)
+    assert wheel.value == pytest.approx(wheel.reference, rel=1e-4)
+    assert mean.value == pytest.approx(0.08 * design.static_load, rel=1e-3)
+    assert share.value == pytest.approx(0.08, rel=1e-6)
 
 
 def test_gravity_by_name() -> None:

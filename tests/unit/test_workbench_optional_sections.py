@@ -132,3 +132,20 @@ def test_an_overlap_is_judged_at_the_loads_that_are_asked_for() -> None:
     named = [[c.id for c in overlap_checks(curves, inner_contact=True, up_to=load)] for load in (300.0, 200.0, 100.0)]
     start = "fe.spring_rim_overlap_"
     assert named == [[f"{start}160N", f"{start}250N"], [f"{start}160N", f"{start}200N"], [f"{start}100N"]]
+
+
+def test_the_rover_stands_on_no_wheel_of_another_size() -> None:
+    table = _table() | {"name": "larger"}
+    table = {name: table[name] for name in (*ENOUGH, "rover")}
+    table["wheel"]["tire"]["outer_radius"] = "143 mm"
+    with pytest.raises(StudyError, match=r"rover.* is for a wheel of radius 142\.5 mm, the study's has 143 mm"):
+        study_of(built_in_study(), table)
+
+
+def test_a_rover_without_tires_of_the_study_s_own_has_the_thesis() -> None:
+    """What a study does not state is the thesis'."""
+    own = {t.name: t.key(dict.fromkeys(t.needs, "")) for t in report_tasks(_study("rover", "ancf", "brush"), Path())}
+    without = {t.name: t.key(dict.fromkeys(t.needs, "")) for t in report_tasks(_study("rover"), Path())}
+    rover = [name for name in without if name.startswith("rover_")]
+    assert len(rover) > 20
+    assert {name: own[name] for name in rover} == {name: without[name] for name in rover}

@@ -13,6 +13,7 @@ from contracts.records import Check
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from workbench.execution.result_files import read_result
 from workbench.report.series import series_files
+from workbench.study.model_parameters import rover_on_brush
 from workbench.study.reading import built_in_study, read_study
 from workbench.tasks.rover import drive_rover
 from workbench.topics.rover import CLOSED_FORMS, MISSION, ROVER, THESIS, RoverResults
@@ -60,6 +61,14 @@ def test_two_percent_off_are_seen(results: RoverResults, name: str, scenario: st
     assert _checks(empty)[f"rover.{name}"].status == "error"
 
 
+def test_what_holds_on_table_twos_tire_only_is_a_gate_on_it_only(results: RoverResults) -> None:
+    other = replace(results, tire=replace(results.tire, radial_damping=1.0))
+    assert (results.on_table_two, other.on_table_two) == (True, False)
+    gates = [name for name, check in _checks(other).items() if check.role == "gate"]
+    assert gates == ["rover.load", "rover.drop", "rover.table_rigid"]
+    assert results.first_touch == pytest.approx(2217.6, abs=0.1)
+
+
 def test_each_requirement_is_a_finding_and_one_without_a_number_an_error(results: RoverResults) -> None:
     checks = _checks(results)
     assert {f"rover.mission_{name}" for name in MISSION} < set(checks)
@@ -100,7 +109,9 @@ def test_series_and_figures_of_the_section_exist(results: RoverResults) -> None:
 
 
 def test_a_task_writes_its_outcomes(tmp_path: Path) -> None:
-    drive_rover({"scenario": "traction"}, {}, tmp_path, lambda fraction: None)
+    drive_rover(
+        {"scenario": "traction", **rover_on_brush(read_study(built_in_study()))}, {}, tmp_path, lambda fraction: None
+    )
     result = read_result(tmp_path)
     assert result["failure"] is None
     assert result["outcomes"][0]["unit"] == "N"

@@ -18,6 +18,7 @@ from tests.unit.test_workbench_tire_animation import TIRE, flexible
 from workbench.comparison.rover_closer_results import CloserLook, Resting
 from workbench.comparison.rover_drive import Drive
 from workbench.report.series import series_links
+from workbench.study.model_parameters import ancf_preset
 from workbench.study.reading import built_in_study, read_study
 from workbench.tasks.rover_close_look import PRESSURE, body_series, write_close_look
 from workbench.topics.rover_ancf import ROVER_ANCF
@@ -43,7 +44,7 @@ def straight() -> Drive:
 
 def resting() -> Resting:
     stiffness = np.full(12, 320.0 * (2.0 * np.pi * BOUNCE) ** 2 / 6.0)
-    return Resting(strain=np.linspace(0.17, 0.25, 12), stiffness=stiffness, strain_alike=0.2, mass=320.0, load=45.0)
+    return Resting(strain=np.linspace(0.17, 0.25, 12), stiffness=stiffness, strain_alike=0.2, mass=320.0)
 
 
 def look() -> CloserLook:
@@ -56,7 +57,10 @@ def look() -> CloserLook:
         series=found,
         pressure=np.array(standing + rolling),
         straight=straight(),
+        load=45.0,
         resting=resting(),
+        preset=ancf_preset(STUDY),
+        of_thesis=True,
         stopped={"rocks": "a tire folds"},
         animation="<p>page</p>",
     )
@@ -114,6 +118,20 @@ def test_a_drive_that_ends_early_leaves_its_checks_open() -> None:
     assert set(statuses(bare).values()) == {"error"}
 
 
+def test_a_tire_of_ones_own_that_does_not_carry_the_rover_is_a_finding() -> None:
+    """The thesis' must; another one may fold, and the checks that rest on it could not be evaluated."""
+    fallen = replace(look(), resting=None, of_thesis=False, stopped={"at rest": "a tire folded"})
+    assert {name for name, status in statuses(fallen).items() if status == "error"} == {
+        "bounce",
+        "strain_standing",
+        "strain_rolling",
+    }
+    roles = {check.role for check in ROVER_CLOSER.checks(STUDY, None, fallen)}  # type: ignore[arg-type]
+    assert roles == {"finding"}
+    gates = [c.id for c in ROVER_CLOSER.checks(STUDY, None, replace(look(), of_thesis=False)) if c.role == "gate"]  # type: ignore[arg-type]
+    assert gates == ["rover_closer.pressure_standing", "rover_closer.pressure_rolling", "rover_closer.strain_standing"]
+
+
 def test_the_section_shows_what_there_is() -> None:
     found = look()
     environment = jinja2.Environment(
@@ -131,6 +149,9 @@ def test_the_section_shows_what_there_is() -> None:
     bare = replace(found, series={}, pressure=np.zeros((0, 5)), stopped={}, animation=None)
     text = template.render(topic=bare, figures=ROVER_CLOSER.figures(STUDY, bare), series={})
     assert "iframe" not in text
+    fallen = replace(found, resting=None, stopped={"at rest": "a tire folded"})
+    text = template.render(topic=fallen, figures=figures, series=links)
+    assert "at rest: the drive on ANCF tires ended early: a tire folded" in text
 
 
 def test_the_straight_path_is_driven_once() -> None:

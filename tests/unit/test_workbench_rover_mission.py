@@ -38,7 +38,7 @@ def drive(name: str, tire: str, stopped: str | None = None) -> Drive:
 def mission() -> Mission:
     fitted = {"slope_up": drive("slope_up", "ancf"), "step": drive("step", "ancf", "a tire folds at t = 20.3 s")}
     return Mission(
-        fitted=fitted, thesis={}, brush={n: drive(n, "brush") for n in ("slope_up", "step")}, tire="six spokes"
+        fitted=fitted, brush={n: drive(n, "brush") for n in ("slope_up", "step")}, tire="six spokes", friction=None
     )
 
 
@@ -63,6 +63,10 @@ def test_a_fitted_run_has_the_fits_contact_and_settles_quietly() -> None:
     down = fitted_run("slope_down", thesis_preset(), read_rover())
     assert isinstance(down.ride, AncfRide)
     assert down.ride.settling_damping == SETTLING_DAMPING["slope_down"]
+    assert (scenario.friction, scenario.ride.on_ground(scenario).friction) == (None, 0.6)
+    icy = fitted_run("slope_down", thesis_preset(), read_rover(), friction=0.1)
+    assert isinstance(icy.ride, AncfRide)
+    assert icy.ride.on_ground(icy).friction == 0.1
 
 
 def test_without_a_fit_there_is_no_motion_and_it_says_why(tmp_path: Path) -> None:

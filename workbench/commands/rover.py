@@ -6,7 +6,7 @@ Verified by tests/end_to_end/test_rover.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from rich.table import Table
@@ -14,24 +14,23 @@ from rich.table import Table
 from contracts.errors import ConvergenceError, InputError
 from contracts.series import write_series
 from contracts.text import one_line
-from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.planets import gravity_named
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
-from rover_dynamics.rover.scenarios.ground import on_rigid_tires, on_terrain, rocks_on_the_way
+from rover_dynamics.rover.scenarios.ground import on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
-from workbench.commands.computing import warn
+from workbench.commands.computing import read_and_warn, warn
+from workbench.commands.rover_tires import check_tire, on_tires
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console
 from workbench.report.folders import check_folder
 from workbench.report.number_format import displayed
 from workbench.report.placing import new_files
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, series_file
+from workbench.tasks.ancf_tire import tire_values
 
 __all__ = ["RoverChoices", "list_scenarios", "run_rover"]
-
-_TIRES = ("rigid", "brush", "ancf")
 
 
 def list_scenarios() -> int:
@@ -51,7 +50,8 @@ class RoverChoices:
 
     Attributes
     ----------
-    tire : brush, rigid or ancf
+    tire : name of `workbench.commands.rover_tires.TIRES`
+    study : file whose tires and ground are the rover's, or None for the thesis'
     rover : rover file, or None for the thesis' rover
     gravity : mars or earth, or None for the rover file's
     terrain : file of a height field to drive on, or None
@@ -61,6 +61,7 @@ class RoverChoices:
     """
 
     tire: str = "brush"
+    study: Path | None = None
     rover: Path | None = None
     gravity: str | None = None
     terrain: Path | None = None
@@ -75,7 +76,7 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
     Raises
     ------
     InputError
-        For a scenario, tire, rover or ground that cannot be used.
+        For a scenario, study, tire, rover or ground that cannot be used.
     RunError
         If the motion stops early; its series is written, marked partial.
     """
@@ -91,7 +92,7 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
         page = f"{scenario.name}.html"
         with new_files(out, "rover", [file, motion, page] if choices.animate else [file, motion]) as new:
             write_series(series, new.folder / file)
-            _record(run, new.folder / motion)
+            _record(scenario, run, new.folder / motion)
             if choices.animate:
                 _animate(scenario, design, run, new.folder / page)
         if run.stopped is None:
@@ -110,12 +111,20 @@ def _resumed(scenario: Scenario, design: RoverDesign, store: Path) -> Scenario:
     """The scenario on ANCF tires with its checkpoint in the store, named after what decides its motion."""
     from workbench.execution.store import Store
     from workbench.execution.task import Task
-    from workbench.tasks.rover_tires import resuming
+    from workbench.tasks.rover_tires import AncfRide, resuming
 
+    assert isinstance(scenario.ride, AncfRide)
+    tire, law = scenario.ride.tire, scenario.ride.on_ground(scenario)
     task = Task(
         name=f"rover_{scenario.name}",
         function="workbench.tasks.rover_tires:on_ancf_tires",
-        inputs={"scenario": scenario.name, "title": scenario.title, "rover": repr(design)},
+        inputs={
+            "scenario": scenario.name,
+            "title": scenario.title,
+            "rover": repr(design),
+            "law": asdict(law),
+            **tire_values(tire.preset, tire.mesh),
+        },
     )
     kept = Store(store)
     return resuming(scenario, kept.checkpoint(task.key({})) if kept.writable else None)
@@ -132,34 +141,27 @@ def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:
     return found
 
 
-def _record(run: ScenarioRun, path: Path) -> None:
+def _record(scenario: Scenario, run: ScenarioRun, path: Path) -> None:
     """The motion as a file for the viewer."""
     from workbench.tasks.motion_file import write_motion
+    from workbench.tasks.rover_tires import tire_of
 
-    hub_radius = None
-    if isinstance(run.motion, FlexibleMotion):
-        from ancf_reduced.tire.preset import thesis_preset
-
-        hub_radius = thesis_preset().hub_radius
-    write_motion(run, path, hub_radius)
+    tire = tire_of(scenario)
+    write_motion(run, path, None if tire is None else tire_values(tire.preset, tire.mesh))
 
 
 def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Path) -> None:
     from workbench.figures.rover_animation import write_animation
+    from workbench.tasks.rover_tires import tire_of
 
-    (x, y, z), tire = scenario.tilt.gravity(1.0), None
-    if isinstance(run.motion, FlexibleMotion):
-        from ancf_reduced.tire.mesh import build_tire
-        from ancf_reduced.tire.preset import thesis_preset
-
-        tire = build_tire(thesis_preset())
-    ground = scenario.terrain(design)
-    write_animation(run.motion, design, ground, page, title=scenario.title, up=(-x, -y, -z), tire=tire)
+    (x, y, z), ground = scenario.tilt.gravity(1.0), scenario.terrain(design)
+    title, tire = scenario.title, tire_of(scenario)
+    write_animation(run.motion, design, ground, page, title=title, up=(-x, -y, -z), tire=tire)
 
 
 def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDesign]:
     """The scenario with the tires and on the ground asked for, and the rover."""
-    _check_tire(choices.tire)
+    check_tire(choices.tire)
     if name is None:
         raise InputError("scenario", "", "is missing", f"give one of {', '.join(SCENARIOS)}")
     path = choices.rover or EXOMARS_ROVER
@@ -167,12 +169,8 @@ def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDes
     warn(path, design.warnings)
     if choices.gravity is not None:
         design = replace(design, gravity=gravity_named(choices.gravity))
-    if choices.tire == "rigid":
-        scenario = on_rigid_tires(scenario)
-    elif choices.tire == "ancf":
-        from workbench.tasks.rover_tires import on_ancf_tires
-
-        scenario = on_ancf_tires(scenario)
+    study = None if choices.study is None else read_and_warn(choices.study)
+    scenario = on_tires(scenario, choices.tire, study, design)
     return _on_ground(scenario, design, choices), design
 
 
@@ -193,11 +191,6 @@ def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -
     field = read_height_field(choices.terrain)
     x, y = (place - begin for place, begin in zip(field.origin, choices.start or (0.0, 0.0), strict=True))
     return on_terrain(scenario, design, replace(field, origin=(x, y)), one_line(choices.terrain.name))
-
-
-def _check_tire(tire: str) -> None:
-    if tire not in _TIRES:
-        raise InputError("tire", repr(tire), "is not known", "give rigid, brush or ancf")
 
 
 def _print_outcomes(title: str, outcomes: Sequence[Outcome]) -> None:

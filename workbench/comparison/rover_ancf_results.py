@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ancf_reduced.tire.preset import TirePreset
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.comparison.mission_row import MissionRow, mission_rows
@@ -25,17 +26,30 @@ ROLLING = (5.0, 35.0)
 """Time at the speed of the straight path [s]."""
 DRIVEN = 1.5
 """From here to its end at 2 s the run of traction says where the power goes [s]."""
-QUARTER = 0.5 * np.pi
-"""A spoke follows on the next one after this angle [rad]."""
+SHORTEST = 16.0
+"""Period of the deflection that is looked for at least, times the spokes: of four, a third of a quarter turn [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AncfRover:
-    """All runs by name, those on brush tires by scenario, the FE average."""
+    """All runs on a study's tires.
+
+    Attributes
+    ----------
+    runs : by name
+    brush : those on brush tires, by scenario
+    fe : the FE average
+    preset : of the ANCF tires
+    friction : of the study's ground, or None
+    of_thesis : whether the tires are stated to be the thesis'
+    """
 
     runs: Mapping[str, Drive]
     brush: Mapping[str, Drive]
     fe: StiffnessCurve
+    preset: TirePreset
+    friction: float | None
+    of_thesis: bool
 
     def __getitem__(self, name: str) -> Drive:
         return self.runs[name]
@@ -51,15 +65,15 @@ class AncfRover:
     @property
     def deflection_period(self) -> float:
         """With which the observed wheel's deflection repeats itself on the straight path [s]."""
-        return period(*self.window("straight", f"{OBSERVED}_deflection_m", ROLLING), 4.0)
+        return period(*self.window("straight", f"{OBSERVED}_deflection_m", ROLLING), SHORTEST / self.preset.spokes)
 
     @property
-    def quarter_turn(self) -> float:
-        """Time of a quarter turn at the measured spin [s]."""
+    def spoke_turn(self) -> float:
+        """Time in which a spoke follows on the next one at the measured spin [s]."""
         spins = self["straight"].spins
         if not spins:
             raise InputError("spin", "none", "was not measured", self["straight"].stopped or "look at the run")
-        return float(QUARTER / np.mean(spins))
+        return float(2.0 * np.pi / self.preset.spokes / np.mean(spins))
 
     def force_ripple(self, name: str) -> float:
         """Root mean square of the tractive force about its smooth course in a run of traction [N]."""
@@ -79,7 +93,7 @@ class AncfRover:
         """A number of the page, or None where its run stopped; runs of traction stand for the ripple of their force."""
         numbers: dict[str, Callable[[], float]] = {
             "deflection_period": lambda: self.deflection_period,
-            "quarter_turn": lambda: self.quarter_turn,
+            "spoke_turn": lambda: self.spoke_turn,
             "speed": lambda: self["straight"].value("mean speed between 15 and 35 s"),
         }
         try:

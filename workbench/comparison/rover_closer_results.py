@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.preset import TirePreset
 from contracts.errors import InputError
 from contracts.series import TimeSeries
 from workbench.comparison.oscillation import spectrum
@@ -45,18 +45,16 @@ class Resting:
 
     Attributes
     ----------
-    strain : (n,) float [-], largest of a tire, by orientation over a quarter turn
+    strain : (n,) float [-], largest of a tire, by orientation from spoke to spoke
     stiffness : (n,) float [N/m], of a wheel about its load, by orientation
-    strain_alike : [-], of a rover whose wheels all stand on a spoke, as it sets out
+    strain_alike : [-], of a rover whose wheels all stand alike, as it sets out
     mass : of the rover [kg]
-    load : its weight over the number of wheels [N]
     """
 
     strain: FloatArray
     stiffness: FloatArray
     strain_alike: float
     mass: float
-    load: float
 
     @property
     def bounce(self) -> float:
@@ -73,7 +71,10 @@ class CloserLook:
     series : by ground and tire, as far as there are
     pressure : (n, 5) float, contact points of one wheel, columns of `workbench.tasks.rover_close_look.PRESSURE`
     straight : the straight path on ANCF tires as its own section has it
-    resting : the same tires at rest
+    load : the rover's weight over the number of wheels [N]
+    resting : the same tires at rest; None if the rover does not stand on them
+    preset : of the tires
+    of_thesis : whether they are stated to be the thesis'
     stopped : ground -> why the drive on ANCF tires ended early
     animation : HTML page, or None
     """
@@ -81,7 +82,10 @@ class CloserLook:
     series: Mapping[tuple[str, str], TimeSeries]
     pressure: FloatArray
     straight: Drive
-    resting: Resting
+    load: float
+    resting: Resting | None
+    preset: TirePreset
+    of_thesis: bool
     stopped: Mapping[str, str]
     animation: str | None
 
@@ -100,7 +104,7 @@ class CloserLook:
         """At which rows of contact points come to the ground [Hz]."""
         from rover_dynamics.rover.scenarios.level_ground import SPEED
 
-        tire = thesis_preset()
+        tire = self.preset
         row = 2.0 * np.pi * tire.outer_radius / (tire.circumferential_plates * (tire.contact_points[0] - 1))
         return float(SPEED / row)
 
@@ -172,7 +176,7 @@ class CloserLook:
         if not found:
             raise InputError("pressure", "none", "was recorded", self.straight.stopped or "drive on")
         if standing:
-            return found[0]["load"] / self.resting.load
+            return found[0]["load"] / self.load
         load, series = self.straight.column(f"{OBSERVED}_load_N"), self.straight.series
         assert series is not None
         return found[-1]["load"] / float(np.interp(found[-1]["time"], series.time, load))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +18,7 @@ from workbench.study.model import Study, stated
 from workbench.study.model_parameters import ancf_tire, brush_parameters
 from workbench.study.sections import AncfSection
 from workbench.study.wheel_design import wheel_design
+from workbench.tasks.brush import brush_values
 from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.registry import topics_of
 
@@ -105,7 +105,7 @@ def _table_deflections(ancf: AncfSection) -> list[float]:
 
 def _brush_task(study: Study) -> Task:
     end = max([study.fe.max_deflection, *([study.ancf.max_deflection] if study.ancf is not None else [])])
-    parameters = {name: value for name, value in asdict(brush_parameters(study)).items() if name != "source"}
+    parameters = brush_values(brush_parameters(study))
     inputs = {"parameters": parameters, "max_deflection": end}
     return Task(name="brush", function="workbench.tasks.brush:solve", inputs=inputs)
 

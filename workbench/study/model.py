@@ -17,6 +17,7 @@ from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
+from workbench.study.ground import GroundSection
 from workbench.study.quantities import Force, Length, Stiffness
 from workbench.study.rover import RoverSection
 from workbench.study.section import Positive, Section
@@ -84,6 +85,7 @@ class Study(WheelStudy):
     mesh_study : the meshes that give the numerical uncertainty of the FE curves
     full : what `workbench report --full` takes instead of the study's orientations and mesh
     rover : what the rover does
+    ground : friction under the rover
     hub_study : where the compliance of hubs, cone and impact springs is measured
     penalty_study : where the load is held against other contact penalties
     verification : whether the benchmarks of finite elements and plates are part of the report
@@ -102,6 +104,7 @@ class Study(WheelStudy):
     verification: VerificationSection | None = None
     full: FullSection = FullSection()
     rover: RoverSection | None = None
+    ground: GroundSection = GroundSection()
     ancf: AncfSection | None = None
     ancf_fit: AncfFitSection | None = None
     brush: BrushSection | None = None

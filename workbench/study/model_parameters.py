@@ -10,10 +10,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from workbench.study.fit import FittedTireSection
 from workbench.study.model import Study, stated
 from workbench.study.wheel_design import in_section
 from workbench.tasks.ancf_tire import tire_values
+from workbench.tasks.brush import brush_values
 
 if TYPE_CHECKING:
     from ancf_reduced.plates.mesh import PlateMesh
@@ -26,6 +29,12 @@ __all__ = [
     "ancf_tire",
     "brush_parameters",
     "fit_start",
+    "fits_rover",
+    "on_tire_of_thesis",
+    "rover_ancf",
+    "rover_brush",
+    "rover_on_ancf",
+    "rover_on_brush",
 ]
 
 
@@ -82,3 +91,49 @@ def brush_parameters(study: Study) -> BrushTireParameters:
     values = stated(study.brush, "brush").model_dump()
     values["cornering_stiffness"] = values.pop("cornering_stiffness_per_degree") * 180.0 / math.pi
     return in_section("brush", lambda: BrushTireParameters(**values))
+
+
+def rover_brush(study: Study) -> BrushTireParameters:
+    """The rover's brush tire: that of [brush], the thesis' without it; InputError if the wheel is not of its size."""
+    from rover_dynamics.tires.brush_tire import THESIS_BRUSH
+
+    return THESIS_BRUSH if study.brush is None and _of_thesis_size(study) else brush_parameters(study)
+
+
+def rover_ancf(study: Study) -> TirePreset:
+    """The rover's ANCF tire: that of [ancf], the thesis' without it; InputError if the wheel is not of its size."""
+    from ancf_reduced.tire.preset import thesis_preset
+
+    return thesis_preset() if study.ancf is None and _of_thesis_size(study) else ancf_preset(study)
+
+
+def _of_thesis_size(study: Study) -> bool:
+    """What a study does not state is the thesis' as far as it can be: its tires fit wheels of its size."""
+    from ancf_reduced.tire.preset import thesis_preset
+
+    return bool(np.isclose(study.wheel.tire.outer_radius, thesis_preset().outer_radius))
+
+
+def on_tire_of_thesis(study: Study) -> bool:
+    """Whether the rover's ANCF tire is the thesis'."""
+    return study.ancf is None or study.ancf.thesis_preset
+
+
+def rover_on_brush(study: Study) -> dict[str, Any]:
+    """Brush tire and ground of the rover as inputs of a task, see ``workbench.tasks.rover``."""
+    return {"brush": brush_values(rover_brush(study)), "friction": study.ground.friction}
+
+
+def fits_rover(study: Study) -> bool:
+    """Whether the ANCF tire has the radius of the rover's wheels, so that the rover can stand on it."""
+    from rover_dynamics.rover.rover_file import read_rover
+
+    return (study.ancf is not None or _of_thesis_size(study)) and bool(
+        np.isclose(rover_ancf(study).zero_radius, read_rover().wheel_radius)
+    )
+
+
+def rover_on_ancf(study: Study) -> dict[str, Any]:
+    """ANCF tire and ground of the rover as inputs of a task, see ``workbench.tasks.rover_ancf``."""
+    mesh = None if study.ancf is None else ancf_mesh(study)
+    return tire_values(rover_ancf(study), mesh) | {"friction": study.ground.friction}

@@ -8,8 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 
 from contracts.errors import InputError
+from rover_dynamics.rover.rover_file import read_rover
 from workbench.study.model import Study
 from workbench.study.model_parameters import fit_start
 from workbench.study.wheel_design import SectionInputError, materials, wheel_design
@@ -50,8 +52,18 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
     yield from _of_the_fit(study)
 
 
+@cache
+def _rover_radius() -> float:
+    """Of the shipped rover's wheels [m]."""
+    return read_rover().wheel_radius
+
+
 def _lonely(study: Study) -> Iterator[BrokenRule]:
-    """A section that asks for what another one has."""
+    """A section that asks for what another has: the fit for tire and uncertainty, the rover for a wheel of its size."""
+    radius, wanted = study.wheel.tire.outer_radius, _rover_radius()
+    if study.rover is not None and abs(radius - wanted) > 1e-9:
+        rule = f"is for a wheel of radius {1e3 * wanted:g} mm, the study's has {1e3 * radius:g} mm"
+        yield BrokenRule(key="rover", value="a table", rule=rule, hint="remove [rover]: the rover cannot stand on it")
     if study.ancf_fit is not None:
         for name, section in (("ancf", study.ancf), ("mesh_study", study.mesh_study)):
             if section is None:

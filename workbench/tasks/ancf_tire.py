@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contracts.errors import InputError
+
 if TYPE_CHECKING:
     from ancf_reduced.plates.mesh import PlateMesh
     from ancf_reduced.tire.mesh import Tire
     from ancf_reduced.tire.preset import TirePreset
 
-__all__ = ["preset_from", "tire_from", "tire_values"]
+__all__ = ["drawn_tire", "preset_from", "tire_from", "tire_values"]
 
 
 def tire_values(preset: TirePreset, mesh: PlateMesh | None) -> dict[str, Any]:
@@ -54,3 +56,31 @@ def tire_from(inputs: Mapping[str, Any]) -> Tire:
         parts=tuple(plates["parts"]),
     )
     return tire_on_mesh(preset, mesh)
+
+
+def drawn_tire(values: Mapping[str, Any], n_vectors: int) -> Tire:
+    """The tire of a recorded motion, on a coarse contact grid, which is not drawn.
+
+    Parameters
+    ----------
+    values : see `tire_values`, with plates
+    n_vectors : of one tire in the motion
+
+    Raises
+    ------
+    InputError
+        If the values make no tire, or one of other vectors.
+    """
+    from ancf_reduced.motion.vector_coordinates import with_reference_node
+
+    what, hint = "tire of the motion file", "run the report or the scenario again"
+    try:
+        preset = dict(values["preset"]) | {"contact_points": (2, 2), "quadrature": (1, 1, 1)}
+        tire = tire_from({"preset": preset, "plates": values["plates"]})
+        found = with_reference_node(tire.tie).n_vectors
+    except (ValueError, KeyError, IndexError, TypeError, OverflowError, RecursionError) as error:
+        rule = f"cannot be read ({type(error).__name__}: {str(error)[:80]})"
+        raise InputError(what, "its numbers", rule, hint) from error
+    if found != n_vectors:
+        raise InputError(what, f"{found} vectors", f"must have the motion's {n_vectors}", hint)
+    return tire

@@ -1,4 +1,4 @@
-"""A rover's motion with what is drawn of it, as a NumPy archive without pickle, for the viewer.
+"""A rover's motion with what is drawn of it, ANCF tires included, as a NumPy archive without pickle, for the viewer.
 
 Poses at no more than 181 of the recorded times, in single precision, as quaternions: 150 kB for a rover on brush tires.
 
@@ -7,6 +7,7 @@ Verified by tests/unit/test_workbench_motion_file.py.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -43,6 +44,7 @@ class RecordedMotion:
     times : (n,) float [s]
     positions, rotations : (n, n_b, 3) [m] and (n, n_b, 3, 3) float, of all bodies, body to world
     vectors : (n, n_w, n_vectors, 3) float, of ANCF tires; n_w = 0 without
+    tire : each of these, see `workbench.tasks.ancf_tire.tire_values`; None without
     up : unit vector against gravity, world
     solids : rover and ground
     """
@@ -52,6 +54,7 @@ class RecordedMotion:
     positions: FloatArray
     rotations: FloatArray
     vectors: FloatArray
+    tire: Mapping[str, Any] | None
     up: FloatArray
     solids: tuple[Solid, ...]
 
@@ -75,15 +78,14 @@ class RecordedMotion:
         )
 
 
-def write_motion(run: ScenarioRun, path: Path, hub_radius: float | None = None) -> None:
-    """Write a run; of wheels on ANCF tires only the hubs are solid, of the tires' hub radius [m]."""
+def write_motion(run: ScenarioRun, path: Path, tire: Mapping[str, Any] | None = None) -> None:
+    """Write a run; of wheels on ANCF tires, see `RecordedMotion`, only the hubs are solid."""
     motion, design = run.motion, run.design
-    flexible = isinstance(motion, FlexibleMotion)
     kept = np.unique(np.linspace(0, len(motion.times) - 1, min(_MOST, len(motion.times))).round().astype(np.int64))
     places = run.wheels[..., :2].reshape(-1, 2)
     trodden = np.array([places.min(axis=0) - design.wheel_radius, places.max(axis=0) + design.wheel_radius])
     ground = ground_solids(run.scenario.terrain(design), trodden)
-    solids = [*rover_solids(design, hub_radius if flexible else None), *ground]
+    solids = [*rover_solids(design, tire["preset"]["hub_radius"] if tire else None), *ground]
     turned = Rotation.from_matrix(motion.rotations[kept].reshape(-1, 3, 3)).as_quat(scalar_first=True)
     vectors = motion.vectors[kept] if isinstance(motion, FlexibleMotion) else np.zeros((len(kept), 0, 0, 3))
     arrays: dict[str, Any] = {
@@ -92,6 +94,7 @@ def write_motion(run: ScenarioRun, path: Path, hub_radius: float | None = None) 
         "positions": motion.positions[kept].astype(np.float32),
         "quaternions": turned.reshape(*motion.positions[kept].shape[:2], 4).astype(np.float32),
         "vectors": vectors.astype(np.float32),
+        "tire": np.array(json.dumps(tire)),
         "up": -np.array(run.scenario.tilt.gravity(1.0)),
         "bodies": np.array([solid.body for solid in solids]),
     }
@@ -114,7 +117,7 @@ def read_motion(path: Path) -> RecordedMotion:
     arrays = read_archive(path, "motion file", _LARGEST)
     try:
         return _motion(arrays)
-    except (ValueError, KeyError, IndexError, TypeError) as error:
+    except (ValueError, KeyError, IndexError, TypeError, OverflowError, RecursionError) as error:
         rule = f"cannot be read ({type(error).__name__}: {str(error)[:80]})"
         raise InputError("motion file", path, rule, "run the report or the scenario again") from error
 
@@ -126,13 +129,17 @@ def _motion(arrays: Mapping[str, NDArray[Any]]) -> RecordedMotion:
         raise ValueError(f"{len(arrays['times'])} times, positions {positions.shape}")
     if arrays["bodies"].min() < WORLD or arrays["bodies"].max() >= n_b:
         raise ValueError(f"solids of bodies that are none of {n_b}")
+    vectors, tire = arrays["vectors"].astype(np.float64), json.loads(str(arrays["tire"]))
+    if (tire is not None) != bool(vectors.shape[1]):
+        raise ValueError(f"vectors of {vectors.shape[1]} ANCF tires, and {'no' if tire is None else 'a'} tire")
     rotations = Rotation.from_quat(quaternions.reshape(-1, 4), scalar_first=True).as_matrix()
     return RecordedMotion(
         title=str(arrays["title"]),
         times=arrays["times"].astype(np.float64),
         positions=positions,
         rotations=rotations.reshape(n, n_b, 3, 3),
-        vectors=arrays["vectors"].astype(np.float64),
+        vectors=vectors,
+        tire=tire,
         up=arrays["up"].astype(np.float64),
         solids=tuple(_solid(arrays, number) for number in range(len(arrays["bodies"]))),
     )

@@ -1,4 +1,4 @@
-"""Task: one run of the rover on six ANCF tires, of the thesis or fitted to the wheel.
+"""Task: one run of the rover on six ANCF tires, of the study or fitted to the wheel.
 
 Verified by tests/unit/test_workbench_rover_ancf.py.
 """
@@ -12,22 +12,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf_reduced.tire.mesh import build_tire
-from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.motion.vector_coordinates import with_reference_node
+from ancf_reduced.tire.mesh import Tire
 from contracts.csv_table import CsvTable, table_text
-from contracts.errors import ConvergenceError
+from contracts.errors import ConvergenceError, InputError
 from contracts.series import TimeSeries, write_series
 from rover_dynamics.flexible.account import COLUMNS, FlexibleAccount
 from rover_dynamics.flexible.flexible_system import FlexibleSystem
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from workbench.execution.result_files import FAILURE, read_result, write_result
-from workbench.tasks.ancf_tire import preset_from
+from workbench.tasks.ancf_tire import preset_from, tire_from, tire_values
 from workbench.tasks.motion_file import MOTION, write_motion
 from workbench.tasks.rover_ancf_runs import ancf_run, fitted_run
 from workbench.tasks.rover_close_look import write_close_look
 from workbench.tasks.rover_shapes import Watch
-from workbench.tasks.rover_tires import resuming, watching
+from workbench.tasks.rover_tires import resuming, tire_of, watching
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
@@ -39,7 +39,6 @@ _ROWS = 400
 """Of the account's file, about."""
 _EACH = 5
 """Sample of a closely sampled motion that its series keeps: a tenth of a second apart."""
-_DOFS = 3 * 6 * 36
 
 
 def drive_on_ancf_tires(
@@ -47,15 +46,17 @@ def drive_on_ancf_tires(
 ) -> int:
     """``result.json`` with outcomes, mean spins of the wheels and why it stopped, ``series.csv`` and ``motion.npz``.
 
-    A motion that stops early keeps its series and has no outcomes; one that stops before time zero has neither.
+    The inputs hold the tire, see `workbench.tasks.ancf_tire`, and the ground's ``friction`` or None. A motion that
+    stops early keeps its series and has no outcomes; one that stops before time zero, or cannot begin on these tires,
+    has neither.
     Goes on from the motion in ``checkpoint``, if there is one. With ``account`` in the inputs also ``account.csv`` and
     in the result how far energy and momentum close, from time zero or where the motion went on from; with
     ``pressed_at``, times [s], what `write_close_look` keeps, and the series has every fifth sample only.
     """
-    design = read_rover()
+    design, tire = read_rover(), tire_from(inputs)
     closely = "pressed_at" in inputs
     run = _drive(
-        ancf_run(inputs["run"], design),
+        ancf_run(inputs["run"], design, tire, inputs["friction"]),
         design,
         out,
         checkpoint,
@@ -63,10 +64,10 @@ def drive_on_ancf_tires(
         every=_EACH if closely else 1,
     )
     if run is not None:
-        write_motion(run, out / MOTION, thesis_preset().hub_radius)
+        write_motion(run, out / MOTION, tire_values(tire.preset, tire.mesh))
         if closely:
-            write_close_look(run, inputs["run"], build_tire(thesis_preset()), inputs["pressed_at"], out)
-    return _DOFS
+            write_close_look(run, inputs["run"], tire, inputs["pressed_at"], out)
+    return _unknowns(tire)
 
 
 def drive_on_fitted_tires(
@@ -74,15 +75,23 @@ def drive_on_fitted_tires(
 ) -> int:
     """The same with a scenario of the mission on six tires of a fit, ``inputs["fit"]`` of the needs.
 
-    Writes no ``motion.npz``, which knows the tire of the thesis only.
+    Writes no ``motion.npz``.
     """
     fit = read_result(needs[inputs["fit"]])
     if FAILURE in fit:
         write_result(out, {"outcomes": [], "spins": [], "stopped": f"there is no tire: {fit[FAILURE]}", "steps": 0})
         return 0
     design = read_rover()
-    _drive(fitted_run(inputs["run"], preset_from(fit["preset"]), design), design, out, checkpoint)
-    return _DOFS
+    scenario = fitted_run(inputs["run"], preset_from(fit["preset"]), design, inputs["friction"])
+    _drive(scenario, design, out, checkpoint)
+    tire = tire_of(scenario)
+    assert tire is not None
+    return _unknowns(tire)
+
+
+def _unknowns(tire: Tire) -> int:
+    """Of all six tires."""
+    return 6 * 3 * with_reference_node(tire.tie).n_vectors
 
 
 def _drive(
@@ -104,7 +113,7 @@ def _drive(
     scenario = resuming(watching(scenario, account) if accounted else scenario, checkpoint)
     try:
         run = run_scenario(scenario, design)
-    except ConvergenceError as error:
+    except (ConvergenceError, InputError) as error:  # a tire that folds at once, or weighs more than its wheel
         write_result(out, {"outcomes": [], "spins": [], "stopped": str(error), "steps": 0})
         return None
     write_series(_thinned(scenario_series(run), every), out / SERIES)

@@ -20,7 +20,7 @@ from contracts.terrain import Plane
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from rover_dynamics.rover.scenarios.level_ground import OBSERVED
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
-from workbench.tasks.rover_tires import DAMPING_RATIO, LAW
+from workbench.tasks.rover_tires import DAMPING_RATIO, contact_law
 
 __all__ = ["CLOSELY", "EVERY", "PRESSURE", "PRESSURES", "body_series", "coarse_skin", "write_close_look"]
 
@@ -68,7 +68,7 @@ def _pressed(run: ScenarioRun, tire: Tire, times: Sequence[float]) -> FloatArray
     """Contact points (n, 5) of the wheel the thesis observes, on level ground; columns of `PRESSURE`."""
     motion = run.motion
     assert isinstance(motion, FlexibleMotion)
-    tires = wheel_set(tire, Plane(), len(run.design.legs), law=LAW, damping_ratio=DAMPING_RATIO)
+    tires = wheel_set(tire, Plane(), len(run.design.legs), law=contact_law(tire.preset), damping_ratio=DAMPING_RATIO)
     wheel = [leg.name for leg in run.design.legs].index(OBSERVED)
     rows = [np.zeros((0, len(PRESSURE)))]
     for time in times:

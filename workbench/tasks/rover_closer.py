@@ -12,23 +12,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf_reduced.tire.mesh import Tire, build_tire
-from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.mesh import Tire
 from ancf_reduced.tire.wheel_set import wheel_set
-from contracts.errors import ConvergenceError
+from contracts.errors import ConvergenceError, InputError
 from contracts.series import write_series
 from contracts.terrain import Plane
 from contracts.terrain_rocks import RandomRocks
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
-from rover_dynamics.rover.scenarios.ground import on_terrain
+from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction, on_terrain
 from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward, straight_ahead
 from rover_dynamics.rover.scenarios.scenario import Scenario, run_scenario
 from rover_dynamics.rover.standing import stand_under_loads
 from workbench.execution.result_files import FAILURE, write_result
+from workbench.tasks.ancf_tire import drawn_tire, tire_from
+from workbench.tasks.brush import brush_from
 from workbench.tasks.motion_file import MOTION, read_motion
 from workbench.tasks.rover_close_look import EVERY, body_series, coarse_skin
-from workbench.tasks.rover_tires import DAMPING_RATIO, LAW, START_HEIGHT, on_ancf_tires
+from workbench.tasks.rover_tires import DAMPING_RATIO, START_HEIGHT, contact_law, on_ancf_tires
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
@@ -43,38 +44,52 @@ _ASIDE = 0.05
 
 
 def drive_closely(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``straight_brush.csv``, ``rocks_{brush,ancf}.csv``, and in the result what `stands` finds; why a drive ended."""
-    design, tire, stopped = read_rover(), build_tire(thesis_preset()), dict[str, str]()
-    path = _path(inputs["lasts"])
+    """``straight_brush.csv``, ``rocks_{brush,ancf}.csv``, and in the result what `stands` finds; why a drive ended.
+
+    The inputs hold both tires, see `workbench.tasks.brush` and `workbench.tasks.ancf_tire`, and the ground's friction.
+    """
+    design, tire, stopped = read_rover(), tire_from(inputs), dict[str, str]()
+    path = on_friction(on_brush_tires(_path(inputs["lasts"]), brush_from(inputs["brush"])), inputs["friction"])
     rocks = _on_rocks(path, design, inputs["rocks"])
     for ground, scenario in (("straight", path), ("rocks", rocks)):
         write_series(body_series(run_scenario(scenario, design), ground, None), out / f"{ground}_brush.csv")
     progress(0.2)
     try:
         run = run_scenario(on_ancf_tires(rocks, tire), design)
-    except ConvergenceError as error:
+    except (ConvergenceError, InputError) as error:
         stopped["rocks"] = str(error)
     else:
         write_series(body_series(run, "rocks", tire), out / "rocks_ancf.csv")
         if run.stopped:
             stopped["rocks"] = run.stopped
     progress(0.8)
-    write_result(out, {"stopped": stopped, "stands": stands(tire, design), FAILURE: None})
+    try:
+        found: dict[str, Any] | None = stands(tire, design)
+    except (ConvergenceError, InputError) as error:
+        found, stopped["at rest"] = None, str(error)
+    write_result(out, {"stopped": stopped, "stands": found, FAILURE: None})
     return 0
 
 
 def stands(tire: Tire, design: RoverDesign) -> dict[str, Any]:
-    """The rover at rest on the tires by `rover_dynamics.rover.standing`, in twelve orientations of a quarter turn.
+    """The rover at rest on the tires by `rover_dynamics.rover.standing`, in twelve orientations from spoke to spoke.
 
     ``strain`` and ``stiffness`` [N/m] at the wheel load, a list over the orientations; ``strain_alike``, of a rover
-    whose six wheels all stand on a spoke, as it sets out.
+    whose six wheels all stand alike, as it sets out. Raises ConvergenceError or InputError if it does not stand.
     """
     load, skin = design.static_load, coarse_skin(tire)
-    tires = wheel_set(tire, Plane(), len(design.legs), law=replace(LAW, friction=0.0), damping_ratio=DAMPING_RATIO)
+    tires = wheel_set(
+        tire,
+        Plane(),
+        len(design.legs),
+        law=replace(contact_law(tire.preset), friction=0.0),
+        damping_ratio=DAMPING_RATIO,
+    )
     (alike,) = stand_under_loads(design, tires, np.zeros(len(design.legs)), [load])
     strains, stiffness = list[float](), list[float]()
-    for first in (0.0, 7.5):
-        turned = np.radians(first + 15.0 * np.arange(len(design.legs)))
+    apart = 360.0 / tire.preset.spokes / len(design.legs)
+    for first in (0.0, 0.5 * apart):
+        turned = np.radians(first + apart * np.arange(len(design.legs)))
         loads = [load, (1.0 - _ASIDE) * load, (1.0 + _ASIDE) * load]
         at, below, above = stand_under_loads(design, tires, turned, loads)
         strains += [float(skin.largest_strain(z).max()) for z in at.vectors]
@@ -84,14 +99,15 @@ def stands(tire: Tire, design: RoverDesign) -> dict[str, Any]:
 
 
 def animate(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``animation.html`` of the motion a need recorded on the thesis' tires; none if it never began."""
+    """``animation.html`` of the motion a need recorded on ANCF tires; none if it never began."""
     from workbench.figures.rover_animation import write_animation
 
     recorded = needs[inputs["motion"]] / MOTION
     if recorded.exists():
-        motion, tire = read_motion(recorded).replayed(), build_tire(thesis_preset())
+        motion = read_motion(recorded)
         title, most = inputs["title"], inputs["frames"]
-        write_animation(motion, read_rover(), Plane(), out / ANIMATION, title=title, tire=tire, most=most)
+        tire = drawn_tire(motion.tire, motion.vectors.shape[2]) if motion.tire is not None else None
+        write_animation(motion.replayed(), read_rover(), Plane(), out / ANIMATION, title=title, tire=tire, most=most)
     write_result(out, {FAILURE: None})
     return 0
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ancf_reduced.contact.law import ContactLaw
 from ancf_reduced.tire.mesh import Tire, build_tire
-from ancf_reduced.tire.preset import thesis_preset
+from ancf_reduced.tire.preset import TirePreset, thesis_preset
 from ancf_reduced.tire.wheel_set import THESIS_LAW, WheelSet, wheel_set
 from contracts.errors import ConvergenceError, InputError
 from rover_dynamics.flexible.even_steps import EvenSteps
@@ -23,11 +23,20 @@ from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, FlexibleVeh
 from rover_dynamics.flexible.implicit_motion import drive_on_flexible_tires
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.scenario import Scenario
-from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion
 from workbench.tasks.rover_shapes import TireShapes, Watch
 
-__all__ = ["DAMPING_RATIO", "LAW", "START_HEIGHT", "AncfRide", "on_ancf_tires", "resuming", "watching"]
+__all__ = [
+    "DAMPING_RATIO",
+    "LAW",
+    "START_HEIGHT",
+    "AncfRide",
+    "contact_law",
+    "on_ancf_tires",
+    "resuming",
+    "tire_of",
+    "watching",
+]
 
 DAMPING_RATIO = 0.05
 """Of the first mode of a tire on a held hub, see `ancf_reduced.tire.wheel_rig.damped_model`; the thesis gives none
@@ -61,6 +70,10 @@ class AncfRide:
     checkpoint: Path | None = None
     watched: Callable[[FlexibleSystem], Watch] | None = None
 
+    def on_ground(self, scenario: Scenario) -> ContactLaw:
+        """The law with the friction that the scenario asks for, if it does."""
+        return self.law if scenario.friction is None else replace(self.law, friction=scenario.friction)
+
     def __call__(self, scenario: Scenario, design: RoverDesign) -> VehicleMotion:
         """The motion at the scenario's times.
 
@@ -70,8 +83,7 @@ class AncfRide:
             If a tire folds or no step converges; with the motion up to there.
         """
         _check_size(self.tire, design)
-        friction = scenario.tire.friction_max
-        law = self.law if friction == THESIS_BRUSH.friction_max else replace(self.law, friction=friction)
+        law = self.on_ground(scenario)
         vehicle, times, start = scenario.vehicle(design), scenario.times(), None
         if self.settling_damping is not None and times[0] < 0.0:
             quieter = self._on_tires(vehicle, replace(law, damping=self.settling_damping))
@@ -113,6 +125,17 @@ class AncfRide:
         return motion, shapes.seen[1] if shapes.seen is not None else system.at_rest(float(times[0]))
 
 
+def contact_law(preset: TirePreset) -> ContactLaw:
+    """What each contact point of a tire feels under the rover.
+
+    Stiffness is the tire's. Damping, its depth and friction are no numbers of a tire but the rover's, those of `LAW`;
+    the damping is in proportion to the stiffness, the thesis' c / k = 0.1 s, so that a finer grid of as much stiffness
+    has as much damping.
+    """
+    damping = LAW.damping * (preset.contact_stiffness / LAW.stiffness)
+    return replace(LAW, stiffness=preset.contact_stiffness, damping=damping)
+
+
 def _from_zero(watch: Watch) -> Watch:
     """Sees no settling."""
 
@@ -128,35 +151,41 @@ def on_ancf_tires(
     tire: Tire | None = None,
     *,
     steps: EvenSteps = STEPS,
-    law: ContactLaw = LAW,
+    law: ContactLaw | None = None,
     turned: float = 0.0,
     settling_damping: float | None = None,
 ) -> Scenario:
     """The same on six flexible tires; they settle by implicit Euler steps until time zero.
 
     What is searched beside the run is left out, its bisections would take many minutes; a motion in which a tire folds
-    ends before it. Friction is the thesis' 0.6 unless the scenario's brush tires have one of their own, so that both
-    slip alike there.
+    ends before it. Friction is that of the scenario, so that all tires slip alike there; of one that asks for none it
+    is the law's, the thesis' 0.6.
 
     Parameters
     ----------
     scenario : with wheels of the tire's radius
     tire : all six of them; the thesis' if left out
     steps : how they are chosen
-    law : contact of each point
+    law : contact of each point; `contact_law` if left out
     turned : angle of each tire on its wheel about the axle, positive rolls forward [rad]
     settling_damping : of each contact point while the rover first comes to rest, after which it starts again from
         there [N s/m]: on slopes it otherwise overshoots; None: that of the law, and one settling
     """
+    tire = tire or build_tire(thesis_preset())
     ride = AncfRide(
-        tire=tire or build_tire(thesis_preset()),
+        tire=tire,
         steps=steps,
-        law=law,
+        law=law or contact_law(tire.preset),
         turned=turned,
         settling_damping=settling_damping,
     )
     height = START_HEIGHT if scenario.height is None else scenario.height
     return replace(scenario, ride=ride, height=height, tire_model="ancf", has_closed_forms=False, search=None)
+
+
+def tire_of(scenario: Scenario) -> Tire | None:
+    """The ANCF tire a scenario drives on; None on others."""
+    return scenario.ride.tire if isinstance(scenario.ride, AncfRide) else None
 
 
 def resuming(scenario: Scenario, checkpoint: Path | None) -> Scenario:

@@ -5,13 +5,15 @@ Verified by tests/unit/test_workbench_rover_closer.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contracts.csv_table import TableRule, read_table
+from contracts.errors import InputError
 from contracts.records import Check, Role
 from contracts.series import TimeSeries, read_series
 from rover_dynamics.rover.rover_file import read_rover
@@ -21,6 +23,7 @@ from workbench.comparison.rover_drive import read_drive
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
 from workbench.study.model import Study
+from workbench.study.model_parameters import on_tire_of_thesis, rover_ancf, rover_on_ancf, rover_on_brush
 from workbench.topics.rover_mission import ROVER_MISSION
 from workbench.topics.topic import Topic
 
@@ -39,7 +42,7 @@ def _tasks(study: Study) -> Sequence[Task]:
         Task(
             name=TASK,
             function="workbench.tasks.rover_closer:drive_closely",
-            inputs={"lasts": 20.0, "rocks": 3},
+            inputs={"lasts": 20.0, "rocks": 3, **rover_on_brush(study), **rover_on_ancf(study)},
             cost=14.0,
         ),
         Task(
@@ -66,19 +69,23 @@ def _read(study: Study, folders: Mapping[str, Path]) -> CloserLook:
         },
         pressure=read_table(pressure, _RULE).values if pressure.exists() else np.zeros((0, 5)),
         straight=(drive := read_drive(straight, "straight", "ancf")),
-        resting=Resting(
+        load=design.static_load,
+        resting=None
+        if stands is None
+        else Resting(
             strain=np.array(stands["strain"]),
             stiffness=np.array(stands["stiffness"]),
             strain_alike=stands["strain_alike"],
             mass=design.mass,
-            load=design.static_load,
         ),
+        preset=rover_ancf(study),
+        of_thesis=on_tire_of_thesis(study),
         stopped=result["stopped"] | ({"straight": drive.stopped} if drive.stopped else {}),
         animation=page.read_text(encoding="utf-8") if page.exists() else None,
     )
 
 
-def _claim(name: str, title: str, quantity: str, unit: str, source: str, role: Role = "gate") -> Claim:
+def _claim(name: str, title: str, quantity: str, unit: str, source: str, role: Role) -> Claim:
     title = f"ANCF tires, closely, {title}"
     return Claim(id=f"rover_closer.{name}", title=title, quantity=quantity, unit=unit, role=role, source=source)
 
@@ -86,18 +93,30 @@ def _claim(name: str, title: str, quantity: str, unit: str, source: str, role: R
 def _checks(study: Study, found: Comparison, results: CloserLook) -> Sequence[Check]:
     bounce, apart = "bounce of the rover on its tires, sqrt(6 k / m) / (2 pi)", "the rover at rest, solved apart"
     line = _claim("bounce", "strongest vibration of the body", "frequency", "Hz", bounce, "finding")
-    still = _claim("pressure_standing", "pressure, standing", "pressure times area / load", "-", "320 kg on Mars")
-    moving = _claim("pressure_rolling", "pressure, rolling", "pressure times area / load", "-", "load of the series")
-    start = _claim("strain_standing", "strain before it sets out", "largest strain", "-", apart)
+    driven = results.resting is not None and results.straight.stopped is None
+    role: Role = "gate" if results.of_thesis or driven else "finding"  # a tire of one's own may fold
+    share = "pressure times area / load"
+    still = _claim("pressure_standing", "pressure, standing", share, "-", "320 kg on Mars", role)
+    moving = _claim("pressure_rolling", "pressure, rolling", share, "-", "load of the series", role)
+    start = _claim("strain_standing", "strain before it sets out", "largest strain", "-", apart, role)
     ride = _claim("strain_rolling", "strain at 70 m/h", "largest strain", "-", apart, "finding")
-    resting = results.resting
+    rest = results.resting
+    bounces, alike, strained = (rest.bounce, rest.strain_alike, float(rest.strain.max())) if rest else (0.0, 0.0, 0.0)
+    beside_rest = partial(partial, _beside_rest, results)
     return [
-        near(line, lambda: results.vibration("straight", "ancf").strongest, resting.bounce, 0.05),
+        near(line, beside_rest(lambda: results.vibration("straight", "ancf").strongest), bounces, 0.05),
         near(still, lambda: results.pressed(standing=True), 1.0, 1e-3),
         near(moving, lambda: results.pressed(standing=False), 1.0, 1e-3),
-        near(start, lambda: results.strain_at_start, resting.strain_alike, 0.01),
-        near(ride, lambda: results.strain_range[1], float(resting.strain.max()), 0.1),
+        near(start, beside_rest(lambda: results.strain_at_start), alike, 0.01),
+        near(ride, beside_rest(lambda: results.strain_range[1]), strained, 0.1),
     ]
+
+
+def _beside_rest(results: CloserLook, number: Callable[[], float]) -> float:
+    """A number that is held against the rover at rest; InputError if it does not stand."""
+    if results.resting is None:
+        raise InputError("rest", "none", "was found", results.stopped.get("at rest", "look at the tire"))
+    return number()
 
 
 def _figures(study: Study, results: CloserLook) -> Mapping[str, str]:

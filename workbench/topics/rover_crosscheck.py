@@ -9,8 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from contracts.curves import read_curve
 from contracts.errors import InputError
 from contracts.materials_temperature import temperature_data
@@ -35,6 +33,7 @@ from workbench.graph.fit import fit_name
 from workbench.graph.section import section_task, without_planar_model
 from workbench.study.full import is_mirrored, rotational_period
 from workbench.study.model import Study
+from workbench.study.model_parameters import fits_rover
 from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.mesh_study import mesh_study_inputs
 from workbench.topics.topic import Topic
@@ -172,13 +171,8 @@ def _figures(study: Study, results: CrossCheck) -> Mapping[str, str]:
 
 
 def _applies(study: Study) -> bool:
-    return (
-        study.rover is not None
-        and study.ancf is not None
-        and study.ancf_fit is not None
-        and study.fe.max_deflection >= _REACH
-        and bool(np.isclose(study.ancf.outer_radius, read_rover().wheel_radius))
-    )
+    asked = study.rover is not None and study.ancf_fit is not None
+    return asked and study.fe.max_deflection >= _REACH and fits_rover(study)
 
 
 ROVER_CROSSCHECK = Topic(

@@ -34,12 +34,15 @@ LONG = {"crevasse": 120.0, "rocks": 110.0}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Mission:
-    """Runs on fitted tires, those of the thesis as far as driven, and brush tires, by scenario; the fit's name."""
+    """Runs on fitted tires and on brush tires, by scenario.
+
+    ``tire`` is the fit's name, ``friction`` that of the study's ground or None.
+    """
 
     fitted: Mapping[str, Drive]
-    thesis: Mapping[str, Drive]
     brush: Mapping[str, Drive]
     tire: str
+    friction: float | None
 
     @property
     def rows(self) -> list[MissionRow]:
@@ -62,7 +65,7 @@ def _tasks(study: Study) -> Sequence[Task]:
         Task(
             name=f"rover_fitted_{name}",
             function="workbench.tasks.rover_ancf:drive_on_fitted_tires",
-            inputs={"run": name, "fit": fit},
+            inputs={"run": name, "fit": fit, "friction": study.ground.friction},
             needs=(fit,),
             cost=(SHORT | LONG)[name],
             resumable=True,
@@ -74,9 +77,9 @@ def _tasks(study: Study) -> Sequence[Task]:
 def _read(study: Study, folders: Mapping[str, Path]) -> Mission:
     return Mission(
         fitted={n: read_drive(folders[f"rover_fitted_{n}"], f"{n}_fitted", "ancf") for n in _runs(study)},
-        thesis={n: read_drive(folders[t], n, "ancf") for n in _runs(study) if (t := f"rover_ancf_{n}") in folders},
         brush={n: read_drive(folders[t], n, "brush") for n in _runs(study) if (t := f"rover_{n}") in folders},
         tire=_kept(study).replace("_", " "),
+        friction=study.ground.friction,
     )
 
 

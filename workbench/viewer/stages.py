@@ -17,6 +17,7 @@ from contracts.errors import InputError
 from workbench.figures.palette import STRAIN_COLOURS
 from workbench.figures.solids import Quads
 from workbench.figures.tire_animation import StrainedTires, strained_tires
+from workbench.tasks.ancf_tire import drawn_tire
 from workbench.tasks.field_file import read_points
 from workbench.tasks.motion_file import RecordedMotion, read_motion
 from workbench.viewer.colours import ColourBar, colour_bar
@@ -126,6 +127,8 @@ class RoverStage:
 
     def __init__(self, path: Path) -> None:
         self.motion: RecordedMotion = read_motion(path)
+        tire, vectors = self.motion.tire, self.motion.vectors
+        self._tire = None if tire is None else drawn_tire(tire, vectors.shape[2])
 
     @property
     def times(self) -> FloatArray:
@@ -135,12 +138,7 @@ class RoverStage:
     @cached_property
     def tires(self) -> StrainedTires | None:
         """ANCF tires in all frames, coloured by strain; None on other tires."""
-        if self.motion.vectors.shape[1] == 0:
-            return None
-        from ancf_reduced.tire.mesh import build_tire
-        from ancf_reduced.tire.preset import thesis_preset
-
-        return strained_tires(build_tire(thesis_preset()), self.motion.vectors)
+        return None if self._tire is None else strained_tires(self._tire, self.motion.vectors)
 
     def bar(self) -> dict[str, object] | None:
         """Of the strain, if tires are coloured by it."""

@@ -19,9 +19,10 @@ from contracts.terrain_cover import check_covered
 from contracts.terrain_rocks import RandomRocks
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.scenario import FloatArray, Scenario
+from rover_dynamics.tires.brush_tire import BrushTireParameters
 from rover_dynamics.tires.rigid import rigid_parameters, rigid_settings
 
-__all__ = ["on_rigid_tires", "on_terrain", "rocks_on_the_way", "touching_height"]
+__all__ = ["on_brush_tires", "on_friction", "on_rigid_tires", "on_terrain", "rocks_on_the_way", "touching_height"]
 
 ABUNDANCE = 0.2
 """Share of the ground under random rocks, as in `benchmarks/rover_brush.py`: a rocky site."""
@@ -62,6 +63,23 @@ def rocks_on_the_way(scenario: Scenario, design: RoverDesign, seed: int) -> Terr
     low, high = path.min(axis=0) - beyond, path.max(axis=0) + beyond
     (x, y), (length, width) = low.tolist(), (high - low).tolist()
     return RandomRocks(seed=seed, size=(length, width), origin=(x, y), abundance=ABUNDANCE).terrain()
+
+
+def on_brush_tires(scenario: Scenario, tire: BrushTireParameters) -> Scenario:
+    """The same on six of these brush tires."""
+    return replace(scenario, tire=tire)
+
+
+def on_friction(scenario: Scenario, friction: float | None) -> Scenario:
+    """The same on ground of another friction, on whatever tires; as it is for None.
+
+    A scenario that holds fast keeps its own, as the static stability does, which is asked of a rover that cannot slide.
+    """
+    if friction is None or scenario.holds_fast:
+        return scenario
+    own = "" if scenario.friction is None else f", friction {scenario.friction:g}"
+    title = f"{scenario.title.removesuffix(own)}, friction {friction:g}"
+    return replace(scenario, friction=friction, title=title)
 
 
 def on_rigid_tires(scenario: Scenario) -> Scenario:

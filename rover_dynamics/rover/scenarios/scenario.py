@@ -24,7 +24,7 @@ from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.tires.brush_settings import BrushSettings
-from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, with_friction
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 
 __all__ = [
@@ -155,6 +155,8 @@ class Scenario:
     actuators, terrain : of a rover's design
     tilt : of gravity
     tire, settings : of all wheels
+    friction : Coulomb's coefficient of every tire, whatever its own is, or None for its own
+    holds_fast : whether that friction is part of the question, so that no other ground replaces it
     tire_model : what series and files call them
     ride : its vehicle's motion at its times; other tires than the brush have one of their own
     has_closed_forms : whether the brush tire's formulas are references of what is judged
@@ -178,6 +180,8 @@ class Scenario:
     tilt: Tilt = field(default_factory=Tilt)
     tire: BrushTireParameters = THESIS_BRUSH
     settings: BrushSettings = field(default_factory=BrushSettings)
+    friction: float | None = None
+    holds_fast: bool = False
     tire_model: str = "brush"
     ride: Ride = _on_brush_tires
     has_closed_forms: bool = True
@@ -197,16 +201,20 @@ class Scenario:
             raise InputError(f"settling of scenario {self.name}", f"{self.settles:g} s", rule, "give e.g. 5 s")
 
     def vehicle(self, design: RoverDesign) -> Vehicle:
-        """The rover at the scenario's start."""
+        """The rover at the scenario's start; raises InputError for a brush tire that sinks in beyond its hub."""
         height = self.height
         if height is None:
             height = -design.static_load * math.cos(self.tilt.angle) / self.tire.radial_stiffness
+            if -height >= design.wheel_radius:
+                rule = f"at rest must be below the wheel's radius, {1e3 * design.wheel_radius:g} mm"
+                hint = f"give more radial stiffness than {self.tire.radial_stiffness:g} N/m"
+                raise InputError("deflection of the rover's brush tires", f"{-1e3 * height:.4g} mm", rule, hint)
         vehicle = build_rover(
             design,
             terrain=self.terrain(design),
             actuators=self.actuators(design),
             height=height,
-            tire=self.tire,
+            tire=with_friction(self.tire, self.friction),
             settings=self.settings,
         )
         return replace(vehicle, model=replace(vehicle.model, gravity=self.tilt.gravity(design.gravity)))

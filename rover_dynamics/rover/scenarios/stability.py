@@ -22,7 +22,6 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.level_ground import all_drives
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, run_scenario
-from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 
 __all__ = ["DIRECTIONS", "STABILITY", "overturned", "smallest_tilt", "wheel_lifted"]
 
@@ -113,7 +112,8 @@ STABILITY = Scenario(
     settles=8.0,
     lasts=2.0,
     actuators=lambda design: all_drives(design, Hold()),
-    tire=replace(THESIS_BRUSH, friction_min=10.0, friction_max=10.0),
+    friction=10.0,
+    holds_fast=True,
     tilt=Tilt(angle=math.radians(REQUIRED), heading=math.radians(45.0)),
     judge=_judge,
     study=_at_the_required_tilt,
