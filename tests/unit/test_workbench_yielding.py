@@ -7,7 +7,7 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.comparison.yielding import FirstYield, first_yield, smallest_yield_load, utilisation
+from workbench.comparison.yielding import FirstYield, first_yield, peak_stresses, smallest_yield_load, utilisation
 
 STRENGTH = {"tire": 800e6, "springs": 1000e6, "hub": 500e6}
 
@@ -52,3 +52,12 @@ def test_the_weakest_orientation_counts() -> None:
 def test_a_curve_too_short_to_tell_is_not_evaluated() -> None:
     with pytest.raises(InputError, match="ends before 250 N without yielding"):
         smallest_yield_load([yields(260.0, "tire"), yields(60.0, None)], 250.0)
+
+
+def test_peak_stress_at_a_load_lies_between_increments() -> None:
+    """At 125 N, 12.5 mm: 12.5/40 of the stress at the end; the hub, without stress, is left out."""
+    tire, springs = peak_stresses(curve(400e6, 2000e6), STRENGTH, 125.0)
+    assert (tire.part, tire.deflection, tire.stress) == ("tire", pytest.approx(0.0125), pytest.approx(125e6))
+    assert (springs.part, springs.used, springs.strength) == ("springs", pytest.approx(0.625), 1000e6)
+    with pytest.raises(InputError, match="lies outside the curve"):
+        peak_stresses(curve(400e6, 2000e6), STRENGTH, 401.0)

@@ -23,13 +23,12 @@ from workbench.execution.task import Task, task_keys
 from workbench.graph.study_graph import report_tasks
 from workbench.report.folders import check_folder
 from workbench.report.gate_summary import gate_markdown, gate_rows
-from workbench.report.outputs import curve_file, junit, publish, summary, to_json
+from workbench.report.outputs import curve_file, field_files, junit, publish, summary, to_json
 from workbench.report.series import MOTIONS_FOLDER
 from workbench.study.full import full_study
 from workbench.study.loosened import loosened
 from workbench.study.magnitudes import warnings_of
 from workbench.study.reading import built_in_study
-from workbench.tasks.field_file import POINTS_FILE
 
 __all__ = ["ReportChoices", "run_report"]
 
@@ -98,7 +97,7 @@ def run_report(
             summary(study.name, evidence, timings, origin) | {"warnings": warnings_of(study)} | gate_rows(gate)
         ),
     }
-    tell_kept(publish(out, "report", texts, curves, series, _field_files(entries) | _motion_files(entries)), shown_on)
+    tell_kept(publish(out, "report", texts, curves, series, field_files(entries) | _motion_files(entries)), shown_on)
     if choices.gate.ci:
         tell(gate, shown_on)
     else:
@@ -115,13 +114,6 @@ def _list_tasks(tasks: Sequence[Task], store: Path) -> int:
         absent = stated(store / key[:2] / key, key)[1]
         console.print(f"{'compute' if absent else 'reuse':7} {name} {key}", soft_wrap=True)
     return 0
-
-
-def _field_files(entries: dict[str, Entry]) -> dict[str, Path]:
-    """``fields/fe_phi000_200N.vtu``, ``fields/fe_phi000_points.npz`` -> the file in the store."""
-    patterns = ("fields_*N.vtu", POINTS_FILE)
-    found = [(n, path) for n, entry in entries.items() for one in patterns for path in sorted(entry.path.glob(one))]
-    return {f"fields/{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
 
 
 def _motion_files(entries: dict[str, Entry]) -> dict[str, Path]:

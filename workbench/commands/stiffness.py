@@ -1,4 +1,4 @@
-"""``workbench stiffness``: curves of one model at some orientations.
+"""``workbench stiffness``: curves of one model at some orientations, with the fields and peak stresses it has.
 
 Verified by tests/end_to_end/test_commands.py.
 """
@@ -6,49 +6,54 @@ Verified by tests/end_to_end/test_commands.py.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from contracts.curves import StiffnessCurve, read_curve
+from rich.table import Table
+
+from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn, tell_kept
-from workbench.comparison.curves import mean_curve
-from workbench.comparison.results import brush_curve
+from workbench.comparison.results import stiffness_curves, yield_strengths
+from workbench.comparison.yielding import PeakStress, peak_stresses
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
-from workbench.execution.store import Entry
-from workbench.graph.study_graph import stiffness_tasks
+from workbench.graph.study_graph import MODELS, stiffness_tasks
 from workbench.report.folders import check_folder
-from workbench.report.outputs import publish
+from workbench.report.outputs import field_files, publish
 from workbench.study.model import Study
 
 __all__ = ["check_orientation", "run_stiffness"]
 
-_MODELS = ("fe", "section", "ancf", "brush")
+type Peaks = Sequence[tuple[float, PeakStress]]
+"""Orientation [deg] and peak stress of a part."""
 
 
 def run_stiffness(
     study_path: Path, model: str, orientations: tuple[float, ...], out: Path, store: Path, computing: Computing
 ) -> int:
-    """Curves of one model at the orientations asked for."""
-    if model not in _MODELS:
-        raise InputError("model", model, "is not known", f"give one of {', '.join(_MODELS)}")
+    """Curves of one model at the orientations asked for; fields and peak stresses at the study's snapshot loads."""
+    if model not in MODELS:
+        raise InputError("model", model, "is not known", f"give one of {', '.join(MODELS)}")
     for orientation in orientations:
         check_orientation(orientation)
     study = read_and_warn(study_path)
     check_folder(out)
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
     entries = computed(study_path, tasks, store, computing)
+    folders = {name: entry.path for name, entry in entries.items()}
     with naming(study_path):
-        curves = _curves(study, model, entries)
-    tell_kept(publish(out, f"stiffness {model}", {}, curves))
-    for curve in curves:
-        label = "average" if curve.orientation_deg is None else f"{curve.orientation_deg:g} deg"
-        reach = f"{curve.deflection[-1] * 1e3:.1f} mm at {curve.load[-1]:.1f} N"
-        reach = "no point converged" if curve.unloaded else reach
-        part = " (partial)" if curve.partial else ""
-        console.print(f"{model} {label}: {reach}{part}")
-    console.print(f"curves: {out / 'curves'}", soft_wrap=True)
-    complain_of_early_ends(study_path, early_ends({name: entry.path for name, entry in entries.items()}))
+        curves = stiffness_curves(study, model, folders)
+    peaks, fields = tuple(_peaks(study, curves)), field_files(entries)
+    texts = {f"{model}_peak_stress.csv": _peaks_csv(peaks)} if peaks else {}
+    tell_kept(publish(out, f"stiffness {model}", texts, curves, copies=fields))
+    _print(model, curves, peaks)
+    for what, written in (("curves", curves), ("fields", fields)):
+        if written:
+            console.print(f"{what}: {out / what}", soft_wrap=True)
+    for name in texts:
+        console.print(f"peak stresses of every part: {out / name}", soft_wrap=True)
+    complain_of_early_ends(study_path, early_ends(folders))
     return 0
 
 
@@ -59,12 +64,44 @@ def check_orientation(orientation: float) -> None:
         raise InputError("orientation", f"{orientation} deg", rule, "give degrees such as 15")
 
 
-def _curves(study: Study, model: str, entries: dict[str, Entry]) -> list[StiffnessCurve]:
-    if model == "brush":
-        return [brush_curve(study, entries["brush"].path)]
-    found = []
-    for name, entry in entries.items():
-        if name.startswith(f"{model}_phi"):
-            orientation = float(name.removeprefix(f"{model}_phi"))
-            found.append(read_curve(entry.path / "curve.csv", model=model, orientation_deg=orientation))
-    return [*found, mean_curve(found)]
+def _peaks(study: Study, curves: Sequence[StiffnessCurve]) -> Iterator[tuple[float, PeakStress]]:
+    """Peak stress of each part at each snapshot load that a curve reaches."""
+    strengths = yield_strengths(study)
+    for curve in curves:
+        if curve.orientation_deg is None:  # an average has no stress
+            continue
+        for load in study.fe.snapshot_loads:
+            if load <= curve.load.max():
+                for peak in peak_stresses(curve, strengths, load):
+                    yield curve.orientation_deg, peak
+
+
+def _peaks_csv(peaks: Peaks) -> str:
+    lines = ["orientation_deg,load_N,deflection_m,part,max_von_mises_Pa,yield_strength_Pa,utilisation"]
+    for angle, p in peaks:
+        lines.append(
+            f"{angle:.12g},{p.load:.12g},{p.deflection:.12g},{p.part},{p.stress:.12g},{p.strength:.12g},{p.used:.12g}"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def _print(model: str, curves: Sequence[StiffnessCurve], peaks: Peaks) -> None:
+    """How far each curve reaches; at each orientation and load the part that is nearest to its yield."""
+    for curve in curves:
+        label = "average" if curve.orientation_deg is None else f"{curve.orientation_deg:g} deg"
+        reach = f"{curve.deflection[-1] * 1e3:.1f} mm at {curve.load[-1]:.1f} N"
+        reach = "no point converged" if curve.unloaded else reach
+        part = " (partial)" if curve.partial else ""
+        console.print(f"{model} {label}: {reach}{part}")
+    if not peaks:
+        return
+    table = Table(title="largest von Mises stress against yield", title_justify="left")
+    for column in ("orientation", "load", "part", "stress", "yield", "share"):
+        table.add_column(column, justify="left" if column == "part" else "right")
+    worst: dict[tuple[float, float], PeakStress] = {}
+    for angle, peak in peaks:
+        worst[angle, peak.load] = max(worst.get((angle, peak.load), peak), peak, key=lambda p: p.used)
+    for (angle, load), p in worst.items():
+        stress, strength = (f"{value / 1e6:.0f} MPa" for value in (p.stress, p.strength))
+        table.add_row(f"{angle:g} deg", f"{load:g} N", p.part, stress, strength, f"{100.0 * p.used:.0f} %")
+    console.print(table)

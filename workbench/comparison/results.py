@@ -12,7 +12,7 @@ from typing import Any
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Timing
-from workbench.comparison.curves import CURVE
+from workbench.comparison.curves import CURVE, model_curves
 from workbench.execution.result_files import read_result
 from workbench.execution.store import Entry
 from workbench.study.model import Study
@@ -22,7 +22,9 @@ from workbench.study.wheel_design import part_materials
 __all__ = [
     "brush_curve",
     "mesh_numbers",
+    "stiffness_curves",
     "task_timings",
+    "yield_strengths",
 ]
 
 
@@ -31,6 +33,22 @@ def brush_curve(study: Study, folder: Path) -> StiffnessCurve:
     from rover_dynamics.tires.brush_tire import line_source
 
     return replace(read_curve(folder / CURVE, model="brush"), source=line_source(brush_parameters(study)))
+
+
+def stiffness_curves(study: Study, model: str, folders: Mapping[str, Path]) -> list[StiffnessCurve]:
+    """Curves of one model from its tasks' folders, in order of orientation, and behind them their average.
+
+    The brush has one line at every orientation, its average.
+    """
+    if model == "brush":
+        return [brush_curve(study, folders["brush"])]
+    found = model_curves(model, folders)
+    return [*found.by_orientation.values(), found.average]
+
+
+def yield_strengths(study: Study) -> dict[str, float]:
+    """Yield strength [Pa] of each part of the mesh."""
+    return {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
 
 
 def mesh_numbers(study: Study, folder: Path) -> dict[str, Any]:

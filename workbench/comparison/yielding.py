@@ -1,4 +1,4 @@
-"""Stress against yield along a curve: utilisation of each part, load at first yield.
+"""Stress against yield along a curve: utilisation of each part, peak stress at a load, load at first yield.
 
 Verified by tests/unit/test_workbench_yielding.py.
 """
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 
-__all__ = ["FirstYield", "first_yield", "smallest_yield_load", "utilisation"]
+__all__ = ["FirstYield", "PeakStress", "first_yield", "peak_stresses", "smallest_yield_load", "utilisation"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,6 +30,47 @@ class FirstYield:
     load: float
     deflection: float
     part: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PeakStress:
+    """Largest von Mises stress in a part at a load.
+
+    Attributes
+    ----------
+    load, deflection : where on the curve [N, m]
+    part : name of the part
+    used : largest von Mises stress over yield strength [-]
+    strength : yield strength [Pa]
+    """
+
+    load: float
+    deflection: float
+    part: str
+    used: float
+    strength: float
+
+    @property
+    def stress(self) -> float:
+        """Largest von Mises stress [Pa]."""
+        return self.used * self.strength
+
+
+def peak_stresses(curve: StiffnessCurve, yield_strength: Mapping[str, float], load: float) -> list[PeakStress]:
+    """Peak stress of each part that has a stress column, at a load [N], interpolated linearly between increments.
+
+    Raises
+    ------
+    InputError
+        If the curve does not reach the load.
+    """
+    d, at = curve.deflection, curve.deflection_at(load)
+    return [
+        PeakStress(
+            load=load, deflection=at, part=part, used=float(np.interp(at, d, used)), strength=yield_strength[part]
+        )
+        for part, used in utilisation(curve, yield_strength).items()
+    ]
 
 
 def utilisation(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> dict[str, NDArray[np.float64]]:

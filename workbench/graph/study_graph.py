@@ -22,10 +22,11 @@ from workbench.tasks.brush import brush_values
 from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.registry import topics_of
 
-__all__ = ["Model", "degrees", "mesh_tasks", "orientation_name", "report_tasks", "stiffness_tasks"]
+__all__ = ["MODELS", "Model", "degrees", "mesh_tasks", "orientation_name", "report_tasks", "stiffness_tasks"]
 
 type Model = str
-"""``"fe"``, ``"section"``, ``"ancf"`` or ``"brush"``."""
+"""One of `MODELS`."""
+MODELS = ("fe", "section", "ancf", "brush")
 
 
 _COMPARED_UP_TO = 250.0

@@ -18,11 +18,13 @@ from contracts.series import TimeSeries, write_series
 from contracts.text import for_json, one_line
 from workbench.comparison.baseline import Change
 from workbench.comparison.comparison import overall_status
+from workbench.execution.store import Entry
 from workbench.report.evidence import Evidence
 from workbench.report.placing import new_files
 from workbench.report.series import SERIES_FOLDER, series_files
+from workbench.tasks.field_file import POINTS_FILE
 
-__all__ = ["curve_file", "junit", "publish", "summary", "to_json"]
+__all__ = ["curve_file", "field_files", "junit", "publish", "summary", "to_json"]
 
 
 def curve_file(curve: StiffnessCurve) -> str:
@@ -32,6 +34,13 @@ def curve_file(curve: StiffnessCurve) -> str:
     if curve.orientation_deg is None:
         return f"{curve.model}_average.csv"
     return f"{orientation_name(curve.model, curve.orientation_deg)}.csv"
+
+
+def field_files(entries: Mapping[str, Entry]) -> dict[str, Path]:
+    """``fields/fe_phi000_200N.vtu``, ``fields/fe_phi000_points.npz`` -> the file in the store."""
+    patterns = ("fields_*N.vtu", POINTS_FILE)
+    found = [(n, path) for n, entry in entries.items() for one in patterns for path in sorted(entry.path.glob(one))]
+    return {f"fields/{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
 
 
 def publish(

@@ -14,10 +14,10 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_least
 from workbench.comparison.curves import model_curves
+from workbench.comparison.results import yield_strengths
 from workbench.comparison.yielding import FirstYield, first_yield, smallest_yield_load, utilisation
 from workbench.execution.task import Task
 from workbench.study.model import Study
-from workbench.study.wheel_design import part_materials
 from workbench.topics.topic import Topic
 
 __all__ = ["STRENGTH", "StrengthResults"]
@@ -44,8 +44,9 @@ def _no_tasks(study: Study) -> Sequence[Task]:
 def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
     fe = model_curves("fe", folders)
     curves = fe.loaded
-    strength = {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
-    stressed = {part: s for part, s in strength.items() if any(utilisation(c, {part: s}) for c in curves.values())}
+    stressed = {
+        part: s for part, s in yield_strengths(study).items() if any(utilisation(c, {part: s}) for c in curves.values())
+    }
     by_part = {}
     for part, value in stressed.items():
         found = {o: first_yield(curve, {part: value}) for o, curve in curves.items()}
