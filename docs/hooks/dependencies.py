@@ -29,6 +29,7 @@ PURPOSES = {
     "numba": "compiled kernels",
     "numpy": "arrays",
     "objective-rating-metrics": "rating of curves, ISO/TS 18571",
+    "pandas": "curves and checks as tables, from Python",
     "pillow": "pictures in the report",
     "pint": "units in study files",
     "plotly": "curves in the report",

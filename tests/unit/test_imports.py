@@ -41,6 +41,7 @@ ONE_MODULE = (
     "meshio",
     "plotly",
     "matplotlib",
+    "pandas",
     "pyvista",
     "pint",
     "jinja2",
@@ -54,7 +55,7 @@ SECOND = {"pyvista": "workbench/viewer/scene.py"}
 """A second module that may: the viewer's scene lives as long as its page, while stills are drawn and gone."""
 NEVER_ON_HELP = {
     *("gmsh", "petsc4py", "dolfinx", "mpi4py", "vtk", "vtkmodules"),
-    *("pyvista", "matplotlib", "numba", "distributed", "rasterio", "pyarrow", "trame", "aiohttp"),
+    *("pyvista", "matplotlib", "numba", "distributed", "rasterio", "pyarrow", "pandas", "trame", "aiohttp"),
 }
 
 
@@ -137,6 +138,12 @@ def test_a_study_is_planned_without_them() -> None:
     planned = "from workbench.commands.report import *\nfrom workbench.study.reading import *\n"
     planned += "from workbench.graph.study_graph import *\nreport_tasks(read_study(built_in_study()), built_in_study())"
     assert loaded_by(planned) & NEVER_ON_HELP == set()
+
+
+def test_the_python_interface_costs_nothing_before_it_is_used() -> None:
+    assert loaded_by("import workbench as ww\ndir(ww)") & {*NEVER_ON_HELP, *CONFINED, "numpy", "scipy"} == set()
+    read = "import workbench as ww\nstudy = ww.read_study()\nww.stiffness, ww.read_report"
+    assert loaded_by(read) & {*NEVER_ON_HELP, "typer", "rich"} == set()
 
 
 def test_negative_control_the_probe_sees_a_heavy_library() -> None:

@@ -9,6 +9,7 @@ import multiprocessing
 import os
 import resource
 import signal
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from multiprocessing.resource_tracker import ensure_running
 from pathlib import Path
+from types import ModuleType
 
 from contracts.memory import shown_size
 from workbench.execution.disk import where_full
@@ -141,15 +143,21 @@ def _held() -> str:
 
 @contextmanager
 def _worker_surroundings() -> Iterator[None]:
-    """What a worker inherits at its start: one thread in BLAS, and deafness to Ctrl-C, which its parent hears."""
+    """What a worker inherits at its start: one thread in BLAS, deafness to Ctrl-C, which its parent hears, no program.
+
+    Without the last, a worker would run the script of whoever calls us from Python once more.
+    """
+    program = sys.modules["__main__"]
     before = {name: os.environ.get(name) for name in _SINGLE_THREAD}
     ensure_running()  # its first start would undo the next line
     with put_off():
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT,))
         os.environ.update(_SINGLE_THREAD)
+        sys.modules["__main__"] = ModuleType("__main__")
         try:
             yield
         finally:
+            sys.modules["__main__"] = program
             signal.pthread_sigmask(signal.SIG_SETMASK, mask)
             for name, value in before.items():
                 if value is None:

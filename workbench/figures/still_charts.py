@@ -11,12 +11,15 @@ from pathlib import Path
 from typing import Any
 
 from matplotlib import get_data_path
+from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
-from workbench.figures.palette import INK
+from contracts.curves import StiffnessCurve
+from contracts.text import for_matplotlib
+from workbench.figures.palette import INK, MODEL_COLOURS
 
-__all__ = ["blank_figure", "font_folder", "png_bytes", "red_green_blue", "stacked_axes"]
+__all__ = ["Axes", "blank_figure", "curve_axes", "font_folder", "png_bytes", "red_green_blue", "stacked_axes"]
 
 
 def stacked_axes(heights: Sequence[float], size: tuple[float, float]) -> tuple[Figure, list[Any]]:
@@ -30,6 +33,24 @@ def stacked_axes(heights: Sequence[float], size: tuple[float, float]) -> tuple[F
         one.set_axisbelow(True)
         one.tick_params(colors=INK)
     return figure, axes
+
+
+def curve_axes(curve: StiffnessCurve, ax: Axes | None = None) -> Axes:
+    """Load [N] against deflection [mm], into new axes of pyplot if none are given."""
+    if ax is None:
+        from matplotlib import pyplot
+
+        ax = pyplot.subplots(layout="constrained")[1]
+    where = " average" if curve.orientation_deg is None else f" {curve.orientation_deg:g}°"
+    where = "" if curve.model == "brush" else where  # the same at every orientation
+    label = for_matplotlib(f"{curve.model}{where}" + " (partial)" * curve.partial)
+    colour = MODEL_COLOURS.get(curve.model)
+    taken = any(line.get_color() == colour for line in ax.lines)
+    ax.plot(1e3 * curve.deflection, curve.load, label=label, color=None if taken else colour)
+    ax.set_xlabel("radial deflection [mm]")
+    ax.set_ylabel("wheel load [N]")
+    ax.legend()
+    return ax
 
 
 def blank_figure(width: float, height: float) -> Any:
