@@ -20,8 +20,7 @@ from scipy.sparse.linalg import splu
 from contracts.errors import ConvergenceError
 from rover_dynamics.multibody.assembly import ITERATIONS, POSITION_TOLERANCE, assembly, cannot_be_assembled
 from rover_dynamics.multibody.constraints import ConstraintValues
-from rover_dynamics.multibody.force import BodyMotions
-from rover_dynamics.multibody.model import MultibodyModel
+from rover_dynamics.multibody.model import BodyMotions, MultibodyModel
 from rover_dynamics.multibody.reactions import Reactions, at_joint_frame
 from rover_dynamics.multibody.state import State, moved, rotations
 
