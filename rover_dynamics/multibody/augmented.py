@@ -69,7 +69,7 @@ class AugmentedEquations:
         return J, Q
 
     def reactions(self, t: float, state: State) -> Reactions:
-        """What joints and drives transmit: -C_u^T lambda."""
+        """What joints and drives transmit [N, N m]: -C_u^T lambda."""
         values = self.constraints.at(t, state)
         _, multipliers = self._solved(values, t, state)
         R = np.concatenate([rotations(state.orientations), np.eye(3)[None]])
@@ -119,7 +119,7 @@ class AugmentedEquations:
         return np.asarray(R @ self._inertias @ R.swapaxes(1, 2))
 
     def mass_matrix(self, J: FloatArray) -> csr_array:
-        """M, (6 n, 6 n), from the inertias in world axes."""
+        """M, (6 n, 6 n) [kg, kg m^2], from the inertias J (n, 3, 3) [kg m^2] in world axes."""
         n = len(self._masses)
         blocks = np.zeros((n, 6, 6))
         blocks[:, (0, 1, 2), (0, 1, 2)] = self._masses[:, None]
