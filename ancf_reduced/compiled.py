@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.compile_cache import compile_cache
+from contracts.compile_cache import kept_by_sources
 
 __all__ = [
     "LANES",
@@ -44,14 +44,8 @@ def compiled[F: Callable[..., object]](function: F) -> F:
 
     Cached on disk for the present sources of the package.
     """
-    config = cast(Any, numba.config)
-    users = config.CACHE_DIR
-    config.CACHE_DIR = users or str(compile_cache(_PACKAGE))
-    try:
-        jit = numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})
-        return cast(F, jit(function))
-    finally:
-        config.CACHE_DIR = users
+    with kept_by_sources(numba.config, _PACKAGE):
+        return cast(F, numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})(function))
 
 
 def inlined[F: Callable[..., object]](function: F) -> F:

@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import hashlib
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
+from typing import Any
 
-__all__ = ["compile_cache"]
+__all__ = ["compile_cache", "kept_by_sources"]
 
 _PREFIX, _MARK = "compiled-", b"compiled"
 
@@ -39,3 +42,20 @@ def compile_cache(package: Path) -> Path:
         if folder != keep:
             shutil.rmtree(folder, ignore_errors=True)
     return keep
+
+
+@contextmanager
+def kept_by_sources(config: Any, package: Path) -> Iterator[None]:
+    """Within, numba caches in `compile_cache` of the package, unless the user chose a folder (``NUMBA_CACHE_DIR``).
+
+    Parameters
+    ----------
+    config : ``numba.config``, handed in as this package knows numpy alone; it is left as it was
+    package : as in `compile_cache`
+    """
+    users = config.CACHE_DIR
+    config.CACHE_DIR = users or str(compile_cache(package))
+    try:
+        yield
+    finally:
+        config.CACHE_DIR = users

@@ -115,7 +115,7 @@ class NodalTires(Protocol):
         """
 
     def contacts(self, z: FloatArray, v: FloatArray) -> TireContacts:
-        """What the ground does, for output."""
+        """What the ground does, for output; arguments as `force`."""
 
     def energies(self, z: FloatArray, v: FloatArray) -> TireEnergies:
-        """The account, for checks."""
+        """The account, for checks; arguments as `force`."""

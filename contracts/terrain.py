@@ -165,11 +165,11 @@ class TerrainUnion:
             raise InputError("terrain", value, "needs a part, and at most one height field", "add the heights up")
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Highest of the parts."""
+        """Height of the highest part [m] at x, y [m]."""
         return np.asarray(np.max([part.height(x, y) for part in self.parts], axis=0))
 
     def gradient(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Slopes of the highest part."""
+        """Slopes (..., 2) of the highest part [-] at x, y (...) [m]."""
         highest = np.argmax([part.height(x, y) for part in self.parts], axis=0)
         slopes = np.array([part.gradient(x, y) for part in self.parts])
         return np.asarray(np.take_along_axis(slopes, highest[None, ..., None], axis=0)[0])
@@ -183,11 +183,12 @@ class TerrainUnion:
 
 
 def terrain_pieces(*rows: list[float]) -> TerrainPieces:
-    """Rows filled up with zeros, and no height field."""
+    """Rows filled up with zeros, (n, PIECE_SIZE), and no height field."""
     filled = np.array([[*row, *[0.0] * (PIECE_SIZE - len(row))] for row in rows], dtype=np.float64)
     return TerrainPieces(filled, np.empty((0, 0)), np.empty((0, 0)))
 
 
 def check_finite(what: str, *values: float) -> None:
+    """Raise InputError, naming ``what``, unless all values are finite."""
     if not all(math.isfinite(value) for value in values):
         raise InputError(what, values, "must be finite", "give numbers")

@@ -88,7 +88,7 @@ class Step(_Ridge):
             raise InputError("step edge radius", f"{self.edge_radius:g} m", "must not exceed the rise", "lower it")
 
     def profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Level ground, a quarter circle, the block's top."""
+        """Height [m] and slope [-] at s [m]: level ground, a quarter circle, the block's top."""
         r = self.edge_radius
         height, slope = _arc(np.clip(s - r, -r, 0.0), r)
         return np.where(s > 0.0, self.rise - r + height, 0.0), np.where(s > 0.0, slope, 0.0)
@@ -125,7 +125,7 @@ class Crevasse(_Ridge):
             raise InputError("crevasse edge radius", f"{self.edge_radius:g} m", "must not exceed the depth", "lower it")
 
     def profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Ground, a quarter circle, the floor, a quarter circle, ground."""
+        """Height [m] and slope [-] at s [m]: ground, a quarter circle, the floor, a quarter circle, ground."""
         r, inside = self.edge_radius, np.maximum(-s, s - self.width)
         height, slope = _arc(np.clip(inside - r, -r, 0.0), r)
         solid = inside > 0.0
@@ -162,7 +162,7 @@ class HalfRound(_Ridge):
         self._check("half-round", radius=self.radius)
 
     def profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Circle over level ground."""
+        """Height [m] and slope [-] at s [m]: a circle over level ground."""
         return _arc(s, self.radius)
 
     def pieces(self) -> TerrainPieces:
@@ -189,7 +189,7 @@ class Sinusoid(_Ridge):
         self._check("sinusoid", amplitude=self.amplitude, wavelength=self.wavelength)
 
     def profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Sine and its derivative."""
+        """Height [m] and slope [-] at s [m]: a sine and its derivative."""
         k = 2.0 * math.pi / self.wavelength
         return self.amplitude * np.sin(k * s), self.amplitude * k * np.cos(k * s)
 

@@ -152,7 +152,7 @@ def mesh_size(
     thickness_elements: int,
     refinement: Mapping[str, float] | None,
 ) -> MeshSize:
-    """Element sizes, checked; raises InputError for sizes out of range or parts that the wheel does not have."""
+    """Element sizes [m], checked; raises InputError for sizes out of range or parts that the wheel does not have."""
     require_positive_length("element size", element_size)
     axial = AXIAL_RATIO * element_size if axial_size is None else axial_size
     require_positive_length("axial size", axial)

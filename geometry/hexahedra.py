@@ -59,7 +59,7 @@ def face_nodes(n_nodes: int) -> NDArray[np.int64]:
 
 @cache
 def mirror_order(n_nodes: int) -> NDArray[np.int64]:
-    """Order of nodes that turns a left-handed cell into a right-handed one (first two directions swapped)."""
+    """Order (n_nodes,) that turns a left-handed cell into a right-handed one (first two directions swapped)."""
     nodes = reference_nodes(n_nodes)
     swapped = nodes[:, [1, 0, 2]]
     return np.array([int(np.flatnonzero(np.all(nodes == p, axis=1))[0]) for p in swapped], dtype=np.int64)

@@ -76,7 +76,7 @@ class SplineSurface:
 
     @property
     def breaks(self) -> tuple[FloatArray, FloatArray]:
-        """Distinct knots along u and v within the surface: the ends of its polynomial pieces."""
+        """Distinct knots (n_u,) and (n_v,) [-] along u and v within the surface: the ends of its polynomial pieces."""
         pairs = zip(self.control_points.shape, self.degrees, self.knots, strict=False)
         u, v = (np.unique(knots[degree : n + 1]) for n, degree, knots in pairs)
         return u, v

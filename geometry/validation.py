@@ -6,23 +6,41 @@ Every rule raises InputError. Verified by tests/unit/test_geometry_validation.py
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from contracts.errors import InputError
 from geometry.clearance import require_clear_of_rings, require_clear_sets
-from geometry.parts import Cone, Grousers, HubRing, SpringSet
+from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
 from geometry.sidewall import SidewallSprings, weld_half_angle
 from geometry.springs import weld_angle
-
-if TYPE_CHECKING:
-    from geometry.wheel import WheelDesign
 
 __all__ = ["RESERVED_NAMES", "validate_wheel"]
 
 RESERVED_NAMES = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
 
 
-def validate_wheel(design: WheelDesign) -> None:
+class _Parts(Protocol):
+    """What a `geometry.wheel.WheelDesign` is made of; that module imports this one."""
+
+    @property
+    def tire(self) -> Tire: ...
+    @property
+    def grousers(self) -> Grousers | None: ...
+    @property
+    def spring_sets(self) -> tuple[SpringSet, ...]: ...
+    @property
+    def sidewall_springs(self) -> SidewallSprings | None: ...
+    @property
+    def outer_hub(self) -> HubRing: ...
+    @property
+    def cone(self) -> Cone | None: ...
+    @property
+    def impact_springs(self) -> SpringSet | None: ...
+    @property
+    def inner_hub(self) -> HubRing | None: ...
+
+
+def validate_wheel(design: _Parts) -> None:
     """Check a design as a whole; raises InputError naming the first rule it breaks."""
     _check_names(design)
     tire, hub = design.tire, design.outer_hub
@@ -43,7 +61,7 @@ def validate_wheel(design: WheelDesign) -> None:
         _check_inner_hub(design, design.inner_hub)
 
 
-def _check_names(design: WheelDesign) -> None:
+def _check_names(design: _Parts) -> None:
     sidewall = [design.sidewall_springs.name] if design.sidewall_springs else []
     names = [springs.name for springs in design.spring_sets] + sidewall
     if not names:
@@ -88,7 +106,7 @@ def _check_springs(springs: SpringSet, gap: tuple[float, float], half_width: flo
     require_clear_of_rings(springs, gap)
 
 
-def _check_sidewall(springs: SidewallSprings, design: WheelDesign) -> None:
+def _check_sidewall(springs: SidewallSprings, design: _Parts) -> None:
     rim, hub = design.tire.inner_radius, design.outer_hub.outer_radius
     if design.spring_sets or design.inner_hub is not None:
         rule = "cannot be combined with springs in the wheel's plane or an inner hub"
@@ -113,7 +131,7 @@ def _check_sidewall(springs: SidewallSprings, design: WheelDesign) -> None:
         raise InputError(f"{springs.name} width", f"{springs.width * 1e3:g} mm", rule, "use narrower or fewer strips")
 
 
-def _check_inner_hub(design: WheelDesign, inner: HubRing) -> None:
+def _check_inner_hub(design: _Parts, inner: HubRing) -> None:
     bore = design.outer_hub.inner_radius
     _check_nested("inner hub radius", inner.outer_radius, "outer hub's bore", bore)
     if design.cone is None and design.impact_springs is None:
@@ -127,7 +145,7 @@ def _check_inner_hub(design: WheelDesign, inner: HubRing) -> None:
         _check_cone(design, design.cone, inner)
 
 
-def _check_cone(design: WheelDesign, cone: Cone, inner: HubRing) -> None:
+def _check_cone(design: _Parts, cone: Cone, inner: HubRing) -> None:
     half = 0.5 * cone.axial_width(design.outer_hub.inner_radius, inner.outer_radius)
     for what, at, width in (
         ("cone outer position", cone.outer_position, design.outer_hub.width),

@@ -8,7 +8,7 @@ from typing import Any, cast
 
 import numba
 
-from contracts.compile_cache import compile_cache
+from contracts.compile_cache import kept_by_sources
 
 __all__ = ["compiled"]
 
@@ -17,12 +17,7 @@ def compiled[F: Callable[..., object]](**options: Any) -> Callable[[F], F]:
     """Compile with numba and these options, cached on disk for the present sources of the package."""
 
     def decorate(function: F) -> F:
-        config = cast(Any, numba.config)
-        users = config.CACHE_DIR
-        config.CACHE_DIR = users or str(compile_cache(Path(__file__).parent))
-        try:
+        with kept_by_sources(numba.config, Path(__file__).parent):
             return cast(F, numba.njit(cache=True, **options)(function))
-        finally:
-            config.CACHE_DIR = users
 
     return decorate

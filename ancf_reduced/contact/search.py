@@ -123,7 +123,7 @@ def find_touching(
 
 @inlined
 def touch_at(touch: FloatArray) -> tuple[float, Vector, Symmetric]:
-    """Gap, normal and curvature of an entry."""
+    """Gap [m], normal [-] and curvature [1/m] of an entry."""
     H = touch[4], touch[5], touch[6], touch[7], touch[8], touch[9]
     return touch[0], (touch[1], touch[2], touch[3]), H
 

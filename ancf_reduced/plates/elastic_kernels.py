@@ -78,7 +78,7 @@ def add_structure_force(q: FloatArray, nodes: IntArray, frame: FloatArray, force
 
 @inlined
 def strain(a: Vector, b: Vector, c: Vector, G: Symmetric) -> Symmetric:
-    """Covariant Green-Lagrange strain of the base vectors a, b, c against the metric G_kl."""
+    """Covariant Green-Lagrange strain [m^2] of the base vectors a, b, c against the metric G_kl."""
     return (
         0.5 * (dot(a, a) - G[0]),
         0.5 * (dot(b, b) - G[1]),
@@ -91,7 +91,7 @@ def strain(a: Vector, b: Vector, c: Vector, G: Symmetric) -> Symmetric:
 
 @inlined
 def stress(E: Symmetric, G: Symmetric, lam: float, mu: float) -> Symmetric:
-    """Contravariant second Piola-Kirchhoff stress lam tr(E) G + 2 mu G E G; G is the inverse metric G^kl."""
+    """Contravariant second Piola-Kirchhoff stress [Pa/m^2] lam tr(E) G + 2 mu G E G; G is the inverse metric G^kl."""
     g1, g2, g3 = columns(G)
     e1, e2, e3 = columns(E)
     m1 = dot(g1, e1), dot(g1, e2), dot(g1, e3)  # rows of the mixed strain G E

@@ -45,7 +45,7 @@ class PlaneProblem:
         return self.tire.tie.expand(x.reshape(-1, 4, 3), self.hub)
 
     def contact(self, deflection: float) -> PlateContact:
-        """Contact points on the plane at the zero radius - deflection from the hub, without friction and damping."""
+        """Contact points on the plane at zero radius - deflection [m] from the hub, without friction and damping."""
         x, y, z = (-self.direction).tolist()
         plane = Plane(normal=(x, y, z), offset=deflection - self.tire.preset.zero_radius)
         law = ContactLaw(stiffness=self.tire.preset.contact_stiffness)

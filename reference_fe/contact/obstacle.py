@@ -106,7 +106,7 @@ class ObstacleContact:
         return self.method is ContactMethod.AUGMENTED_LAGRANGIAN
 
     def axes(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Unit vectors n, s and r."""
+        """Unit vectors n, s and r, (dim,) each [-]."""
         n = np.array(self.normal)
         s = np.zeros_like(n) if self.along is None else np.array(self.along)
         return n, s, n if self.rise is None else np.array(self.rise)
@@ -159,7 +159,7 @@ class ObstacleTerm:
         self._dissipated = np.zeros(1)
 
     def couplings(self) -> NDArray[np.int64]:
-        """Nodes of each facet."""
+        """Nodes of each facet, (n_facets, n_nodes)."""
         return self._facets.nodes
 
     def set_control(self, control: float) -> None:
@@ -167,7 +167,7 @@ class ObstacleTerm:
         self._control = control
 
     def evaluate(self, u: NDArray[np.float64], lag: float) -> SurfaceForces:
-        """Forces at u; with a lag their tangent line about the obstacle's place at ``control - lag``.
+        """Forces at u (n,) [m]; with a lag [m] their tangent line about the obstacle's place at ``control - lag``.
 
         In an increment's first solve, the rise used as lag gives the linearisation about the last converged state,
         with its contact set.
@@ -294,7 +294,7 @@ class ObstacleTerm:
 
 
 def moment_of(x: NDArray[np.float64], f: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Moment x cross f of forces at points x over the last axis; in the plane its one component."""
+    """Moment x cross f [N m] of forces f (..., dim) [N] at points x (..., dim) [m]; in the plane its one component."""
     if x.shape[-1] == 3:
         return np.cross(x, f)
     return np.asarray(x[..., 0] * f[..., 1] - x[..., 1] * f[..., 0])

@@ -42,7 +42,7 @@ class Plane:
     yaw_deg: float = 0.0
 
     def pieces(self) -> NDArray[np.float64]:
-        """One half plane."""
+        """One half plane, (1, 4), see `Obstacle`."""
         return np.array([[_HALF_PLANE, 0.0, 0.0, 0.0]])
 
 
@@ -70,7 +70,7 @@ class StepEdge:
             raise InputError("step edge radius", f"{self.edge_radius:g} m", "must not exceed the height", "lower it")
 
     def pieces(self) -> NDArray[np.float64]:
-        """Rounded corner and lower ground."""
+        """Rounded corner and lower ground, (2, 4), see `Obstacle`."""
         corner = [_CORNER, self.position, 0.0, self.edge_radius]
         return np.array([corner, [_HALF_PLANE, 0.0, -self.height, 0.0]])
 
@@ -94,7 +94,7 @@ class HalfRoundRock:
         _positive("rock radius", self.radius)
 
     def pieces(self) -> NDArray[np.float64]:
-        """Half-round and ground."""
+        """Half-round and ground, (2, 4), see `Obstacle`."""
         crown = [_HALF_ROUND, self.position, -self.radius, self.radius]
         return np.array([crown, [_HALF_PLANE, 0.0, -self.radius, 0.0]])
 

@@ -18,7 +18,7 @@ __all__ = ["dilate", "solve_thermal_state"]
 
 
 def dilate(u: Function, stretch: float) -> None:
-    """Set u = (stretch - 1) X, the free expansion about the origin."""
+    """Set u = (stretch - 1) X [m] for a stretch [-], the free expansion about the origin."""
     u.interpolate(lambda X: (stretch - 1.0) * X[: u.function_space.mesh.geometry.dim])
 
 

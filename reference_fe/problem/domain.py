@@ -64,17 +64,17 @@ class Domain:
         return _look_up(names, dict(self.tagged.faces), "face")
 
     def cells_of(self, names: Iterable[str]) -> NDArray[np.int32]:
-        """Local cell numbers of the named parts, ascending."""
+        """Local cell numbers (n,) of the named parts, ascending."""
         mask = np.isin(self.cell_tags.values, self.part_tags(names))
         return np.asarray(self.cell_tags.indices[mask], dtype=np.int32)
 
     def facets_of(self, names: Iterable[str]) -> NDArray[np.int32]:
-        """Local facet numbers of the named faces, ascending."""
+        """Local facet numbers (n,) of the named faces, ascending."""
         mask = np.isin(self.facet_tags.values, self.face_tags(names))
         return np.asarray(self.facet_tags.indices[mask], dtype=np.int32)
 
     def edges_between(self, first: str, second: str) -> NDArray[np.int32]:
-        """Local numbers of this process' own edges that lie in both named faces, ascending."""
+        """Local numbers (n,) of this process' own edges that lie in both named faces, ascending."""
         topology = self.mesh.topology
         topology.create_entities(1)
         topology.create_connectivity(2, 1)

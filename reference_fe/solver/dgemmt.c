@@ -1,7 +1,7 @@
 /* One triangle of C := alpha op(A) op(B) + beta C, in blocks of columns by dgemm.
 
    The interface is that of the BLAS extension dgemmt of Intel's and OpenBLAS' libraries; arrays are stored by columns.
-   reference_fe/triangular_product.py says why it is here. */
+   reference_fe/solver/triangular_product.py says why it is here. */
 
 typedef void (*dgemm_t)(const char *, const char *, const int *, const int *, const int *, const double *, const double *,
                         const int *, const double *, const int *, const double *, double *, const int *);

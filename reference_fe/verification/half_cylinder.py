@@ -79,7 +79,7 @@ def crown_force(
     graded: bool = False,
     thickness: float = THICKNESS,
 ) -> CrownForce:
-    """Press the crown down through fractions of the depth; see `half_cylinder` for the mesh."""
+    """Press the crown down through fractions ``loads`` of the depth [-]; see `half_cylinder` for the mesh."""
     problem = half_cylinder(cells, discretisation, graded=graded, thickness=thickness)
     crown = problem.bcs[-1].dof_indices()[0]
     solver = NewtonSolver(problem, NewtonSettings(relative_tolerance=1e-10))

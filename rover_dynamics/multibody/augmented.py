@@ -20,8 +20,7 @@ from scipy.sparse.linalg import splu
 from contracts.errors import ConvergenceError
 from rover_dynamics.multibody.assembly import ITERATIONS, POSITION_TOLERANCE, assembly, cannot_be_assembled
 from rover_dynamics.multibody.constraints import ConstraintValues
-from rover_dynamics.multibody.force import BodyMotions
-from rover_dynamics.multibody.model import MultibodyModel
+from rover_dynamics.multibody.model import BodyMotions, MultibodyModel
 from rover_dynamics.multibody.reactions import Reactions, at_joint_frame
 from rover_dynamics.multibody.state import State, moved, rotations
 
@@ -70,7 +69,7 @@ class AugmentedEquations:
         return J, Q
 
     def reactions(self, t: float, state: State) -> Reactions:
-        """What joints and drives transmit: -C_u^T lambda."""
+        """What joints and drives transmit [N, N m]: -C_u^T lambda."""
         values = self.constraints.at(t, state)
         _, multipliers = self._solved(values, t, state)
         R = np.concatenate([rotations(state.orientations), np.eye(3)[None]])
@@ -120,7 +119,7 @@ class AugmentedEquations:
         return np.asarray(R @ self._inertias @ R.swapaxes(1, 2))
 
     def mass_matrix(self, J: FloatArray) -> csr_array:
-        """M, (6 n, 6 n), from the inertias in world axes."""
+        """M, (6 n, 6 n) [kg, kg m^2], from the inertias J (n, 3, 3) [kg m^2] in world axes."""
         n = len(self._masses)
         blocks = np.zeros((n, 6, 6))
         blocks[:, (0, 1, 2), (0, 1, 2)] = self._masses[:, None]

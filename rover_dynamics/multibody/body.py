@@ -152,7 +152,7 @@ class Frame:
 
 
 def rotation_to(axis: FloatArray, reference: FloatArray | None = None) -> FloatArray:
-    """Rotation whose third column is along ``axis`` and whose first lies towards ``reference``.
+    """Rotation (3, 3) whose third column is along ``axis`` (3,) and whose first lies towards ``reference`` (3,).
 
     Without a reference the first column is at right angles to the axis and to the world axis it is least aligned with.
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.compile_cache import compile_cache
+from contracts.compile_cache import kept_by_sources
 
 __all__ = ["compiled", "cross", "multiply_quaternions", "quaternion_of", "rotation_matrix", "rotation_quaternion"]
 
@@ -28,14 +28,8 @@ def compiled[F: Callable[..., object]](function: F) -> F:
     Where sums may be contracted, the digits depend on which functions were compiled together and which came from the
     cache: a run that was killed and started again ended with other last digits. It was no faster either.
     """
-    config = cast(Any, numba.config)
-    users = config.CACHE_DIR
-    config.CACHE_DIR = users or str(compile_cache(_PACKAGE))
-    try:
-        jit = numba.njit(cache=True, error_model="numpy")
-        return cast(F, jit(function))
-    finally:
-        config.CACHE_DIR = users
+    with kept_by_sources(numba.config, _PACKAGE):
+        return cast(F, numba.njit(cache=True, error_model="numpy")(function))
 
 
 @compiled

@@ -8,42 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from rover_dynamics.multibody.body import Frame
+from rover_dynamics.multibody.model import BodyMotions, MultibodyModel
 
-if TYPE_CHECKING:
-    from rover_dynamics.multibody.model import MultibodyModel
-
-__all__ = ["AppliedForce", "BodyMotions", "Force", "HingeTorque", "SpringDamper"]
+__all__ = ["AppliedForce", "HingeTorque", "SpringDamper"]
 
 FloatArray = NDArray[np.float64]
-
-
-class BodyMotions(NamedTuple):
-    """Motion of all bodies at one time, world axes.
-
-    Attributes
-    ----------
-    positions : (n, 3) float, centres of mass [m]
-    rotations : (n, 3, 3) float, body to world
-    velocities : (n, 6) float, of the centre of mass and angular [m/s, rad/s]
-    """
-
-    positions: FloatArray
-    rotations: FloatArray
-    velocities: FloatArray
-
-
-class Force(Protocol):
-    """Anything that pulls on bodies."""
-
-    def add(self, t: float, motions: BodyMotions, model: MultibodyModel, wrenches: FloatArray) -> None:
-        """Add to the wrenches (n, 6) [N, N m] at time t [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

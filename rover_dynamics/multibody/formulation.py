@@ -34,13 +34,13 @@ class Equations(Protocol):
         """y of the assembled start, (N,)."""
 
     def rates(self, t: float, y: FloatArray) -> FloatArray:
-        """y', (N,)."""
+        """y' (N,) at t [s]."""
 
     def corrected(self, t: float, y: FloatArray) -> FloatArray:
-        """y with the constraints met at position and velocity level."""
+        """y (N,) with the constraints met at position and velocity level."""
 
     def state(self, t: float, y: FloatArray) -> State:
-        """Positions and velocities of all bodies."""
+        """Positions and velocities of all bodies at t [s] and y (N,)."""
 
     def accepted(self, t: float, y: FloatArray, course: Course | None) -> None:
         """Be told that a step ended at t with y, already corrected, and its course; None if y needs no better guess."""
@@ -55,7 +55,7 @@ class Formulation(Equations, Protocol):
     model: MultibodyModel
 
     def reactions(self, t: float, y: FloatArray) -> Reactions:
-        """What joints and drives transmit."""
+        """What joints and drives transmit [N, N m] at t [s] and y (N,)."""
 
 
 class SingularPosition(Exception):  # noqa: N818  (tells the integrator to step elsewhere)

@@ -8,18 +8,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from rover_dynamics.multibody.body import GROUND, RigidBody
-from rover_dynamics.multibody.force import Force
 from rover_dynamics.multibody.joint import Joint, JointKind
 from rover_dynamics.multibody.motion_law import MotionLaw
 
-__all__ = ["Coordinate", "Drive", "MultibodyModel"]
+__all__ = ["BodyMotions", "Coordinate", "Drive", "Force", "MultibodyModel"]
 
 FloatArray = NDArray[np.float64]
 Coordinate = Literal["angle", "distance"]
@@ -43,6 +42,28 @@ class Drive:
     joint: str
     law: MotionLaw
     coordinate: Coordinate = "angle"
+
+
+class BodyMotions(NamedTuple):
+    """Motion of all bodies at one time, world axes.
+
+    Attributes
+    ----------
+    positions : (n, 3) float, centres of mass [m]
+    rotations : (n, 3, 3) float, body to world
+    velocities : (n, 6) float, of the centre of mass and angular [m/s, rad/s]
+    """
+
+    positions: FloatArray
+    rotations: FloatArray
+    velocities: FloatArray
+
+
+class Force(Protocol):
+    """Anything that pulls on bodies."""
+
+    def add(self, t: float, motions: BodyMotions, model: MultibodyModel, wrenches: FloatArray) -> None:
+        """Add to the wrenches (n, 6) [N, N m] at time t [s]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

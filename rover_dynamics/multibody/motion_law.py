@@ -36,7 +36,7 @@ class Hold:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UserLaw:
-    """A user's own function of time; it returns value, rate and acceleration."""
+    """A user's own function of time; it returns what `MotionLaw.at` does [rad or m, 1/s, 1/s^2]."""
 
     function: Callable[[float], tuple[float, float, float]]
 

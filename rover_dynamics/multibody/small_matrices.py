@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 
 @compiled
 def product(A: FloatArray, x: FloatArray) -> FloatArray:
-    """A x."""
+    """A x, (m,), of A (m, n) and x (n,)."""
     out = np.zeros(A.shape[0])
     for i in range(A.shape[0]):
         for j in range(A.shape[1]):
@@ -27,7 +27,7 @@ def product(A: FloatArray, x: FloatArray) -> FloatArray:
 
 @compiled
 def inverse(A: FloatArray) -> FloatArray:
-    """Inverse by Gauss and Jordan's elimination with row exchanges; not finite if A is singular."""
+    """Inverse (n, n) by Gauss and Jordan's elimination with row exchanges; not finite if A is singular."""
     n = len(A)
     left, right = A.copy(), np.zeros((n, n))
     for k in range(n):

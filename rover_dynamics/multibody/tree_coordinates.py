@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 from rover_dynamics.multibody.assembly import assembly
 from rover_dynamics.multibody.compiled import compiled, quaternion_of
 from rover_dynamics.multibody.constraints import Constraints, build_constraints
-from rover_dynamics.multibody.force import BodyMotions
 from rover_dynamics.multibody.formulation import Course
-from rover_dynamics.multibody.model import Drive, MultibodyModel
+from rover_dynamics.multibody.model import BodyMotions, Drive, MultibodyModel
 from rover_dynamics.multibody.reactions import Reactions
 from rover_dynamics.multibody.spanning_tree import SpanningTree, spanning_tree
 from rover_dynamics.multibody.state import State

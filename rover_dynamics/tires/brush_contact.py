@@ -122,5 +122,5 @@ def _share(contacts: FloatArray) -> None:
 
 @compiled
 def fading(q: float) -> float:
-    """Share of a contact's force that is left at the cosine q of its camber."""
+    """Share [-] of a contact's force that is left at the cosine q [-] of its camber."""
     return ramp((q - STEEPEST) / FADED)

@@ -6,10 +6,11 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from contracts.compile_cache import compile_cache
+from contracts.compile_cache import compile_cache, kept_by_sources
 
 ROOT = Path(__file__).parents[2]
 COMPILED = ROOT / "rover_dynamics" / "multibody" / "compiled.py"
@@ -65,3 +66,18 @@ def test_the_folder_depends_on_every_source_that_compiles(tmp_path: Path) -> Non
     compile_cache.cache_clear()
     kernel.write_text("@compiled\ndef a(): return 2", encoding="utf-8")
     assert compile_cache(tmp_path) != before
+
+
+@pytest.mark.parametrize("users", ["", "elsewhere"])
+def test_the_users_folder_goes_first_and_stays_set(users: str, tmp_path: Path) -> None:
+    config, seen = SimpleNamespace(CACHE_DIR=users), list[str]()
+
+    def fail() -> None:
+        with kept_by_sources(config, tmp_path):
+            seen.append(config.CACHE_DIR)
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    assert seen == [users or str(compile_cache(tmp_path))]
+    assert users == config.CACHE_DIR

@@ -7,9 +7,9 @@ import pytest
 
 from contracts.errors import InputError
 from rover_dynamics.multibody.body import body
-from rover_dynamics.multibody.force import AppliedForce, BodyMotions, Force, HingeTorque, SpringDamper
+from rover_dynamics.multibody.force import AppliedForce, HingeTorque, SpringDamper
 from rover_dynamics.multibody.joint import revolute
-from rover_dynamics.multibody.model import MultibodyModel
+from rover_dynamics.multibody.model import BodyMotions, Force, MultibodyModel
 from rover_dynamics.multibody.state import moved, rotations, start_state
 
 A, B = body("a", 1.0, (1, 1, 1), (0.1, 0.2, 0.3)), body("b", 1.0, (1, 1, 1), (1.0, -0.4, 0.2))

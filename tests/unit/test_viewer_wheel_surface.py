@@ -42,6 +42,29 @@ def test_a_triquadratic_cell_has_four_flat_pieces_a_face_on_its_own_nodes() -> N
     assert set(surface.parts.tolist()) == {7}
 
 
+def test_a_face_between_two_triquadratic_cells_is_inside() -> None:
+    first = reference_nodes(27)[list(VTK_FROM_GMSH)] + np.array([0.0, 2.0, 0.0])
+    both = np.concatenate([first, first + np.array([2.0, 0.0, 0.0])])
+    points, cells = np.unique(both, axis=0, return_inverse=True)
+    surface = wheel_surface(points, cells.reshape(2, 27), np.array([7, 8]))
+    middles = surface.places[surface.quads].mean(axis=1)
+    assert len(middles) == 2 * (24 - 4) * 2
+    assert not np.any(np.isclose(middles[:, 0], 1.0))
+    np.testing.assert_array_equal(surface.parts, np.where(middles[:, 0] < 1.0, 7, 8))
+
+
+def test_a_ray_through_a_corner_does_not_slip_through() -> None:
+    """Where VTK's locators report the far side of the wheel."""
+    surface = _ring()
+    for k in np.flatnonzero(surface.places[:, 2] < -0.13)[::7]:
+        place = surface.places[k]
+        outside = place * (2.0, 1.0, 2.0)
+        found = surface.probe(surface.places, np.array([outside, -outside]))
+        assert found is not None
+        assert np.hypot(*surface.places[found.point][[0, 2]]) == pytest.approx(0.14)
+        assert surface.places[found.point][2] < 0.0
+
+
 def test_a_ray_meets_the_nearest_point_and_its_part() -> None:
     surface = _ring()
     ray = np.array([[0.0, 0.045, -1.0], [0.0, 0.045, 1.0]])

@@ -15,9 +15,9 @@ from scipy.optimize import brentq
 
 from contracts.errors import ConvergenceError, InputError
 from rover_dynamics.multibody.body import body
-from rover_dynamics.multibody.force import AppliedForce, Force, HingeTorque
+from rover_dynamics.multibody.force import AppliedForce, HingeTorque
 from rover_dynamics.multibody.joint import prismatic, revolute
-from rover_dynamics.multibody.model import Drive, MultibodyModel
+from rover_dynamics.multibody.model import Drive, Force, MultibodyModel
 from rover_dynamics.multibody.motion_law import Hold
 from rover_dynamics.multibody.state import rotations
 from rover_dynamics.multibody.static_equilibrium import static_equilibrium

@@ -1,4 +1,4 @@
-"""What stands in the page's 3D view. Beside `workbench.figures.stills` the one module that imports PyVista.
+"""What stands in the page's 3D view. Only `workbench.figures.stills` and `wheel_surface` import PyVista besides.
 
 Stills are drawn and gone; this scene lives as long as the page, whose browser draws it (vtk.js).
 

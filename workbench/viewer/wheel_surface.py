@@ -8,16 +8,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import pyvista as pv
 from numpy.typing import NDArray
 
-from geometry.hexahedra import VTK_FROM_GMSH, face_nodes
-from workbench.figures.stills import QUARTERS
+from geometry.hexahedra import VTK_FROM_GMSH, reference_nodes
 
 __all__ = ["Probe", "WheelField", "WheelSurface", "wheel_surface"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 _TRIANGLES = np.array([(0, 1, 2), (0, 2, 3)])
+_LATTICE = np.lexsort(reference_nodes(27)[list(VTK_FROM_GMSH)].T).reshape(3, 3, 3)
+_EIGHTHS = np.array(
+    [_LATTICE[k : k + 2, j : j + 2, i : i + 2].ravel()[[0, 1, 3, 2, 4, 5, 7, 6]] for k, j, i in np.ndindex(2, 2, 2)]
+)
+"""Nodes of the eight hexahedra that VTK's triquadratic one is made of."""
 _PLANE = 1e-9
 """Distance from y = 0 within which a face lies on the cut of half a wheel [m]."""
 
@@ -84,13 +89,11 @@ def wheel_surface(points: FloatArray, cells: IntArray, tags: IntArray) -> WheelS
 
     A mesh on one side of y = 0 is half a wheel: its cut is left out and its mirror image added.
     """
-    facets, parts = _boundary(cells, tags)
+    facets, parts = _outside(points, cells, tags)
     whole = float(points[:, 1].min()) < -_PLANE
     if not whole:
         inside = np.abs(points[facets, 1]).max(axis=1) > _PLANE
         facets, parts = facets[inside], parts[inside]
-    if facets.shape[1] == 9:
-        facets, parts = facets[:, QUARTERS].reshape(-1, 4), np.repeat(parts, 4)
     nodes, quads = np.unique(facets, return_inverse=True)
     quads, places, n = quads.reshape(-1, 4), points[nodes], len(nodes)
     if whole:
@@ -104,20 +107,20 @@ def wheel_surface(points: FloatArray, cells: IntArray, tags: IntArray) -> WheelS
     )
 
 
-def _boundary(cells: IntArray, tags: IntArray) -> tuple[IntArray, IntArray]:
-    """Faces that belong to one cell only, in gmsh's order of their nodes, and the tag of that cell."""
-    n = cells.shape[1]
-    if n == 27:
-        cells = cells[:, np.argsort(VTK_FROM_GMSH)]
-    local = face_nodes(n)
-    faces = cells[:, local].reshape(-1, local.shape[1])
-    _, first, count = np.unique(np.sort(faces[:, :4], axis=1), axis=0, return_index=True, return_counts=True)
-    kept = np.sort(first[count == 1])
-    return faces[kept], np.repeat(tags, len(local))[kept]
+def _outside(points: FloatArray, cells: IntArray, tags: IntArray) -> tuple[IntArray, IntArray]:
+    """Nodes (k, 4) of the quadrangles outside, turned outwards, and tags (k,); a cell of 27 nodes counts as eight."""
+    if cells.shape[1] == 27:
+        cells, tags = cells[:, _EIGHTHS].reshape(-1, 8), np.repeat(tags, 8)
+    found = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: cells}, points).extract_surface(algorithm="geometry")
+    corners = np.asarray(found.point_data["vtkOriginalPointIds"], dtype=np.int64)[found.regular_faces]
+    return corners, tags[found.cell_data["vtkOriginalCellIds"]]
 
 
 def _first_hit(corners: FloatArray, ray: FloatArray) -> tuple[int, FloatArray] | None:
-    """Number of the triangle (n, 3, 3) a ray meets first, and where; Moeller and Trumbore (1997)."""
+    """Number of the triangle (n, 3, 3) a ray meets first, and where; Moeller and Trumbore (1997).
+
+    VTK's locators let rays through between triangles that touch, and then tell of the surface behind.
+    """
     origin, along = ray[0], ray[1] - ray[0]
     a, e1, e2 = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     p = np.cross(along, e2)
