@@ -8,9 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ancf_reduced.tire.mesh import build_tire
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 from tests.small_report_folder import rolling_run
+from tests.unit.test_workbench_tire_animation import flexible
+from workbench.tasks.ancf_tire import drawn_tire, tire_values
 from workbench.tasks.motion_file import read_motion, write_motion
+from workbench.viewer.stages import RoverStage
 
 
 def test_a_motion_comes_back(tmp_path: Path) -> None:
@@ -49,6 +54,29 @@ def test_a_slope_is_seen_by_what_is_up(tmp_path: Path) -> None:
     tilt = type(run.scenario.tilt)(angle=0.3, heading=0.0)
     write_motion(replace(run, scenario=replace(run.scenario, tilt=tilt)), tmp_path / "m.npz")
     np.testing.assert_allclose(read_motion(tmp_path / "m.npz").up, [-np.sin(0.3), 0.0, np.cos(0.3)], atol=1e-12)
+
+
+def test_a_motion_on_ancf_tires_brings_its_tire(tmp_path: Path) -> None:
+    """Its hubs are solid, its tire is drawn as it was driven; vectors of another tire are refused."""
+    tire = build_tire(replace(thesis_preset(), hub_radius=0.03, young_modulus=1e6))
+    run = replace(rolling_run(), motion=flexible(0.8))
+    write_motion(run, tmp_path / "m.npz", tire_values(tire.preset, tire.mesh))
+    found = read_motion(tmp_path / "m.npz")
+    assert found.tire is not None
+    drawn = drawn_tire(found.tire, found.vectors.shape[2])
+    assert (drawn.preset.hub_radius, drawn.preset.young_modulus) == (0.03, 1e6)
+    np.testing.assert_array_equal(drawn.mesh.points, tire.mesh.points)
+    whole = RoverStage(tmp_path / "m.npz").tires
+    assert whole is not None
+    assert len(whole.surfaces) == 6
+    with pytest.raises(InputError, match="must have the motion's 7"):
+        drawn_tire(found.tire, 7)
+    for broken in ({}, {"preset": {"spokes": 4}}, found.tire | {"plates": found.tire["plates"] | {"elements": [[99]]}}):
+        with pytest.raises(InputError, match="tire of the motion file = its numbers: cannot be read"):
+            drawn_tire(broken, found.vectors.shape[2])
+    write_motion(run, tmp_path / "m.npz")  # as before motions held their tire
+    with pytest.raises(InputError, match="vectors of 6 ANCF tires, and no tire"):
+        read_motion(tmp_path / "m.npz")
 
 
 @pytest.mark.parametrize("damage", ["cut", "text", "bodies"])
