@@ -53,7 +53,7 @@ def test_list_show_and_prune(folder: Path) -> None:
     shown = json.loads(run("results", "show", key[:12], "--store", "store", folder=folder).stdout)
     assert shown["key"] == key
     assert shown["state"] == "whole"
-    assert shown["inputs"]["parameters"]["radial_stiffness"] == 8250.0
+    assert shown["inputs"]["radial_stiffness"] == 8250.0
     assert set(shown["origin"]["libraries"]) == {"numpy"}
     assert set(shown["files"]) == {"curve.csv"}
     for options, count in ((("--older-than", "1 d"), "nothing"), (("--task", "fe_*"), "nothing")):

@@ -18,7 +18,6 @@ from workbench.study.model import Study, stated
 from workbench.study.model_parameters import ancf_tire, brush_parameters
 from workbench.study.sections import AncfSection
 from workbench.study.wheel_design import wheel_design
-from workbench.tasks.brush import brush_values
 from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.registry import topics_of
 
@@ -106,8 +105,7 @@ def _table_deflections(ancf: AncfSection) -> list[float]:
 
 def _brush_task(study: Study) -> Task:
     end = max([study.fe.max_deflection, *([study.ancf.max_deflection] if study.ancf is not None else [])])
-    parameters = brush_values(brush_parameters(study))
-    inputs = {"parameters": parameters, "max_deflection": end}
+    inputs = {"radial_stiffness": brush_parameters(study).radial_stiffness, "max_deflection": end}
     return Task(name="brush", function="workbench.tasks.brush:solve", inputs=inputs)
 
 

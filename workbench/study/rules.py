@@ -149,8 +149,14 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
 def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
     """Each fitted tire must begin as a possible one, within its bounds."""
     section = study.ancf_fit
-    for tire in section.tires if section is not None else ():
-        assert section is not None
+    if section is None:
+        return
+    freed = {name for tire in section.tires for name in tire.free}
+    for name in sorted(section.bounds.model_fields_set - freed):
+        value = ", ".join(f"{end:g}" for end in getattr(section.bounds, name))
+        rule, hint = "bounds nothing: no tire frees it", "remove it, or add it to a tire's free"
+        yield BrokenRule(key=f"ancf_fit.bounds.{name}", value=value, rule=rule, hint=hint)
+    for tire in section.tires:
         key = f"ancf_fit.tires {tire.name}"
         try:
             start = fit_start(study, tire)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contracts.curves import write_curve
-from rover_dynamics.tires.brush_tire import BrushTireParameters, stiffness_curve
+from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, stiffness_curve
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
@@ -27,6 +27,7 @@ def brush_from(values: Mapping[str, float]) -> BrushTireParameters:
 
 
 def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """Static line of the brush tire: ``curve.csv``; where its parameters come from is added by who shows it."""
-    write_curve(stiffness_curve(brush_from(inputs["parameters"]), inputs["max_deflection"]), out / "curve.csv")
+    """Static line of the brush tire by its radial stiffness: ``curve.csv``; its source is added by who shows it."""
+    tire = replace(THESIS_BRUSH, radial_stiffness=inputs["radial_stiffness"], source="the study")
+    write_curve(stiffness_curve(tire, inputs["max_deflection"]), out / "curve.csv")
     return 0
