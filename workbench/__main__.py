@@ -14,6 +14,11 @@ def main() -> None:
 
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, _end)
+        from workbench.execution.standard_streams import forget_odd_widths, name_errors, open_closed_streams
+
+        open_closed_streams()
+        name_errors()
+        forget_odd_widths()
         from workbench.cli import main as run
     except KeyboardInterrupt:  # before the handler was there
         _end()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import resource
+import shlex
 import subprocess
 from pathlib import Path
 
@@ -137,3 +138,31 @@ def test_full_temporary_files_and_caches(tmp_path: Path) -> None:
         ended = _small_disk(small, "4k", command("stiffness", study, *places), **cache)
         _refused(ended, f"which holds the {told} {small}", f"set {name} to another folder")
         assert len(list((tmp_path / f"store of {name}").glob("??/*"))) == 1  # the mesh
+
+
+def test_a_new_study_is_whole_or_not_there(tmp_path: Path) -> None:
+    """On a full disk, and where files may not be long: the message fits the command, and nothing bars another try."""
+    small = tmp_path / "small"
+    new = command("new", small / "s.toml", "--from", "exomars")
+    ended = _small_disk(small, "4k", ["sh", "-c", '"$@"; status=$?; ls -A "$0"; exit $status', str(small), *new])
+    _refused(ended, f"No space left on device: the disk mounted at {small}, which holds the study file")
+    assert ended.stdout == ""
+    limit = f"ulimit -f 1; exec {shlex.join(new)}"
+    too_long = subprocess.run(
+        ["bash", "-c", limit], env=environment(), capture_output=True, text=True, check=False, timeout=900
+    )
+    _refused(too_long, f"File too large: {small / 's.toml'}: a file may not be longer than 1 kB (ulimit -f)")
+    for words in ("--out", "finished results", "/dev/shm"):
+        assert words not in ended.stderr + too_long.stderr
+    assert list(small.iterdir()) == []
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_full_standard_output_is_named(unbuffered: str) -> None:
+    with Path("/dev/full").open("w") as full:
+        ended = subprocess.run(
+            command("rover", "--list"), env=environment() | {"PYTHONUNBUFFERED": unbuffered}, stdout=full,
+            stderr=subprocess.PIPE, text=True, check=False, timeout=900,
+        )  # fmt: skip
+    expected = "workbench: error: standard output: No space left on device; check path and space\n"
+    assert (ended.returncode, ended.stderr) == (2, expected)

@@ -69,6 +69,24 @@ def test_a_file_longer_than_may_be(places: dict[str, Path]) -> None:
     assert text.startswith(f"File too large: {places[OUT] / 'report.html'}: a file may not be longer")
 
 
+def test_a_file_too_long_that_has_no_name_is_laid_to_no_disk(places: dict[str, Path]) -> None:
+    text = disk_full(_full(number=errno.EFBIG), places)
+    assert text.startswith("File too large: a file may not be longer")
+    assert str(places[STORE]) not in text
+
+
+def test_standard_output_is_no_disk(places: dict[str, Path]) -> None:
+    text = disk_full(_full(Path("standard output")), places)
+    assert text.startswith("standard output: No space left on device; ")
+    assert str(places[STORE]) not in text
+
+
+def test_of_two_places_in_each_other_the_inner_one_is_named(places: dict[str, Path]) -> None:
+    """Though the outer one, on another disk, has less room."""
+    inner = {**places, OUT: places[STORE] / "disk" / "out"}
+    assert f"which holds the output folder {inner[OUT]}" in disk_full(_full(inner[OUT] / "a"), inner)
+
+
 def test_other_errors_are_not_about_a_disk(places: dict[str, Path]) -> None:
     assert disk_full(ValueError("28"), places) == ""
     assert disk_full(PermissionError(errno.EACCES, "Permission denied", "x"), places) == ""

@@ -5,6 +5,9 @@ Verified by tests/end_to_end/test_studies_commands.py.
 
 from __future__ import annotations
 
+import contextlib
+import os
+import uuid
 from pathlib import Path
 
 import tomlkit
@@ -12,7 +15,9 @@ import tomlkit
 from contracts.errors import InputError
 from contracts.input_file import input_text
 from workbench.commands.computing import console, naming, read_and_warn
+from workbench.execution.disk import STUDY, naming_the_disk
 from workbench.graph.study_graph import report_tasks
+from workbench.report.placing import moved
 from workbench.study.reading import built_in_study, study_of
 from workbench.study.rewrite import rewritten_study
 
@@ -29,13 +34,27 @@ def run_new(path: Path, like: str) -> int:
     document = tomlkit.parse(text)
     document["name"] = path.stem
     study_of(path, document.unwrap())  # the file's name may be none that a study may have
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(tomlkit.dumps(document))
-    except FileExistsError as error:
-        raise InputError("study file", path, "is there already", "give another name") from error
+    with naming_the_disk(STUDY, path):
+        _write_new(path, tomlkit.dumps(document))
     console.print(f"study: {path}; next: workbench check {path}", soft_wrap=True)
     return 0
+
+
+def _write_new(path: Path, text: str) -> None:
+    """Write a file beside its place, then give it its name: whole, or not there; never over another."""
+    aside = path.with_name(f".workbench-new-{uuid.uuid4().hex}")
+    try:
+        with aside.open("x", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())  # some disks say only here that they are full
+        if not moved(aside, path):
+            raise InputError("study file", path, "is there already", "give another name")
+    except OSError as error:  # on a full disk it names no file
+        raise OSError(error.errno, error.strerror, str(path)) from error
+    finally:
+        with contextlib.suppress(OSError):
+            aside.unlink()
 
 
 def run_check(path: Path) -> int:

@@ -2,7 +2,7 @@
 
 The places a command writes to are the result store, the output folder, temporary files, caches of compiled functions
 and, where MPI runs, shared memory. An error that names its file is about that one; else it is about the place with the
-least room.
+least room. One on standard output names it (`standard_streams.name_errors`), and no disk is blamed for that.
 
 Verified by tests/unit/test_execution_disk.py and tests/end_to_end/test_disk.py.
 """
@@ -12,7 +12,6 @@ from __future__ import annotations
 import errno
 import os
 import resource
-import stat
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -21,14 +20,17 @@ from pathlib import Path
 
 from contracts.memory import shown_size
 from workbench.execution.errors import DiskFullError
+from workbench.execution.standard_streams import STANDARD_OUTPUT
 
-__all__ = ["OUT", "STORE", "disk_full", "naming_the_disk", "no_room", "where_full"]
+__all__ = ["OUT", "STORE", "STUDY", "disk_full", "naming_the_disk", "no_room", "where_full"]
 
 STORE = "result store"
 OUT = "output folder"
+STUDY = "study file"
 _FULL = frozenset((errno.ENOSPC, errno.EDQUOT, errno.EFBIG))
 _ROOM = 1_000_000
 """With less free than this [bytes] a disk counts as full where an error of another kind came up."""
+_GO_ON = "; finished results are kept, start again to go on"
 _ADVICE = {
     STORE: "choose another with --store",
     OUT: "choose another with --out",
@@ -64,12 +66,21 @@ def disk_full(error: BaseException, places: Mapping[str, Path] | None = None) ->
     found = _full_error(error)
     if found is None:
         return ""
-    reason, disk = found.strerror or "the disk is full", _blamed(found, places or {})
+    reason, name = found.strerror or "the disk is full", found.filename2 or found.filename
     if found.errno == errno.EFBIG:
-        longest = resource.getrlimit(resource.RLIMIT_FSIZE)[0]
-        limit = "" if longest == resource.RLIM_INFINITY else f" than {shown_size(longest)} (ulimit -f)"
-        return f"{reason}: {found.filename or disk.path}: a file may not be longer{limit}; {_advice(disk)}"
+        where = f"{name}: " if name else ""
+        return f"{reason}: {where}{_longest()}{'' if STUDY in (places or {}) else _GO_ON}"
+    if name == STANDARD_OUTPUT:
+        return f"{STANDARD_OUTPUT}: {reason}; check path and space"
+    disk = _blamed(found, places or {})
     return f"{reason}: {disk}; {_advice(disk)}"
+
+
+def _longest() -> str:
+    longest = resource.getrlimit(resource.RLIMIT_FSIZE)[0]
+    if longest == resource.RLIM_INFINITY:
+        return "a file may not be longer on this file system"
+    return f"a file may not be longer than {shown_size(longest)} (ulimit -f); raise this limit"
 
 
 def where_full(places: Mapping[str, Path] | None = None) -> str:
@@ -110,10 +121,8 @@ def _blamed(error: OSError, places: Mapping[str, Path]) -> _Disk:
     name = error.filename2 or error.filename  # of a copy, where to
     if isinstance(name, str):
         named = Path(name).absolute()
-        for disk in disks:
-            if named.is_relative_to(disk.path):
-                return disk
-        return _disk("file", named)
+        around = [disk for disk in disks if named.is_relative_to(disk.path)]
+        return max(around, key=lambda disk: len(disk.path.parts), default=None) or _disk("file", named)
     return disks[0]
 
 
@@ -123,8 +132,6 @@ def _disks(places: Mapping[str, Path]) -> Sequence[_Disk]:
     compiled = Path(os.environ.get("NUMBA_CACHE_DIR") or Path(__file__).parents[2])
     common = {"temporary files": _temporary(), "cache": cache, "compiled functions": compiled}
     common["shared memory"] = Path("/dev/shm")
-    if stat.S_ISREG(os.fstat(1).st_mode):
-        common["standard output"] = Path("/proc/self/fd/1").readlink()
     return sorted((_disk(what, path) for what, path in {**places, **common}.items()), key=lambda disk: disk.free)
 
 
@@ -151,4 +158,4 @@ def _free(state: os.statvfs_result) -> int:
 
 def _advice(disk: _Disk) -> str:
     other = _ADVICE.get(disk.what, "")
-    return f"make room{', or ' if other else ''}{other}; finished results are kept, start again to go on"
+    return f"make room{', or ' if other else ''}{other}{'' if disk.what == STUDY else _GO_ON}"

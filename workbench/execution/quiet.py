@@ -10,16 +10,12 @@ import logging
 import os
 import sys
 import warnings
-from pathlib import Path
 
 __all__ = ["quieten"]
 
 
 def quieten() -> None:
     """Let this process print our own lines alone, and letters its terminal does not have as escapes."""
-    for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:  # closed by whoever started us
-            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115  (until the process ends)
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     if os.environ.get("WORKBENCH_TRACEBACK") or sys.warnoptions:

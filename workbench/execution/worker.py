@@ -16,6 +16,7 @@ from pathlib import Path
 
 from workbench.execution.jobs import Job, Progressed, run_job
 from workbench.execution.ranks import die_with_parent, run_on_ranks
+from workbench.execution.standard_streams import open_closed_streams
 
 __all__ = ["serve"]
 
@@ -43,6 +44,7 @@ def _redirect_output(log: Path) -> None:
 
     Where no log can be written, what is printed is lost and nothing else: a full disk fails no task by that.
     """
+    open_closed_streams()  # else the log would be one of them
     sys.stdout.flush()
     sys.stderr.flush()
     try:

@@ -24,7 +24,7 @@ from workbench.execution.integrity import is_inside, sealed, unsealed
 from workbench.report.folders import check_targets
 from workbench.report.own_files import FILES, OwnFile, holds, own_text, read_own
 
-__all__ = ["NewFiles", "copy_files", "keep_foreign", "new_files", "put_files"]
+__all__ = ["NewFiles", "copy_files", "keep_foreign", "moved", "new_files", "put_files"]
 
 _PLAN = ".workbench-plan.json"
 """Lists the names of what a folder of new files will hold: no more is removed of one that a killed run left."""
@@ -137,7 +137,7 @@ def _differs(path: Path, digest: str) -> bool:
 def _keep_edited(out: Path, name: str) -> str:
     """Rename one of our files that was edited since, and say so."""
     path, number = out / name, 1
-    while not _moved(path, place := path.with_name(f"{path.stem}.edited-{number}{path.suffix}")):
+    while not moved(path, place := path.with_name(f"{path.stem}.edited-{number}{path.suffix}")):
         number += 1
     return f"{path} had been edited; kept as {place.name}"
 
@@ -156,13 +156,13 @@ def keep_foreign(out: Path, names: Sequence[str]) -> list[str]:
             number += 1
     for name in names:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        _moved(out / name, folder / name)
+        moved(out / name, folder / name)
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
     return [f"in {out} were files of the same names that this program does not know as its own; kept in {folder}: "
             f"{', '.join(names[:_SHOWN])}{more}"]  # fmt: skip
 
 
-def _moved(path: Path, place: Path) -> bool:
+def moved(path: Path, place: Path) -> bool:
     """Move something, without ever writing over another; False if the place is taken."""
     try:
         os.link(path, place, follow_symlinks=False)
