@@ -11,10 +11,12 @@ import tomlkit
 
 from contracts.errors import InputError
 from contracts.input_file import input_text
-from workbench.commands.computing import console, naming, read_and_warn
+from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.graph.study_graph import report_tasks
-from workbench.study.reading import built_in_study, study_of
+from workbench.graph.sweep import sweep_graph
+from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.study.rewrite import rewritten_study
+from workbench.study.sweep_points import beyond_reach, end_points
 
 __all__ = ["run_check", "run_new"]
 
@@ -39,9 +41,13 @@ def run_new(path: Path, like: str) -> int:
 
 
 def run_check(path: Path) -> int:
-    """Read a study as every command does and plan its report; what is unusual goes to stderr."""
+    """Read a study as every command does, plan its report and the ends of its sweep; what is unusual goes to stderr."""
     study = read_and_warn(path)
+    points = end_points(path, read_study_table(path)) if study.sweep is not None else []
+    warn(path, beyond_reach(study, points))
     with naming(path):
         tasks = report_tasks(study, path.parent)
+        if study.sweep is not None:
+            sweep_graph(points, study.sweep.models)
     console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)
     return 0
