@@ -6,13 +6,15 @@ Verified by tests/unit/test_rover_file.py.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from contracts.errors import InputError
 from contracts.input_file import input_table
 from contracts.ranges import Key, dotted, oddities, range_table
+from rover_dynamics.rover.rover_design import SIDES, BodyRow, Leg, PivotRow, RoverDesign
+from rover_dynamics.rover.rover_geometry import require_standing, strange_places
 from rover_dynamics.rover.rover_table import RoverTable, is_finite
 
 __all__ = [
@@ -27,82 +29,7 @@ __all__ = [
 
 EXOMARS_ROVER = Path(__file__).with_name("exomars_rover.toml")
 _RANGES = Path(__file__).with_name("ranges.toml")
-SIDES = {"left": 1.0, "right": -1.0}
-"""Sign of y on each side."""
 _LEG_BODIES = ("arm", "spindle", "wheel")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BodyRow:
-    """One body: mass [kg], principal inertia in vehicle axes [kg m^2], centre of mass [m], z above the wheel's axle."""
-
-    name: str
-    mass: float
-    inertia: tuple[float, float, float]
-    position: tuple[float, float, float]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PivotRow:
-    """A passive hinge between two bodies; position [m], z above the wheel's axle."""
-
-    name: str
-    first: str
-    second: str
-    position: tuple[float, float, float]
-    axis: tuple[float, float, float]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Leg:
-    """Deployment, steering and drive hinge of one wheel with the bodies between them; places as in `PivotRow`.
-
-    Attributes
-    ----------
-    name : such as ``"front_left"``
-    carrier : body it hangs on
-    deployment, steering, drive : points of the three axes
-    """
-
-    name: str
-    carrier: str
-    deployment: tuple[float, float, float]
-    steering: tuple[float, float, float]
-    drive: tuple[float, float, float]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RoverDesign:
-    """A rover as numbers; mirrored rows have become two.
-
-    Attributes
-    ----------
-    name, gravity : [m/s^2]
-    wheel_radius, wheel_width : [m]
-    bodies, pivots, legs : see there
-    leg_bodies : arm, spindle and wheel of every leg; x and y of their positions are the drive's, z counts from the axle
-    warnings : what is unusual in the file, a line each
-    """
-
-    name: str
-    gravity: float
-    wheel_radius: float
-    wheel_width: float
-    bodies: tuple[BodyRow, ...]
-    pivots: tuple[PivotRow, ...]
-    legs: tuple[Leg, ...]
-    leg_bodies: tuple[BodyRow, ...]
-    warnings: tuple[str, ...] = field(default=(), repr=False)
-
-    @property
-    def mass(self) -> float:
-        """Of all bodies [kg]."""
-        return sum(body.mass for body in self.bodies) + len(self.legs) * sum(body.mass for body in self.leg_bodies)
-
-    @property
-    def static_load(self) -> float:
-        """Weight divided by the number of wheels [N]."""
-        return self.mass * self.gravity / len(self.legs)
 
 
 def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
@@ -111,14 +38,14 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
     Raises
     ------
     InputError
-        For a file that cannot be read, a key that is missing or unknown, or a number that is none or that no rover has.
+        For a file that cannot be read, a key that is missing or unknown, a number that is none or that no rover has,
+        or a rover that cannot be so or tips over.
     """
     content = input_table(path, "rover file", "rover_dynamics/rover/exomars_rover.toml")
     rover = RoverTable(str(path), content)
     warnings = _unusual(path, content)
     wheel, legs = rover.table("wheel"), rover.some_rows("legs")
     design = RoverDesign(
-        warnings=warnings,
         name=rover.word("name"),
         gravity=rover.gravity("gravity"),
         wheel_radius=wheel.number("radius"),
@@ -129,7 +56,8 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
         leg_bodies=tuple(_leg_body(name, rover.table("leg_bodies").table(name)) for name in _LEG_BODIES),
     )
     rover.finished()
-    return design
+    require_standing(str(path), design)
+    return replace(design, warnings=(*warnings, *strange_places(design)))
 
 
 def _unusual(path: Path, content: Mapping[str, Any]) -> tuple[str, ...]:

@@ -50,7 +50,10 @@ class RoverTable:
         return value
 
     def word(self, key: str) -> str:
-        return one_line(str(self.get(key, str, "a word")))
+        word = one_line(str(self.get(key, str, "a word")))
+        if not word.strip():
+            raise InputError(f"{self.place}: {key}", repr(word), "is empty", "give a word")
+        return word
 
     def flag(self, key: str) -> bool:
         return bool(self.get(key, bool, "true or false")) if key in self.content else False

@@ -83,6 +83,19 @@ def test_pages_and_numbers(files: tuple[Path, Path], tmp_path: Path) -> None:
     assert (out / "compare.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_sliver_in_common_is_no_verdict(
+    files: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sliver = tmp_path / "sliver.csv"
+    sliver.write_text("deflection_mm,load_N\n0,0\n0.2,1.6\n", encoding="utf-8")
+    assert _run(["compare", str(sliver), str(files[1]), "--tolerance", "5 %"]) == 1
+    assert "\nundecided: Relative L2 difference 0.000 %, of the common range alone" in capsys.readouterr().out
+    assert _run(["compare", str(sliver), str(files[1])]) == 0
+    assert "\nnot judged: " in capsys.readouterr().out
+    assert _run(["compare", *map(str, files), "--max-load", "100 kN", "--tolerance", "15 %"]) == 1
+    assert "Prüfstand ends at 240 N, before the 1e+05 N asked for" in capsys.readouterr().out
+
+
 def test_bad_input_writes_nothing(files: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     ours, _ = files
     plates = tmp_path / "plates.csv"
@@ -94,6 +107,10 @@ def test_bad_input_writes_nothing(files: tuple[Path, Path], tmp_path: Path, caps
         ("--uncertainty", "lots"),
         ("--max-load", "-1 N"),
         ("--max-load", "3 mm"),
+        ("--max-load", "1e-9"),
+        ("--max-load", "1e300"),
+        ("--max-load", "2 N"),
+        ("--tolerance", "1e-300 %"),
     ):
         assert _run(["compare", *map(str, files), option, value, "--out", str(out)]) == 2
         assert f"= {value}" in capsys.readouterr().err

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from contracts.errors import StudyError
 from tests.end_to_end.small_study import run, said
+from workbench.commands.studies import run_check
 from workbench.graph.study_graph import report_tasks
 from workbench.study.reading import built_in_study, read_study
 
@@ -56,3 +58,36 @@ def test_what_is_unusual_is_told(tmp_path: Path) -> None:
     ended = run("check", "a.toml", folder=tmp_path)
     assert ended.returncode == 0
     assert "poisson_ratio = -0.342 is unusual" in ended.stderr
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ('"fe.nothing" = [1, 2]', "[sweep] point 1 (fe.nothing = 1): fe.nothing = 1: is not a known key"),
+        ('strip_thickness = ["-0.6 mm"]', "point 1 (strip_thickness = '-0.6 mm')"),
+        ('strip_thickness = ["0.6 mm", "-0.6 mm"]', "point 2 (strip_thickness = '-0.6 mm')"),
+        ('models = ["fe"]\ntemperature = ["-5 K"]', "point 1 (temperature = '-5 K'): temperature = -5 K"),
+        ("plates = [0]", "point 1 (plates = 0)"),
+        ("[sweep.plates]\nlow = 0\nhigh = 9\n[sweep.fe.friction]\nlow = 0.1\nhigh = 0.2", "plates = 0"),
+    ],
+)
+def test_a_sweep_that_cannot_be_read_is_refused(tmp_path: Path, line: str, words: str) -> None:
+    _with_sweep(tmp_path / "a.toml", line)
+    with pytest.raises(StudyError) as caught:
+        run_check(tmp_path / "a.toml")
+    assert words in str(caught.value)
+
+
+def test_a_deflection_of_a_sweep_beyond_every_curve_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _with_sweep(tmp_path / "a.toml", 'strip_thickness = ["0.6 mm", "0.61 mm"]\ndeflections = ["20 mm", "500 mm"]')
+    assert run_check(tmp_path / "a.toml") == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "sweep.deflections[1] = 500 mm lies beyond the largest max_deflection, 20 mm" in line
+
+
+def _with_sweep(path: Path, lines: str) -> None:
+    """The shipped sweep's study with another [sweep]; a hypercube where ``lines`` give ranges."""
+    text = (built_in_study().parent / "strip_sweep.toml").read_text(encoding="utf-8")
+    start, end = text.index("[sweep]"), text.index("# --- The wheel")
+    hypercube = 'design = "latin-hypercube"\nsamples = 60\n' if "low =" in lines else ""
+    path.write_text(f"{text[:start]}[sweep]\n{hypercube}{lines}\n{text[end:]}", encoding="utf-8")

@@ -113,6 +113,24 @@ def test_files_that_cannot_be_used(tmp_path: Path, text: str, rule: str) -> None
     assert "mine.csv" in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ("uncertainty: 5 %", "uncertainty: 50 %"),
+        ("unloaded_radius: 142.5 mm", "Unloaded radius: 150 mm"),
+        ("unloaded_diameter: 285 mm", "unloaded_diameter: 300 mm"),
+        ("deformation: approach", "deformation: change of diameter"),
+        ("partial: True", "partial: False"),
+    ],
+)
+def test_a_thing_said_twice_and_differently_is_refused_in_either_order(tmp_path: Path, lines: tuple[str, str]) -> None:
+    rows = "deflection_mm,load_N\n0,0\n30,247\n"
+    for first, second in (lines, lines[::-1]):
+        with pytest.raises(InputError, match=f"says {lines[0].partition(':')[0]} twice, .* and "):
+            _read(tmp_path, f"# {first}\n# {second}\n{rows}")
+    assert _read(tmp_path, f"# {lines[0]}\n# {lines[0].replace(' ', '  ')}\n# source: a\n# source: b\n{rows}").curve
+
+
 def test_a_file_in_the_own_format_is_handed_on_as_it_is_and_others_converted(tmp_path: Path) -> None:
     path = tmp_path / "c.csv"
     own = "# source: me\ndeflection_m,load_N,extra\n0,0,7\n0.01,80,8\n"

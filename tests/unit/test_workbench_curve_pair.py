@@ -148,6 +148,38 @@ def test_uncertainties_of_both_curves_are_combined_and_bound_the_change_of_the_n
         assert abs(norm - alone.difference) <= 0.02 + 1e-12
 
 
+@pytest.mark.parametrize(
+    ("ends", "max_load", "outcome", "words"),
+    [
+        ((0.0002, 0.03), None, "undecided", "only 0 to 0.2 mm of 0 to 30 mm, less than 50 %; give --max-load"),
+        ((0.03, 0.0002), None, "undecided", "only 0 to 0.2 mm of 0 to 30 mm"),
+        ((0.0149, 0.03), None, "undecided", "only 0 to 14.9 mm"),
+        ((0.015, 0.03), None, "passed", ""),
+        ((0.012, 0.03), 70.0, "passed", ""),  # both reach it
+        ((0.012, 0.03), 100.0, "undecided", "mine ends at 12 mm, before 13.81 mm, where mine carries the 100 N"),
+        ((0.03, 0.012), 100.0, "undecided", "mine ends at 84.96 N, before the 100 N asked for"),
+    ],
+)
+def test_no_verdict_on_a_sliver_of_the_range(
+    ends: tuple[float, float], max_load: float | None, outcome: str, words: str
+) -> None:
+    curve, reference = (_measured(_curve(np.linspace(0.0, end, 3001))) for end in ends)
+    found = compared(curve, reference, max_load, tolerance=0.05).judgement
+    assert found.outcome == outcome
+    assert words in found.why
+    assert bool(found.missing) == (outcome == "undecided")
+    silent = compared(curve, reference, max_load).judgement
+    assert (silent.outcome, silent.missing) == ("not judged", found.missing)
+
+
+def test_no_verdict_on_the_ends_of_two_curves_nor_on_a_difference_there() -> None:
+    early, late = _curve(np.linspace(0.0, 0.02, 50), 2.0), _curve(np.linspace(0.018, 0.03, 50))
+    found = compared(_measured(early), _measured(late), tolerance=0.05).judgement
+    assert (found.outcome, "18 to 20 mm of 0 to 30 mm" in found.why) == ("undecided", True)
+    asked = compared(_measured(early), _measured(late), 156.0, tolerance=0.05).judgement
+    assert (asked.outcome, "18 to 20 mm of 0 to 20 mm" in asked.why) == ("undecided", True)
+
+
 def test_negative_control_a_damaged_curve_fails() -> None:
     whole = _curve(_uneven(40))
     damaged = StiffnessCurve(

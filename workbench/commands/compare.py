@@ -15,14 +15,16 @@ from contracts.errors import InputError
 from workbench.commands.computing import console, tell_kept, warn
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import put_files
-from workbench.study.curve_file import load_uncertainty, newtons, read_measured_curve
-from workbench.study.magnitudes import unusual_curve
+from workbench.study.curve_file import MeasuredCurve, load_uncertainty, newtons, read_measured_curve
+from workbench.study.magnitudes import require_possible, unusual_curve
 
 if TYPE_CHECKING:
     from workbench.comparison.curve_pair import CurvePair
 
 __all__ = ["CompareChoices", "run_compare"]
 
+_FINEST = 1e-9
+_LEAST_LOAD = 0.01
 _FILES = ("compare.html", "compare.png", "compare.csv", "compare.json")
 
 
@@ -54,9 +56,7 @@ def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices)
     """
     from workbench.comparison.curve_pair import compared
 
-    max_load = None if choices.max_load is None else newtons("max load", choices.max_load)
-    if max_load is not None and not max_load > 0.0:
-        raise InputError("max load", f"{max_load:g} N", "must be > 0", "give newtons such as 250, or '0.25 kN'")
+    max_load = None if choices.max_load is None else _max_load(choices.max_load)
     tolerance = None if choices.tolerance is None else _tolerance(choices.tolerance)
     if choices.out is not None:
         check_folder(choices.out)
@@ -67,6 +67,8 @@ def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices)
     if choices.uncertainty is not None:
         stated = load_uncertainty(choices.uncertainty, reference.curve.load)
         reference = replace(reference, uncertainty=stated)
+    if max_load is not None:
+        _require_in_sight(max_load, reference)
     pair = compared(curve, reference, max_load, tolerance)
     _print(pair, f"{curve_path.name} against {reference_path.name}")
     if choices.out is not None:
@@ -84,7 +86,28 @@ def _tolerance(text: str) -> float:
         raise InputError(error.what, error.value, error.rule, "write it like '5 %'") from error
     if "N" in text or not found > 0.0:
         raise InputError("tolerance", text, "must be a share above zero, not a load", "write it like '5 %'")
+    if found < _FINEST:
+        rule = f"must not be less than {100.0 * _FINEST:g} %, the digits of a curve file"
+        raise InputError("tolerance", text, rule, "write it like '5 %'")
     return found
+
+
+def _max_load(text: str) -> float:
+    """The load to end at [N], one that a wheel may carry."""
+    load = newtons("max load", text)
+    if not load > 0.0:
+        raise InputError("max load", f"{load:g} N", "must be > 0", "give newtons such as 250, or '0.25 kN'")
+    require_possible("max load", load, "fe.max_load")
+    return load
+
+
+def _require_in_sight(max_load: float, reference: MeasuredCurve) -> None:
+    """Raise InputError for a range that holds next to nothing of the reference: the verdict would be on its first
+    points' digits."""
+    largest = float(reference.curve.load.max())
+    if max_load < _LEAST_LOAD * largest:
+        rule = f"is less than {100.0 * _LEAST_LOAD:g} % of the reference's largest load, {largest:.4g} N"
+        raise InputError("max load", f"{max_load:g} N", rule, "check its unit, or give a larger one")
 
 
 def _print(pair: CurvePair, title: str) -> None:
@@ -97,7 +120,7 @@ def _print(pair: CurvePair, title: str) -> None:
     for row in compared_rows(pair):
         table.add_row(row.quantity, row.curve, row.reference, row.difference)
     console.print(table)
-    if pair.judgement.tolerance is not None:
+    if pair.judgement.tolerance is not None or pair.judgement.missing:
         text = f"{pair.judgement.outcome}: {sentence(pair)}"
         console.print(text, soft_wrap=True)
 

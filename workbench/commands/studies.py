@@ -14,12 +14,14 @@ import tomlkit
 
 from contracts.errors import InputError
 from contracts.input_file import input_text
-from workbench.commands.computing import console, naming, read_and_warn
+from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.disk import STUDY, naming_the_disk
 from workbench.graph.study_graph import report_tasks
+from workbench.graph.sweep import sweep_graph
 from workbench.report.placing import moved
-from workbench.study.reading import built_in_study, study_of
+from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.study.rewrite import rewritten_study
+from workbench.study.sweep_points import beyond_reach, end_points
 
 __all__ = ["run_check", "run_new"]
 
@@ -58,9 +60,13 @@ def _write_new(path: Path, text: str) -> None:
 
 
 def run_check(path: Path) -> int:
-    """Read a study as every command does and plan its report; what is unusual goes to stderr."""
+    """Read a study as every command does, plan its report and the ends of its sweep; what is unusual goes to stderr."""
     study = read_and_warn(path)
+    points = end_points(path, read_study_table(path)) if study.sweep is not None else []
+    warn(path, beyond_reach(study, points))
     with naming(path):
         tasks = report_tasks(study, path.parent)
+        if study.sweep is not None:
+            sweep_graph(points, study.sweep.models)
     console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)
     return 0

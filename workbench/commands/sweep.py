@@ -25,7 +25,7 @@ from workbench.report.sweep_page import sweep_page
 from workbench.study.magnitudes import unusual
 from workbench.study.model import Study
 from workbench.study.reading import read_study_table, study_of
-from workbench.study.sweep_points import Point, design_points, probes, sweep_points
+from workbench.study.sweep_points import Point, beyond_reach, design_points, probes, sweep_points
 
 __all__ = ["run_sweep"]
 
@@ -43,7 +43,8 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
         console.print(f"reading {count} points, each as a whole study: some {count // 50} s", soft_wrap=True)
     points = sweep_points(study_path, content)
     assert study.sweep is not None
-    warn(study_path, (*_warnings(study, points), *_without_effect(study_path, content, study, points)))
+    silent = _without_effect(study_path, content, study, points)
+    warn(study_path, (*_warnings(study, points), *beyond_reach(study, points), *silent))
     check_folder(out)
     check_targets(out, _FILES)
     with naming(study_path):

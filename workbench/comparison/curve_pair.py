@@ -24,6 +24,10 @@ _SAMPLES = 401
 _LARGEST_LOAD = 1e12
 _REACH = 0.1
 """Smallest reach of the tangents' regression over the range compared [-]."""
+_ROUND_OFF = 1e-9
+_LEAST_COMMON = 0.5
+"""Share of the whole range that has to be common before a verdict is given [-]: no verdict on a wheel's curve from a
+sliver of it, whichever of the two ends early."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,13 +73,15 @@ class Energies:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Judgement:
-    """A relative L2 difference, its uncertainty and its tolerance [-], and what follows; `why` in words."""
+    """A relative L2 difference, its uncertainty and its tolerance [-], and what follows; `why` in words, and what is
+    `missing` for a verdict."""
 
     difference: float
     uncertainty: float | None
     tolerance: float | None
     outcome: Outcome
     why: str
+    missing: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,7 +104,8 @@ def compared(
 
     Uncertainties of both loads are taken as independent: U = sqrt(U_curve^2 + U_reference^2) at each deflection (ASME
     V&V 20-2009, eq. 1-5-9). A difference that moves by U(d) everywhere moves its relative L2 norm by at most
-    norm(U) / norm(F_ref).
+    norm(U) / norm(F_ref). Where less than half of the deflections from the first of either curve to the last of either
+    is common, or a curve ends before the load asked for, the verdict is undecided.
 
     Parameters
     ----------
@@ -131,21 +138,24 @@ def compared(
         samples=samples,
         tangents=_tangent_difference(samples),
         energies=_energies(curve.curve, reference.curve, max_load),
-        judgement=judged(metrics.relative_l2, spread, tolerance),
+        judgement=judged(metrics.relative_l2, spread, tolerance, _missing(curve.curve, reference.curve, max_load)),
     )
 
 
-def judged(difference: float, uncertainty: float | None, tolerance: float | None) -> Judgement:
+def judged(difference: float, uncertainty: float | None, tolerance: float | None, missing: str = "") -> Judgement:
     """Judge a difference known to +-``uncertainty`` against a tolerance, all relative [-].
 
     Passed if the whole interval lies within the tolerance, failed if all of it lies beyond, else undecided. An
-    uncertainty that nobody stated counts as zero.
+    uncertainty that nobody stated counts as zero. ``missing`` says what of the range was not compared, where that is
+    too much for a verdict: it is undecided then.
     """
     width = uncertainty or 0.0
     known = "no uncertainty stated" if uncertainty is None else f"known to ±{100.0 * width:.3g} %"
     outcome: Outcome
     if tolerance is None:
-        outcome, why = "not judged", f"{known}; no tolerance given"
+        outcome, why = "not judged", f"{known}; no tolerance given{missing and f'; {missing}'}"
+    elif missing:
+        outcome, why = "undecided", f"of the common range alone: {missing}"
     elif difference + width <= tolerance:
         outcome, why = "passed", f"{known}; within {100.0 * tolerance:.3g} % whatever it is"
     elif difference - width > tolerance:
@@ -154,7 +164,31 @@ def judged(difference: float, uncertainty: float | None, tolerance: float | None
         outcome, why = "undecided", f"{known}, which is more than the tolerance of {100.0 * tolerance:.3g} %"
     else:
         outcome, why = "undecided", f"{known}, which reaches across the tolerance of {100.0 * tolerance:.3g} %"
-    return Judgement(difference=difference, uncertainty=uncertainty, tolerance=tolerance, outcome=outcome, why=why)
+    return Judgement(
+        difference=difference, uncertainty=uncertainty, tolerance=tolerance, outcome=outcome, why=why, missing=missing
+    )
+
+
+def _missing(curve: StiffnessCurve, reference: StiffnessCurve, max_load: float | None) -> str:
+    """Why what was compared is too little of the range for a verdict; empty if it is enough.
+
+    A range that was asked for by ``max_load`` [N] must be reached by both; its share of the curves does not matter.
+    """
+    first, last = (pick(curve.deflection[at], reference.deflection[at]) for pick, at in ((min, 0), (max, -1)))
+    if max_load is not None:
+        if reference.load.max() < max_load:
+            return f"{reference.model} ends at {reference.load.max():.4g} N, before the {max_load:.4g} N asked for"
+        last = reference.deflection_at(max_load)
+    start = max(curve.deflection[0], reference.deflection[0])
+    end = min(curve.deflection[-1], reference.deflection[-1], last)
+    if max_load is not None and end < last - _ROUND_OFF * (last - first):
+        there = f"where {reference.model} carries the {max_load:.4g} N asked for"
+        return f"{curve.model} ends at {1e3 * end:.4g} mm, before {1e3 * last:.4g} mm, {there}"
+    if end - start < (_LEAST_COMMON - _ROUND_OFF) * (last - first):
+        common = f"{1e3 * start:.4g} to {1e3 * end:.4g} mm of {1e3 * first:.4g} to {1e3 * last:.4g} mm"
+        least = f"less than {100.0 * _LEAST_COMMON:g} %"
+        return f"both curves hold only {common}, {least}; give --max-load to judge the range up to a load alone"
+    return ""
 
 
 def _samples(curve: MeasuredCurve, reference: MeasuredCurve, metrics: CurveMetrics) -> Samples:

@@ -35,6 +35,8 @@ _WHAT = "curve file"
 _HEADER = re.compile(r"(.*?)[\s_]*(?:\[([^][]*)\]|\(([^()]*)\)|(?<=[\s_])([^\W\d_]+|%))")
 """A name and its unit: ``deflection_mm``, ``deflection [mm]``, ``Load (kN)``."""
 _LONGEST_HEADER = 200
+_SAID_ONCE = ("deformation", "unloaded_radius", "unloaded_diameter", "uncertainty", "partial")
+"""Comments that change numbers or a verdict."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,7 +75,8 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
     ------
     InputError
         If the file cannot be read, has no column of deformation or load, or one without a unit, names a deformation
-        that is not known, lacks the unloaded size that it needs, or holds numbers that no wheel has.
+        that is not known, lacks the unloaded size that it needs, says a thing twice and differently, or holds numbers
+        that no wheel has.
     """
     names, remarks = _head(path)
     own = names[:2] == _OWN or not names
@@ -168,7 +171,11 @@ def _head(path: Path) -> tuple[tuple[str, ...], dict[str, str]]:
     for line in lines:
         word, colon, rest = line.removeprefix("#").partition(":")
         if line.startswith("#") and colon:
-            remarks.setdefault(word.strip().lower().replace(" ", "_"), rest.strip())
+            key, said = word.strip().lower().replace(" ", "_"), " ".join(rest.split())
+            if key in _SAID_ONCE and remarks.get(key, said).lower() != said.lower():
+                rule = f"says {key} twice, {one_line(remarks[key])} and {one_line(said)}"
+                raise InputError(_WHAT, path, rule, "leave out the line that is wrong")
+            remarks.setdefault(key, said)
     header = next((line for line in lines if line.strip() and not line.startswith("#")), "")
     try:
         return tuple(name.strip() for cells in csv.reader([header]) for name in cells), remarks

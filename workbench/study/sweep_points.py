@@ -26,7 +26,7 @@ from workbench.study.reading import study_of
 from workbench.study.sweep import SweepRange, SweepSection, Value
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["Point", "design_points", "probes", "sweep_points"]
+__all__ = ["Point", "beyond_reach", "design_points", "end_points", "probes", "sweep_points"]
 
 NAMED = {"strip_thickness": "wheel.tire.thickness", "plates": "ancf.circumferential_plates"}
 """Names of parameters that are more than one key -> the key that says what kind of value they take."""
@@ -104,6 +104,53 @@ def sweep_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
     for number, values in enumerate(design_points(study.sweep), start=1):
         points.append(_point(path, base, number, values))
     return points
+
+
+def end_points(path: Path, table: Mapping[str, Any], most: int = 40) -> list[Point]:
+    """Points of [sweep] that hold the first and the last value of every parameter, checked as `sweep_points` does.
+
+    All points if they are no more than ``most``; else for each parameter the first point with its smallest or first
+    value and the first with its largest or last one, of at most ``most`` points. Each is a point that is run, so that
+    one which cannot be used is a study that cannot be swept. Empty without a [sweep].
+    """
+    study = study_of(path, table)
+    if study.sweep is None:
+        return []
+    base = {key: value for key, value in table.items() if key != "sweep"}
+    every = design_points(study.sweep)
+    places = range(len(every)) if len(every) <= most else _ends(study.sweep, every)[:most]
+    return [_point(path, base, place + 1, every[place]) for place in places]
+
+
+def _ends(section: SweepSection, every: Sequence[Mapping[str, Value]]) -> list[int]:
+    """Places of the first points with an end of a parameter, without repeats."""
+    places: dict[int, None] = {}
+    for key, values in section.parameters.items():
+        held = [point[key] for point in every]
+        if isinstance(values, SweepRange):
+            numbers = [(number_and_unit(value) or (0.0, ""))[0] for value in held]
+            places |= dict.fromkeys(numbers.index(end(numbers)) for end in (min, max))
+        else:
+            places |= dict.fromkeys(held.index(value) for value in (values[0], values[-1]) if value in held)
+    return list(places)
+
+
+def beyond_reach(study: Study, points: Sequence[Point]) -> list[str]:
+    """Deflections of [sweep] that the file names and no curve of its models reaches, a line each."""
+    if study.sweep is None or "brush" in study.sweep.models or "deflections" not in study.sweep.model_fields_set:
+        return []
+    studies = [study, *(point.study for point in points)]
+    reach = max(
+        one.ancf.max_deflection if model == "ancf" else one.fe.max_deflection
+        for one in studies
+        for model in study.sweep.models
+    )
+    return [
+        f"sweep.deflections[{i}] = {1e3 * deflection:g} mm lies beyond the largest max_deflection, {1e3 * reach:g} mm; "
+        "no load is found there"
+        for i, deflection in enumerate(study.sweep.deflections)
+        if deflection > reach * (1.0 + 1e-9)
+    ]
 
 
 def probes(path: Path, table: Mapping[str, Any], key: str, values: Sequence[Value]) -> list[Point]:
