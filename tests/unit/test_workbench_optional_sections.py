@@ -21,6 +21,7 @@ from workbench.report.contents import section_titles
 from workbench.study.full import full_study
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, study_of
+from workbench.study.sweep_points import sweep_points
 from workbench.topics.registry import topics_of
 
 ENOUGH = {"name", "title", "wheel", "materials", "mesh", "fe"}
@@ -149,3 +150,17 @@ def test_a_rover_without_tires_of_the_study_s_own_has_the_thesis() -> None:
     rover = [name for name in without if name.startswith("rover_")]
     assert len(rover) > 20
     assert {name: own[name] for name in rover} == {name: without[name] for name in rover}
+
+
+@pytest.mark.parametrize(
+    ("sweep", "key"),
+    [
+        ({"strip_thickness": ["0.5 mm"], "models": ["ancf"]}, "sweep.models, ancf"),
+        ({"strip_thickness": ["0.5 mm"], "models": ["brush"]}, "sweep.models, brush"),
+        ({"plates": [4, 8]}, "sweep.plates"),
+    ],
+)
+def test_a_sweep_of_what_the_study_does_not_have_is_refused(sweep: dict[str, Any], key: str) -> None:
+    table = {name: value for name, value in _table().items() if name in ENOUGH} | {"sweep": sweep}
+    with pytest.raises(StudyError, match=f"{key}.* needs"):
+        sweep_points(built_in_study(), table)

@@ -43,6 +43,7 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
     yield from _of_the_curves(study)
     tire, ancf = study.wheel.tire, study.ancf
     yield from _lonely(study)
+    yield from _of_the_sweep(study)
     yield from _room(
         "fe", study.fe.max_deflection, tire.outer_radius - tire.thickness - study.wheel.outer_hub.outer_radius
     )
@@ -50,6 +51,19 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
         yield from _room("ancf", ancf.max_deflection, (ancf.datum_radius or ancf.outer_radius) - ancf.hub_radius)
     yield from _environment(study)
     yield from _of_the_fit(study)
+
+
+def _of_the_sweep(study: Study) -> Iterator[BrokenRule]:
+    """Models and parameters of [sweep] that the study has no section for."""
+    if study.sweep is None:
+        return
+    asked = {model: f"sweep.models, {model}" for model in study.sweep.models}
+    if "plates" in study.sweep.parameters:
+        asked["ancf"] = "sweep.plates"
+    for name, section in (("ancf", study.ancf), ("brush", study.brush)):
+        if name in asked and section is None:
+            hint = f"add [{name}], or remove it from the sweep"
+            yield BrokenRule(key=asked[name], value="", rule=f"needs [{name}]", hint=hint)
 
 
 @cache

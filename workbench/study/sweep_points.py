@@ -141,7 +141,7 @@ def beyond_reach(study: Study, points: Sequence[Point]) -> list[str]:
         return []
     studies = [study, *(point.study for point in points)]
     reach = max(
-        one.ancf.max_deflection if model == "ancf" else one.fe.max_deflection
+        one.ancf.max_deflection if model == "ancf" and one.ancf is not None else one.fe.max_deflection
         for one in studies
         for model in study.sweep.models
     )
