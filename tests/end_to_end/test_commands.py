@@ -113,3 +113,18 @@ def test_stiffness_refuses_bad_options(workspace: Path, tmp_path: Path, argument
     assert text in ended.stderr
     assert "Traceback" not in ended.stderr
     assert not (tmp_path / "o").exists()
+
+
+@pytest.mark.parametrize(("arguments", "name"), [(("report",), "series"), (("mesh",), "wheel.step")])
+def test_what_stands_in_the_way_is_told_before_anything_is_computed(
+    arguments: tuple[str, ...], name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A file where a folder belongs, a folder where a file belongs."""
+    monkeypatch.setattr(f"workbench.commands.{arguments[0]}.computed", None)
+    if name == "series":
+        (tmp_path / name).write_text("mine", encoding="utf-8")
+    else:
+        (tmp_path / name).mkdir()
+    ended = said(*arguments, "studies/first.toml", "--out", tmp_path, "--store", tmp_path / "store")
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1)
+    assert f"{tmp_path / name}: is " in ended.stderr

@@ -166,3 +166,14 @@ def test_a_full_standard_output_is_named(unbuffered: str) -> None:
         )  # fmt: skip
     expected = "workbench: error: standard output: No space left on device; check path and space\n"
     assert (ended.returncode, ended.stderr) == (2, expected)
+
+
+@pytest.mark.parametrize("arguments", [("new", "s.toml"), ("results",), ("rover", "static")])
+def test_a_working_folder_that_was_removed(arguments: tuple[str, ...], tmp_path: Path) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    line = f"rmdir {shlex.quote(str(gone))}; exec {shlex.join(command(*arguments))}"
+    ended = subprocess.run(
+        ["bash", "-c", line], cwd=gone, env=environment(), capture_output=True, text=True, check=False, timeout=900
+    )
+    _refused(ended, "the working folder is gone")

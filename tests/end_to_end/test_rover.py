@@ -139,3 +139,17 @@ def test_a_bad_number_in_the_rover_file_is_named(tmp_path: Path) -> None:
     assert ended.returncode == 2
     assert "mass" in ended.stderr
     assert "Traceback" not in ended.stderr
+
+
+def test_what_stands_in_the_way_is_told_before_anything_is_computed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from workbench.commands import rover
+
+    monkeypatch.setattr(rover, "run_scenario", None)
+    (tmp_path / "series").write_text("mine", encoding="utf-8")
+    ended = said("rover", "static", "--out", tmp_path)
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1)
+    assert f"{tmp_path / 'series'}: is not a folder" in ended.stderr
+    (tmp_path / "series").rename(tmp_path / "motions")
+    assert f"{tmp_path / 'motions'}: is not a folder" in said("rover", "static", "--out", tmp_path).stderr

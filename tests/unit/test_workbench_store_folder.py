@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+import shutil
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -11,6 +14,7 @@ import pytest
 from contracts.errors import InputError
 from contracts.machine import machine
 from workbench.execution.fingerprint import text_sha256
+from workbench.execution.integrity import MANIFEST
 from workbench.execution.inventory import leftovers, results
 from workbench.execution.live_runs import announce
 from workbench.execution.pruning import Rule, prune
@@ -203,3 +207,46 @@ def test_without_a_manifest_to_trust_what_may_be_another_s_is_kept(tmp_path: Pat
         manifest.unlink()
     discard(store.root, entry.path)
     assert [path.read_text(encoding="utf-8") for path in (tmp_path / "store" / "kept").rglob("notes.txt")] == ["mine"]
+
+
+@pytest.mark.parametrize("kind", ["file", "link to nothing", "link to a folder"])
+def test_what_stands_in_the_place_of_a_result_is_told_of_and_kept(tmp_path: Path, kind: str) -> None:
+    store = _filled(tmp_path / "store")
+    place = store.folder(KEY)
+    shutil.rmtree(place)
+    (tmp_path / "theirs").mkdir()
+    (tmp_path / "theirs" / "notes.txt").write_text("mine", encoding="utf-8")
+    if kind == "file":
+        place.write_text("mine", encoding="utf-8")
+    else:
+        place.symlink_to(tmp_path / ("theirs" if kind == "link to a folder" else "nowhere"))
+    fault = store.fault(KEY)
+    assert fault == f"in the place of its folder lies something else, which moves to {store.root / 'kept'}"
+    _filled(store.root)
+    assert store.fault(KEY) == ""
+    assert store.get(KEY) is not None
+    (kept,) = (store.root / "kept").iterdir()
+    assert kept.is_symlink() or kept.read_text(encoding="utf-8") == "mine"
+    assert list((store.root / "tmp").iterdir()) == []
+    assert (tmp_path / "theirs" / "notes.txt").read_text(encoding="utf-8") == "mine"
+
+
+def test_an_entry_without_rights_is_a_fault_and_is_replaced(tmp_path: Path) -> None:
+    """For a user without override rights; root's are taken off by a process of its own."""
+    drop = ["setpriv", "--bounding-set", "-dac_override,-dac_read_search"] if os.geteuid() == 0 else []
+    if drop and subprocess.run([*drop, "true"], check=False, capture_output=True).returncode:
+        pytest.skip("root's rights cannot be taken off here")
+    store = _filled(tmp_path)
+    (store.folder(KEY) / "notes.txt").write_text("mine", encoding="utf-8")
+    store.folder(KEY).chmod(0)
+    code = (
+        "import sys; from pathlib import Path; from tests.unit.test_workbench_store_folder import KEY, Store, _filled;"
+        "store = Store(Path(sys.argv[1])); print(store.get(KEY), store.fault(KEY), sep='; ');"
+        "_filled(store.root); print(store.fault(KEY))"
+    )
+    ended = subprocess.run([*drop, sys.executable, "-c", code, tmp_path], capture_output=True, text=True, check=False)
+    assert ended.stderr == ""
+    assert ended.stdout == f"None; {MANIFEST} cannot be read (Permission denied)\n\n"
+    assert store.get(KEY) is not None
+    (kept,) = (tmp_path / "kept").rglob("notes.txt")
+    assert kept.read_text(encoding="utf-8") == "mine"

@@ -52,6 +52,10 @@ def full_disk(error: OSError, arguments: list[str]) -> str:
 
 def complain(message: str) -> int:
     """Say it in one line, whatever a file made a message hold; the middle of a very long one is left out."""
+    try:
+        Path.cwd()
+    except OSError:  # the cause of much else
+        message = f"the working folder is gone, change into one that exists: {message}"
     line = for_terminal(" ".join(message.split()))
     if len(line) > _LONGEST_MESSAGE:
         line = f"{line[: _LONGEST_MESSAGE // 2]} [...] {line[-_LONGEST_MESSAGE // 2 :]}"

@@ -19,12 +19,14 @@ from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.graph.study_graph import mesh_tasks
 from workbench.graph.surfaces import surfaces_task
-from workbench.report.folders import check_folder
+from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import copy_files
 from workbench.study.magnitudes import require_possible
 from workbench.study.quantities import to_si
 
 __all__ = ["deflections_si", "run_mesh_of"]
+
+_FILES = ("wheel.msh", "wheel.vtu", "wheel.step", "wheel.png", "solved.msh", "solved.vtu", "summary.json")
 
 
 def run_mesh_of(
@@ -45,6 +47,7 @@ def _run_mesh(study_path: Path, out: Path, store: Path) -> int:
     """Mesh files, summary and picture of a study's wheel."""
     study = read_and_warn(study_path)
     check_folder(out)
+    check_targets(out, _FILES)
     entries = computed(study_path, mesh_tasks(study, with_files=True), store, Computing(workers=1))
     files = entries["mesh_files"]
     names = sorted(files.manifest["files"])
@@ -59,6 +62,7 @@ def _run_surfaces(study_path: Path, orientation_deg: float, deflections: Sequenc
     study = read_and_warn(study_path)
     task = surfaces_task(study, orientation_deg, deflections_si(deflections))
     check_folder(out)
+    check_targets(out, ("ancf.step",))
     with naming(study_path), RunDisplay(console, [task]) as display:
         entry = run_tasks([task], Store(store, study=study_path.stem), display, Computing(workers=1))[task.name]
     for name, deviation in read_result(entry.path)["read_back_m"].items():

@@ -21,16 +21,18 @@ from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.execution.task import Task, task_keys
 from workbench.graph.study_graph import report_tasks
-from workbench.report.folders import check_folder
+from workbench.report.folders import check_folder, check_targets
 from workbench.report.gate_summary import gate_markdown, gate_rows
 from workbench.report.outputs import curve_file, field_files, junit, publish, summary, to_json
-from workbench.report.series import MOTIONS_FOLDER
+from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER
 from workbench.study.full import full_study
 from workbench.study.loosened import loosened
 from workbench.study.magnitudes import warnings_of
 from workbench.study.reading import built_in_study
 
 __all__ = ["ReportChoices", "run_report"]
+
+_TEXTS = ("report.pdf", "report.html", "junit.xml", "summary.md", "summary.json")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,6 +56,7 @@ def run_report(
     if choices.dry_run:
         return _list_tasks(report_tasks(study, path.parent), store)
     check_folder(out)
+    check_targets(out, (*_TEXTS, *(f"{folder}/any" for folder in ("curves", "fields", MOTIONS_FOLDER, SERIES_FOLDER))))
     accepted = None if choices.gate.baseline is None else read_baseline(choices.gate.baseline, study.name)
     shown_on = plain_console() if choices.gate.ci else console
     entries = computed(path, report_tasks(study, path.parent), store, computing, shown_on)

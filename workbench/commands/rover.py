@@ -24,7 +24,7 @@ from workbench.commands.computing import read_and_warn, warn
 from workbench.commands.rover_tires import check_tire, on_tires
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console
-from workbench.report.folders import check_folder
+from workbench.report.folders import check_folder, check_targets
 from workbench.report.number_format import displayed
 from workbench.report.placing import new_files
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, series_file
@@ -82,6 +82,9 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
     """
     scenario, design = _chosen(name, choices)
     check_folder(out)
+    stem = f"{scenario.name}_{choices.tire}"
+    targets = (f"{SERIES_FOLDER}/{stem}.csv", f"{MOTIONS_FOLDER}/{stem}.npz", f"{scenario.name}.html")
+    check_targets(out, targets if choices.animate else targets[:2])
     if choices.tire == "ancf":
         scenario = _resumed(scenario, design, store)
     with console.status(f"{scenario.name}: {scenario.title}"):

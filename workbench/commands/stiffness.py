@@ -19,7 +19,7 @@ from workbench.comparison.yielding import PeakStress, peak_stresses
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
 from workbench.graph.study_graph import MODELS, stiffness_tasks
-from workbench.report.folders import check_folder
+from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import field_files, publish
 from workbench.study.model import Study
 
@@ -39,6 +39,7 @@ def run_stiffness(
         check_orientation(orientation)
     study = read_and_warn(study_path)
     check_folder(out)
+    check_targets(out, ("curves/any", "fields/any", f"{model}_peak_stress.csv"))
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
     entries = computed(study_path, tasks, store, computing)
     folders = {name: entry.path for name, entry in entries.items()}

@@ -64,10 +64,12 @@ def examined(path: Path, key: str) -> tuple[dict[str, Any], str]:
 
 def stated(path: Path, key: str) -> tuple[dict[str, Any], str]:
     """As `examined`, but the manifest alone is looked at, not the files."""
-    if not (path / MANIFEST).is_file():
-        return {}, f"{MANIFEST} is missing"
     try:
+        if not (path / MANIFEST).is_file():
+            return {}, f"{MANIFEST} is missing"
         text = input_bytes(path / MANIFEST, MANIFEST, _LARGEST).decode("utf-8")
+    except OSError as error:
+        return {}, f"{MANIFEST} cannot be read ({error.strerror})"
     except (InputError, ValueError):
         return {}, f"{MANIFEST} cannot be read"
     found = _parsed(text)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import stat
 import time
 import uuid
 from collections.abc import Mapping
@@ -86,8 +87,12 @@ class Store:
 
         Of an absent one, what is wrong with its checkpoint.
         """
-        if self.folder(key).exists():
-            return examined(self.folder(key), key)[1]
+        place = self.folder(key)
+        if os.path.lexists(place):
+            fault = examined(place, key)[1]
+            if fault and (place.is_symlink() or not place.is_dir()):
+                return f"in the place of its folder lies something else, which moves to {self.root / KEPT}"
+            return fault
         fault = kept_fault(self.checkpoint(key))
         return f"the checkpoint {fault}" if fault else ""
 
@@ -151,8 +156,15 @@ class Store:
 def discard(root: Path, path: Path) -> None:
     """Remove an entry or a scratch folder by one rename; what others had put into an entry moves to ``STORE/kept``.
 
-    Where the entry's manifest cannot be trusted, nothing but the manifest is known to be ours.
+    Where the entry's manifest cannot be trusted, nothing but the manifest is known to be ours; what lies in an entry's
+    place and is no folder is not.
     """
+    if KEY.fullmatch(path.name) and not stat.S_ISDIR(path.lstat().st_mode):
+        (root / KEPT).mkdir(exist_ok=True)
+        path.replace(root / KEPT / f"{path.name}-{uuid.uuid4().hex[:8]}")
+        return
+    if not os.access(path, os.R_OK | os.W_OK | os.X_OK):
+        path.chmod(0o700)  # without these it can neither be read nor moved
     trash = root / "tmp" / f"{machine()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"
     manifest, _ = stated(path, path.name)
     path.replace(trash)
