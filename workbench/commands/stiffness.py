@@ -34,6 +34,9 @@ def run_stiffness(
         raise InputError("model", model, "is not known", f"give one of {', '.join(_MODELS)}")
     for orientation in orientations:
         check_orientation(orientation)
+    if model == "brush" and orientations:
+        rule = "means nothing to the brush model, which is alike all around"
+        raise InputError("orientation", f"{orientations[0]:g} deg", rule, "leave --orientation out, or choose fe")
     study = read_and_warn(study_path)
     check_folder(out)
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
