@@ -106,8 +106,15 @@ def _numbers(
             hint = "give every column a header and every row all columns; decimals have a point, no comma"
             raise InputError(rule.what, path, wrong, hint)
         try:
-            values.append([float(cell) for cell in cells])
+            values.append([_number(cell) for cell in cells])
         except ValueError as error:
             wrong = f"has a bad row, line {place} ({error})"
             raise InputError(rule.what, path, wrong, "every cell must be a number, with a decimal point") from error
     return names, np.array(values, dtype=np.float64)
+
+
+def _number(cell: str) -> float:
+    """A cell's number in ASCII, as every program writes it: Python's own ``3_0`` and other scripts' digits are none."""
+    if "_" in cell or not cell.strip().isascii():
+        raise ValueError(f"could not convert string to float: {one_line(cell)!r}")
+    return float(cell)

@@ -27,6 +27,7 @@ from workbench.commands.options import (
     StudyOrBuiltIn,
     Workers,
     computing,
+    require_folders,
 )
 from workbench.commands.results_app import results_app
 from workbench.execution.interrupts import came, hear_no_more, interrupt_safely
@@ -308,6 +309,7 @@ def _run(arguments: list[str]) -> int:
 def _ended(arguments: list[str]) -> tuple[int, str]:
     """Exit status of one command, and what is to be said of it."""
     try:
+        require_folders(arguments)
         return int(app(arguments, standalone_mode=False) or 0), ""
     except TyperException as error:  # wrong usage of the command line
         show = getattr(error, "show", None)

@@ -11,6 +11,7 @@ import pytest
 
 from contracts.curves import read_curve
 from tests.end_to_end.small_study import run, said
+from workbench.cli import _run
 from workbench.execution.load_checks import CHECKS
 
 
@@ -98,6 +99,20 @@ def test_stiffness_of_fe_reuses_the_report(
     assert {p.name for p in (tmp_path / "curves").iterdir()} == {"fe_phi000.csv", "fe_average.csv"}
 
 
+@pytest.mark.parametrize("options", [("--out", ""), ("--out="), ("--store", " ")], ids=repr)
+def test_an_empty_folder_is_not_the_current_one(
+    options: tuple[str, ...] | str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    given = [options] if isinstance(options, str) else list(options)
+    assert _run(["rover", "static", "--tire", "rigid", *given]) == 2
+    assert f"{given[0].rstrip('=')} = '': is empty; name a folder" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
@@ -105,6 +120,7 @@ def test_stiffness_of_fe_reuses_the_report(
         (["--orientation", "nan"], "must be finite"),
         (["--orientation", "400"], "less than 360"),
         (["--orientation", "left"], "--orientation"),
+        (["--model", "brush", "--orientation", "33"], "orientation = 33 deg: means nothing to the brush model"),
     ],
 )
 def test_stiffness_refuses_bad_options(workspace: Path, tmp_path: Path, arguments: list[str], text: str) -> None:

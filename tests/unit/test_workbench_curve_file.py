@@ -18,6 +18,7 @@ def _read(folder: Path, text: str) -> MeasuredCurve:
     return read_measured_curve(path)
 
 
+RADIUS = "# unloaded_radius: 142.5 mm\nloaded_radius_mm,load_N\n"
 SAME = {
     "own format": "deflection_m,load_N\n0,0\n0.01,80\n0.02,165\n",
     "mm and kN": "deflection_mm,load_kN\n0,0\n10,0.08\n20,0.165\n",
@@ -105,12 +106,30 @@ def test_stated_uncertainty(tmp_path: Path, text: str, wanted: list[float]) -> N
         ("deflection_mm,load_kN\n0,0\n10,1e308\n", r"not finite \(line 3\)"),
         ("deflection_mm,load_N\n0,0\n10\n", "1 value in line 3"),
         ("deflection_mm,load_N\n", "two or more rows"),
+        ("deflection_mm,load_N\n0,0\n3_0,24_7.5\n", r"bad row, line 3 \(.*'3_0'"),
+        ("deflection_mm,load_N\n0,0\n٣٠,247\n", r"bad row, line 3"),
+        (f"{RADIUS}142.5,0\n100,100\n-50,247\n", r"leaves -50 mm of 142.5 mm: the wheel would be gone.*\(line 5\)"),
+        (f"{RADIUS}142.5,0\n0,100\n", "leaves 0 mm of 142.5 mm"),
+        (f"{RADIUS}152.5,0\n100,100\n", r"has 152.5 mm under load, more than the unloaded 142.5 mm \(line 3\)"),
+        ("# unloaded_radius: 142.5 mm\ndeflection_mm,load_N\n0,0\n142.5,80\n", "leaves 0 mm of 142.5 mm"),
+        ("# unloaded_diameter: 285 mm\nloaded_diameter_mm,load_N\n285,0\n-1,80\n", "leaves -1 mm of 285 mm"),
+        ("# unloaded_diameter: 285 mm\ndiameter_change_mm,load_N\n0,0\n290,80\n", "leaves -5 mm of 285 mm"),
+        (
+            "# unloaded_radius: 1e300 mm\ndeflection_mm,load_N\n0,0\n30,80\n",
+            "unloaded_radius = 1e300 mm: must lie between 5 mm",
+        ),
+        ("# unloaded_radius: -142.5 mm\ndeflection_mm,load_N\n0,0\n30,80\n", "must be greater than zero"),
+        ("# unloaded_radius: 0 mm\ndeflection_mm,load_N\n0,0\n30,80\n", "must lie between 5 mm"),
     ],
 )
 def test_files_that_cannot_be_used(tmp_path: Path, text: str, rule: str) -> None:
     with pytest.raises(InputError, match=rule) as caught:
         _read(tmp_path, text)
     assert "mine.csv" in str(caught.value)
+
+
+def test_a_first_point_may_lie_above_the_unloaded_radius_by_noise(tmp_path: Path) -> None:
+    assert _read(tmp_path, f"{RADIUS}142.6,0\n132.5,80\n").curve.deflection[0] == pytest.approx(-1e-4)
 
 
 @pytest.mark.parametrize(

@@ -307,3 +307,19 @@ def test_names_that_differ_in_what_is_not_shown_are_refused(tmp_path: Path) -> N
     own = "".join(f'[materials."steel{mark}1"]\nsource = "s"\n' for mark in ("\\t", " "))
     with pytest.raises(StudyError, match=r"name = 'steel 1': stands for two names"):
         read_study(_write(tmp_path, r"\[mesh\]\n", f"{own}[mesh]\n"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "rule"),
+    [
+        ('max_load = "150 N"', 'max_load = "150 N"\nsnapshot_loads = ["-200 N"]', "must be greater than 0 in SI units"),
+        ('outer_radius = "142.5 mm"', 'outer_radius = "-142.5 mm"', "must be greater than 0 in SI units"),
+    ],
+)
+def test_a_limit_of_zero_is_shown_once(tmp_path: Path, old: str, new: str, rule: str) -> None:
+    text = (built_in_study().parent / "strip_sweep.toml").read_text(encoding="utf-8")
+    assert old in text
+    (tmp_path / "a.toml").write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(StudyError) as caught:
+        read_study(tmp_path / "a.toml")
+    assert caught.value.rule == rule

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from typer.core import TyperGroup
+
+from contracts.errors import InputError
 
 if TYPE_CHECKING:
     from workbench.execution.runner import Computing
@@ -22,6 +26,7 @@ __all__ = [
     "StudyOrBuiltIn",
     "Workers",
     "computing",
+    "require_folders",
 ]
 
 StudyArgument = Annotated[Path, typer.Argument(help="Study file (TOML).", show_default=False)]
@@ -43,6 +48,15 @@ Scheduler = Annotated[
     typer.Option(help="Address of a Dask scheduler, tcp://host:port; its workers compute.", show_default=False),
 ]
 DEFAULT_STORE = Path("build/store")
+_FOLDERS = ("--out", "--store")
+
+
+def require_folders(arguments: Sequence[str]) -> None:
+    """Raise InputError for an option that names a folder and is given none: a path of no characters is the current
+    folder to Python, which nobody asked for by ``--out "$UNSET"``."""
+    for option in _FOLDERS:
+        if f"{option}=" in arguments or any(a == option and not b.strip() for a, b in pairwise(arguments)):
+            raise InputError(option, "''", "is empty", "name a folder; '.' is the current one")
 
 
 class DefaultCommand(TyperGroup):

@@ -37,6 +37,9 @@ def run_stiffness(
         raise InputError("model", model, "is not known", f"give one of {', '.join(MODELS)}")
     for orientation in orientations:
         check_orientation(orientation)
+    if model == "brush" and orientations:
+        rule = "means nothing to the brush model, which is alike all around"
+        raise InputError("orientation", f"{orientations[0]:g} deg", rule, "leave --orientation out, or choose fe")
     study = read_and_warn(study_path)
     check_folder(out)
     check_targets(out, ("curves/any", "fields/any", f"{model}_peak_stress.csv"))

@@ -21,7 +21,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.input_file import input_text
 from contracts.text import one_line
-from workbench.study.deformation import DEFORMATIONS, Deformation, Kind, deformation_named
+from workbench.study.deformation import DEFORMATIONS, UNLOADED, Deformation, Kind, beyond_size, deformation_named
 from workbench.study.magnitudes import require_possible
 from workbench.study.quantities import to_si
 
@@ -35,8 +35,7 @@ _WHAT = "curve file"
 _HEADER = re.compile(r"(.*?)[\s_]*(?:\[([^][]*)\]|\(([^()]*)\)|(?<=[\s_])([^\W\d_]+|%))")
 """A name and its unit: ``deflection_mm``, ``deflection [mm]``, ``Load (kN)``."""
 _LONGEST_HEADER = 200
-_SAID_ONCE = ("deformation", "unloaded_radius", "unloaded_diameter", "uncertainty", "partial")
-"""Comments that change numbers or a verdict."""
+_SAID_ONCE = ("deformation", *UNLOADED.values(), "uncertainty", "partial")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,9 +73,8 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
     Raises
     ------
     InputError
-        If the file cannot be read, has no column of deformation or load, or one without a unit, names a deformation
-        that is not known, lacks the unloaded size that it needs, says a thing twice and differently, or holds numbers
-        that no wheel has.
+        If the file cannot be read, lacks a column, a unit or the unloaded size that it needs, names a deformation that
+        is not known, says a thing twice and differently, or holds numbers that no wheel has.
     """
     names, remarks = _head(path)
     own = names[:2] == _OWN or not names
@@ -84,13 +82,14 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
     units = "give deflection in metres and load in newtons, or units in the header (docs/curves.md)"
     table = read_table(path, TableRule(what=_WHAT, first=_OWN if own else names, units=units))
     deformation = _deformation(path, columns["deformation"].quantity, remarks)
+    deflection = _si_deformation(path, deformation, columns["deformation"], table, remarks)
     with np.errstate(over="ignore"):  # the curve refuses what is infinite
         load = columns["load"].factor * table.values[:, columns["load"].place]
     try:
         curve = StiffnessCurve(
             model=one_line(path.stem),
             orientation_deg=None,
-            deflection=_si_deformation(path, deformation, columns["deformation"], table, remarks),
+            deflection=deflection,
             load=load,
             columns=_others(table, columns),
             source=table.source,
@@ -107,9 +106,7 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
 
 def _bad_line(table: CsvTable, place: int, load: NDArray[np.float64], *, falls: bool) -> str:
     """Where a curve first has a value that is not finite, or a deformation that does not grow; empty if nowhere.
-
-    falls : whether the column of deformation lists what is left, which falls as the wheel deforms
-    """
+    ``falls``: whether the column of deformation lists what is left, which falls as the wheel deforms."""
     values = table.values[:, place]
     finite = np.isfinite(values) & np.isfinite(load)
     grows = np.diff(-values if falls else values) > 0.0
@@ -184,10 +181,8 @@ def _head(path: Path) -> tuple[tuple[str, ...], dict[str, str]]:
 
 
 def _columns(path: Path, names: Sequence[str], *, own: bool) -> dict[str, _Column]:
-    """Column of each role: deformation, load, and uncertainty if there is one.
-
-    names : of the header; those behind deflection_m,load_N if the file is in our ``own`` format
-    """
+    """Column of each role: deformation, load, and uncertainty if there is one; ``names`` of the header, those behind
+    deflection_m,load_N if the file is in our ``own`` format."""
     found: dict[str, _Column] = {}
     if own:
         found["deformation"] = _Column(place=0, quantity="deflection", factor=1.0)
@@ -255,13 +250,18 @@ def _si_deformation(
 ) -> NDArray[np.float64]:
     """The deformation [m], growing with load."""
     values = np.asarray(column.factor * table.values[:, column.place])
-    if deformation.unloaded is None:
-        return values
-    if deformation.unloaded not in remarks:
+    named = UNLOADED[deformation.kind]
+    if named not in remarks:
+        if deformation.unloaded is None:
+            return values
         rule = f"lists a {deformation.words} and does not say the unloaded size"
         raise InputError(_WHAT, path, rule, f"add a line such as '# {deformation.unloaded}: 142.5 mm'")
-    size = _number(f"{path}: {deformation.unloaded}", remarks[deformation.unloaded], "m")
-    return np.asarray(size - values)
+    size = _number(f"{path}: {named}", remarks[named], "m")
+    require_possible(f"{path}: {named}", size if named == "unloaded_radius" else 0.5 * size, "wheel.tire.outer_radius")
+    found = values if deformation.unloaded is None else np.asarray(size - values)
+    if wrong := beyond_size(found, size, table.lines):
+        raise InputError(_WHAT, path, wrong, f"check {named} and the units in the header")
+    return found
 
 
 def _stated(

@@ -8,11 +8,14 @@ only compared each with its own kind. Verified by tests/unit/test_workbench_curv
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-__all__ = ["DEFORMATIONS", "Deformation", "Kind", "deformation_named"]
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["DEFORMATIONS", "UNLOADED", "Deformation", "Kind", "beyond_size", "deformation_named"]
 
 type Kind = Literal["radial deflection", "change of diameter"]
 
@@ -59,6 +62,31 @@ DEFORMATIONS: Mapping[str, Deformation] = {
     "loaded_diameter": _LEFT,
 }
 """Name of a column, or words of ``# deformation:`` with ``_`` for spaces -> what it means."""
+
+UNLOADED: Mapping[Kind, str] = {"radial deflection": "unloaded_radius", "change of diameter": "unloaded_diameter"}
+"""Name of the comment that gives the size a wheel loses."""
+_NOISE = 0.01
+"""Of the unloaded size: a first point may lie this far above it."""
+
+
+def beyond_size(deformation: NDArray[np.float64], size: float, lines: Sequence[int]) -> str:
+    """Where a wheel would have more than its unloaded size, or nothing left, in words; empty if nowhere.
+
+    deformation : (n,) float [m]
+    size : unloaded radius or diameter [m]
+    lines : (n,) of the points in their file
+    """
+    left = np.round(1e3 * (size - deformation), 9) + 0.0
+    gone, grown = np.flatnonzero(left <= 0.0), np.flatnonzero(deformation < -_NOISE * size)
+    if size <= 0.0:
+        return f"has an unloaded size of {1e3 * size:g} mm, which must be greater than zero"
+    if len(gone):
+        what = f"leaves {left[gone[0]]:.4g} mm of {1e3 * size:g} mm: the wheel would be gone"
+        return f"{what}, the hub in the ground (line {lines[gone[0]]})"
+    if len(grown):
+        what = f"has {left[grown[0]]:.4g} mm under load, more than the unloaded {1e3 * size:g} mm"
+        return f"{what} (line {lines[grown[0]]})"
+    return ""
 
 
 def deformation_named(words: str) -> Deformation | None:

@@ -133,7 +133,7 @@ def _study_error(path: Path, error: ValidationError) -> StudyError:
         if first["type"] in _LIMITS and isinstance(first["input"], str):
             limit = first["ctx"][_LIMITS[first["type"]]]
             shown = f"{math.degrees(limit):g} deg" if "deg" in first["input"] else f"{limit:g} in SI units"
-            rule = f"{rule.removesuffix(str(limit))}{shown}"
+            rule = re.sub(r"\S+$", lambda _: shown, rule)  # pydantic writes 0.0 as 0
         hint = "see studies/exomars.toml for an example"
     return StudyError(path, key, value, rule, hint)
 
