@@ -13,7 +13,15 @@ from rich.table import Table
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn, tell_kept
+from workbench.commands.computing import (
+    complain_of_early_ends,
+    computed,
+    console,
+    naming,
+    read_and_warn,
+    tell_kept,
+    warn,
+)
 from workbench.comparison.results import stiffness_curves, yield_strengths
 from workbench.comparison.yielding import PeakStress, peak_stresses
 from workbench.execution.result_files import early_ends
@@ -37,10 +45,9 @@ def run_stiffness(
         raise InputError("model", model, "is not known", f"give one of {', '.join(MODELS)}")
     for orientation in orientations:
         check_orientation(orientation)
-    if model == "brush" and orientations:
-        rule = "means nothing to the brush model, which is alike all around"
-        raise InputError("orientation", f"{orientations[0]:g} deg", rule, "leave --orientation out, or choose fe")
     study = read_and_warn(study_path)
+    if model == "brush" and orientations:
+        warn(study_path, ["the brush is the same at every orientation: --orientation changes nothing"])
     check_folder(out)
     check_targets(out, ("curves/any", "fields/any", f"{model}_peak_stress.csv"))
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
