@@ -26,8 +26,7 @@ _REACH = 0.1
 """Smallest reach of the tangents' regression over the range compared [-]."""
 _ROUND_OFF = 1e-9
 _LEAST_COMMON = 0.5
-"""Share of the whole range that has to be common before a verdict is given [-]: no verdict on a wheel's curve from a
-sliver of it, whichever of the two ends early."""
+"""Share of the reference's range that has to be common before a verdict is given [-]: none from a sliver of it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,8 +103,8 @@ def compared(
 
     Uncertainties of both loads are taken as independent: U = sqrt(U_curve^2 + U_reference^2) at each deflection (ASME
     V&V 20-2009, eq. 1-5-9). A difference that moves by U(d) everywhere moves its relative L2 norm by at most
-    norm(U) / norm(F_ref). Where less than half of the deflections from the first of either curve to the last of either
-    is common, or a curve ends before the load asked for, the verdict is undecided.
+    norm(U) / norm(F_ref). Where less than half of the reference's range, up to ``max_load``, is common, the verdict is
+    undecided.
 
     Parameters
     ----------
@@ -170,25 +169,16 @@ def judged(difference: float, uncertainty: float | None, tolerance: float | None
 
 
 def _missing(curve: StiffnessCurve, reference: StiffnessCurve, max_load: float | None) -> str:
-    """Why what was compared is too little of the range for a verdict; empty if it is enough.
-
-    A range that was asked for by ``max_load`` [N] must be reached by both; its share of the curves does not matter.
-    """
-    first, last = (pick(curve.deflection[at], reference.deflection[at]) for pick, at in ((min, 0), (max, -1)))
-    if max_load is not None:
-        if reference.load.max() < max_load:
-            return f"{reference.model} ends at {reference.load.max():.4g} N, before the {max_load:.4g} N asked for"
+    """Why what was compared is too little of the reference, up to ``max_load`` [N], for a verdict; empty if enough."""
+    first, last = reference.deflection[0], reference.deflection[-1]
+    if max_load is not None and max_load < reference.load.max():
         last = reference.deflection_at(max_load)
-    start = max(curve.deflection[0], reference.deflection[0])
-    end = min(curve.deflection[-1], reference.deflection[-1], last)
-    if max_load is not None and end < last - _ROUND_OFF * (last - first):
-        there = f"where {reference.model} carries the {max_load:.4g} N asked for"
-        return f"{curve.model} ends at {1e3 * end:.4g} mm, before {1e3 * last:.4g} mm, {there}"
-    if end - start < (_LEAST_COMMON - _ROUND_OFF) * (last - first):
-        common = f"{1e3 * start:.4g} to {1e3 * end:.4g} mm of {1e3 * first:.4g} to {1e3 * last:.4g} mm"
-        least = f"less than {100.0 * _LEAST_COMMON:g} %"
-        return f"both curves hold only {common}, {least}; give --max-load to judge the range up to a load alone"
-    return ""
+    start, end = max(curve.deflection[0], first), min(curve.deflection[-1], last)
+    if end - start >= (_LEAST_COMMON - _ROUND_OFF) * (last - first):
+        return ""
+    common = f"{1e3 * start:.4g} to {1e3 * end:.4g} mm of {1e3 * first:.4g} to {1e3 * last:.4g} mm"
+    least = f"less than {100.0 * _LEAST_COMMON:g} %"
+    return f"{curve.model} covers only {common} of {reference.model}, {least}; --max-load judges the range up to a load"
 
 
 def _samples(curve: MeasuredCurve, reference: MeasuredCurve, metrics: CurveMetrics) -> Samples:
