@@ -25,25 +25,35 @@ class PlaneSection(_Section):
     """Flat ground."""
 
     shape: Literal["plane"] = "plane"
+    """Flat ground."""
 
 
 class StepSection(_Section):
     """A block's edge before the wheel: height over the lower ground, edge radius, place ahead of the hub [m], yaw."""
 
     shape: Literal["step"]
+    """A block's edge."""
     height: Annotated[Length, _Positive]
+    """Over the lower ground [m]."""
     edge_radius: Annotated[Length, _Positive]
+    """Of the rounded edge [m]."""
     position: Length = 0.0
+    """Ahead of the hub [m]."""
     yaw: Angle = 0.0
+    """About the vertical [rad]."""
 
 
 class RockSection(_Section):
     """A half-round rock: radius, place of its axis ahead of the hub [m], yaw of the axis against the lateral [rad]."""
 
     shape: Literal["half_round_rock"]
+    """A half-round rock."""
     radius: Annotated[Length, _Positive]
+    """Of the rock [m]."""
     position: Length = 0.0
+    """Of its axis, ahead of the hub [m]."""
     yaw: Angle = 0.0
+    """Of its axis against the lateral [rad]."""
 
 
 ObstacleSection = Annotated[PlaneSection | StepSection | RockSection, Field(discriminator="shape")]
@@ -53,4 +63,6 @@ class PenaltyStudySection(_Section):
     """How far the load depends on the contact penalty, at one orientation [rad] and deflection [m]."""
 
     orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    """Any [rad]."""
     deflection: Annotated[Length, _Positive] = 0.010
+    """Where loads are compared [m]."""

@@ -35,7 +35,12 @@ class EnvironmentSection(Section):
     """
 
     temperatures: Annotated[tuple[Temperature, ...], Field(min_length=1), AfterValidator(_increasing)]
+    """Of the whole wheel [K]."""
     orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    """One of fe.orientations [rad]."""
     max_deflection: Drop | None = None
+    """Of these curves [m]; that of [fe] without it."""
     points: Annotated[StrictInt, Field(ge=2, le=500)] = 8
+    """Of these curves."""
     variants: tuple[Annotated[str, Field(min_length=1)], ...] = ()
+    """Names of materials that in turn replace that of every part."""

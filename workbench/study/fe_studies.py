@@ -36,8 +36,11 @@ class MeshStudySection(Section):
     """
 
     orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    """One of fe.orientations [rad]."""
     factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
+    """Three values of mesh.factor, among them that of the curves."""
     deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
+    """Where loads are compared [m]."""
 
     @model_validator(mode="after")
     def _increasing(self) -> MeshStudySection:
@@ -53,15 +56,20 @@ class HubStudySection(Section):
     """What elastic hubs, cone and impact springs add to the load, at one orientation and some deflections [m]."""
 
     orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
+    """Any [rad]."""
     deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020)
+    """Where loads are compared [m]."""
 
 
 class FullSection(Section):
     """What ``workbench report --full`` takes instead: step of orientations [rad], mesh, meshes of the mesh study."""
 
     orientation_step: Annotated[Angle, Positive] = math.radians(5.0)
+    """From 0 to the turn after which the wheel repeats itself [rad]."""
     factor: Factor = 1.5
+    """In place of mesh.factor [-]."""
     mesh_study_factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
+    """In place of mesh_study.factors."""
 
     @model_validator(mode="after")
     def _factors_hold_the_mesh(self) -> FullSection:

@@ -28,13 +28,21 @@ class FitBoundsSection(Section):
     """Lowest and highest value of each parameter that may be free."""
 
     young_modulus: tuple[Annotated[Pressure, Positive], Annotated[Pressure, Positive]] = (20e3, 50e6)
+    """Lowest, highest [Pa]."""
     thickness: _Lengths = (0.002, 0.040)
+    """Of rim and spokes together: lowest, highest [m]."""
     rim_thickness: _Lengths = (0.002, 0.040)
+    """Lowest, highest [m]."""
     spoke_thickness: _Lengths = (0.002, 0.040)
+    """Lowest, highest [m]."""
     hub_radius: _Lengths = (0.020, 0.090)
+    """Lowest, highest [m]."""
     outer_radius: _Lengths = (0.1425, 0.1455)
+    """Lowest, highest [m]."""
     contact_stiffness: tuple[Annotated[Stiffness, Positive], Annotated[Stiffness, Positive]] = (50.0, 100e3)
+    """Lowest, highest [N/m]."""
     phase: tuple[Angle, Angle] = (-1.0471975511965976, 1.0471975511965976)
+    """Lowest, highest [rad]."""
 
     @model_validator(mode="after")
     def _in_order(self) -> FitBoundsSection:
@@ -48,22 +56,34 @@ class FitStartSection(Section):
     """Where the search begins, for what differs from [ancf]."""
 
     young_modulus: Annotated[Pressure, Positive] | None = None
+    """[Pa]; that of [ancf] without it."""
     rim_thickness: Annotated[Length, Positive] | None = None
+    """[m]; that of [ancf] without it."""
     spoke_thickness: Annotated[Length, Positive] | None = None
+    """[m]; that of [ancf] without it."""
     hub_radius: Annotated[Length, Positive] | None = None
+    """[m]; that of [ancf] without it."""
     outer_radius: Annotated[Length, Positive] | None = None
+    """[m]; that of [ancf] without it."""
     contact_stiffness: Annotated[Stiffness, Positive] | None = None
+    """[N/m]; by default as stiff per area as that of [ancf]."""
     phase: Angle | None = None
+    """[rad]; that of [ancf] without it."""
 
 
 class FittedTireSection(Section):
     """One tire to be fitted: its mesh, its free parameters, where the search begins."""
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$")]
+    """Of the tire, in tasks and tables."""
     spokes: Annotated[StrictInt, Field(ge=1, le=96)]
+    """Of this tire."""
     circumferential_plates: Annotated[StrictInt, Field(ge=3, le=96)]
+    """Around the rim; a multiple of the spokes."""
     free: Annotated[tuple[ParameterName, ...], Field(min_length=1)]
+    """Parameters that are fitted."""
     start: FitStartSection = FitStartSection()
+    """Where the search begins."""
     phase_starts: Annotated[StrictInt, Field(ge=1, le=36)] = 1
     """Searches begun from so many phases, in equal steps of the turn after which the tire repeats itself."""
 
@@ -90,12 +110,19 @@ class AncfFitSection(Section):
     """
 
     load_range: tuple[Annotated[Force, Positive], Annotated[Force, Positive]] = (20.0, 250.0)
+    """Loads of the FE average between which differences count [N]."""
     points: Annotated[StrictInt, Field(ge=3, le=100)] = 9
+    """Deflections of each orientation."""
     average_weight: Annotated[Number, Field(ge=1.0, le=1e3)] = 10.0
+    """Of the average against the orientations' deviations from it [-]."""
     realisations: Annotated[StrictInt, Field(ge=0, le=1000)] = 20
+    """Refits of the kept tire to curves moved by their uncertainty."""
     keep: str | None = None
+    """Name of the tire that is kept; the first without it."""
     bounds: FitBoundsSection = FitBoundsSection()
+    """Lowest and highest value of each free parameter."""
     tires: Annotated[tuple[FittedTireSection, ...], Field(min_length=1)]
+    """What is fitted."""
 
     @property
     def kept(self) -> FittedTireSection:

@@ -18,3 +18,4 @@ class GroundSection(Section):
     """
 
     friction: Annotated[Number, Positive] | None = None
+    """Of every tire under the rover [-]; each tire's own without it."""

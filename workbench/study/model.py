@@ -42,16 +42,22 @@ class BandPoint(Section):
     """Deflection [m] at which the average curve should reach a load [N]: between ``low`` and ``high``."""
 
     load: Annotated[Force, Positive]
+    """[N]."""
     low: Annotated[Length, Positive]
+    """Smallest deflection at this load [m]."""
     high: Annotated[Length, Positive]
+    """Largest deflection at this load [m]."""
 
 
 class Band(Section):
     """What the average curve is held against: initial tangent [N/m] and deflections at loads, with their source."""
 
     initial_tangent: Annotated[Stiffness, Positive]
+    """Slope of the average curve near first touch [N/m]."""
     points: Annotated[tuple[BandPoint, ...], Field(min_length=1)]
+    """Deflections of the average curve at loads."""
     source: Annotated[str, Field(min_length=1)]
+    """Where they come from."""
 
 
 @cache
@@ -64,6 +70,7 @@ class CompareSection(Section):
     """The user's own curves, if any."""
 
     curves: tuple[CurveSection, ...] = ()
+    """Your own curves."""
 
 
 def stated[T](section: T | None, name: str) -> T:
@@ -96,6 +103,7 @@ class Study(WheelStudy):
     """
 
     title: Annotated[str, Field(min_length=1)]
+    """Of the report."""
     mesh: MeshSection
     fe: FeSection
     mesh_study: MeshStudySection | None = None
@@ -114,6 +122,7 @@ class Study(WheelStudy):
     reference: Band | None = None
     tolerances: ToleranceSection = ToleranceSection()
     inferred: dict[str, str] = Field(default_factory=dict)
+    """Key -> why: values that no publication states."""
 
     @model_validator(mode="after")
     def _reference_of_its_wheel(self) -> Study:

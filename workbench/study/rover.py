@@ -18,6 +18,7 @@ class RoverSection(Section):
     """
 
     on_ancf_tires: Literal["none", "short", "all"] = "short"
+    """Runs on flexible tires beside those on brush tires: none, the thesis' and quick ones, all."""
 
 
 def runs_on_ancf_tires(rover: RoverSection | None, short: Iterable[str], long: Iterable[str]) -> tuple[str, ...]:

@@ -67,34 +67,52 @@ class MeshSection(Section):
     """
 
     element_size: Annotated[Length, Positive]
+    """Length of elements along strips and around rings [m]."""
     axial_size: Annotated[Length, Positive]
+    """Length of elements along the axle [m]."""
     thickness_elements: Annotated[StrictInt, Field(ge=1, le=8)] = 1
+    """Elements through a strip."""
     order: Literal[1, 2] = 2
+    """Of the geometry: 1 straight, 2 curved hexahedra."""
     factor: Factor = 1.0
+    """Counts of elements along strips and axle are multiplied by it [-]."""
     half_width: StrictBool = True
+    """Whether half the wheel is meshed, on the symmetry about its mid-plane; loads are those of the whole."""
     refinement: dict[str, Annotated[Length, Positive]] = Field(default_factory=dict)
+    """Part -> its own length of elements [m]."""
 
 
 class FeSection(Section):
     """Continuum finite element runs: orientations [rad], deflections [m], loads [N] of the full wheel."""
 
     orientations: Orientations
+    """What faces the ground, from the lowest point towards the front [rad]; a curve each."""
     max_deflection: Drop
+    """How far the hub drops from first touch [m]."""
     points: Annotated[StrictInt, Field(ge=2, le=500)]
+    """Of a curve, in equal steps."""
     max_load: Annotated[Force, Positive]
+    """A run ends at its first point with this load of the whole wheel [N]."""
     snapshot_loads: tuple[Annotated[Force, Positive], ...] = ()
+    """Loads at which fields are kept [N]."""
     keep_points: StrictBool = False
     """Whether fields are kept at every point of the curves too, for the viewer to play."""
     material_law: Literal["st_venant_kirchhoff", "neo_hookean"] = "st_venant_kirchhoff"
+    """Of every part."""
     contact_stiffness: Annotated[Bedding, Positive] | None = 1e11
     """None, written "auto", takes it from the local stiffness of the mesh."""
     contact_method: Literal["penalty", "augmented_lagrangian"] = "penalty"
+    """How the ground holds the wheel off."""
     friction: Annotated[Number, NotNegative] = 0.0
+    """Coulomb's coefficient on the ground of the static runs [-]."""
     obstacle: ObstacleSection = PlaneSection()
+    """What the wheel is pressed on."""
     camber: Angle = 0.0
+    """Of the ground about the forward direction [rad]; needs half_width = false."""
     inner_contact: StrictBool = True
     """Whether springs, rim and hubs hold each other off; else they pass through each other."""
     relative_tolerance: Annotated[Number, Positive] = 1e-8
+    """Of an increment: residual over support and contact forces [-]."""
     hub: Literal["rigid", "elastic"] = "rigid"
     """Rigid: the outer hub is held. Elastic: hubs, cone and impact springs deform; the inner hub's bore is held."""
 
@@ -119,31 +137,52 @@ class VerificationSection(Section):
     """Whether the report runs the benchmarks of finite elements and plates, which do not depend on the study."""
 
     enabled: StrictBool = True
+    """Whether the benchmarks are run."""
 
 
 class AncfSection(Section):
     """The thesis' ANCF tire: dimensions [m], material, contact grid, orientations [rad], deflections [m]."""
 
     outer_radius: Annotated[Length, Positive]
+    """Nominal, of the outer face [m]."""
     datum_radius: Annotated[Length, Positive] | None = None
+    """From which deflection counts [m]; the outer radius without it."""
     hub_radius: Annotated[Length, Positive]
+    """Where spokes begin [m]."""
     width: Annotated[Length, Positive]
+    """Along the axle [m]."""
     rim_thickness: Annotated[Length, Positive]
+    """Of rim plates [m]."""
     spoke_thickness: Annotated[Length, Positive]
+    """Of spoke plates [m]."""
     circumferential_plates: Annotated[StrictInt, Field(ge=3, le=96)]
+    """Plates around the rim; a multiple of the spokes."""
     spokes: Annotated[StrictInt, Field(ge=1, le=96)]
+    """Evenly spaced."""
     phase: Angle = 0.0
+    """Of the first spoke, from the lowest point towards the front [rad]."""
     plates_per_spoke: Annotated[StrictInt, Field(ge=1, le=32)] = 1
+    """Plates along a spoke."""
     young_modulus: Annotated[Pressure, Positive]
+    """Of the plates [Pa]."""
     poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
+    """Of the plates [-]."""
     density: Annotated[Density, Positive]
+    """Of the plates [kg/m^3]."""
     contact_stiffness: Annotated[Stiffness, Positive]
+    """Of each contact point [N/m]."""
     contact_points: tuple[Annotated[StrictInt, Field(ge=2, le=100)], Annotated[StrictInt, Field(ge=2, le=100)]]
+    """Of each rim plate: around the wheel, along the axle."""
     contact_layout: Literal["edges", "centres"] = "edges"
+    """Points on the plate's edges too, or at the centres of equal cells."""
     quadrature: tuple[GaussPoints, GaussPoints, GaussPoints] = (5, 5, 3)
+    """Gauss points of a plate: along, across, through."""
     orientations: Orientations
+    """As of [fe] [rad]; a curve each."""
     max_deflection: Drop
+    """How far the hub drops from the datum radius [m]."""
     points: Annotated[StrictInt, Field(ge=2, le=500)]
+    """Of a curve, in equal steps."""
     thesis_preset: StrictBool = False
     """True states that these are the thesis' numbers: the curve is then held against its known table."""
     surfaces: Annotated[str, Field(min_length=1)] | None = None
@@ -161,23 +200,36 @@ class BrushSection(Section):
     """The brush-type tire of Table II; slip stiffnesses read as N and N/rad."""
 
     radial_stiffness: Annotated[Stiffness, Positive]
+    """Load over deflection [N/m]."""
     radial_damping: Annotated[Viscosity, NotNegative]
+    """Load over rate of deflection [N s/m]."""
     longitudinal_slip_stiffness: Annotated[Force, Positive]
+    """Force per slip ratio at zero slip [N]."""
     cornering_stiffness_per_degree: Annotated[Force, Positive]
+    """Lateral force per degree of slip angle at zero slip [N]."""
     friction_min: Annotated[Number, Positive]
+    """Coefficient at full slip [-]."""
     friction_max: Annotated[Number, Positive]
+    """Coefficient at no slip [-]."""
     rolling_resistance: Annotated[Number, NotNegative]
+    """Moment over load and loaded radius [-]."""
     source: Annotated[str, Field(min_length=1)]
+    """Where the numbers come from."""
 
 
 class CurveSection(Section):
     """A user's own curve, e.g. digitised from a paper: CSV with ``deflection_m,load_N`` and where it comes from."""
 
     file: Annotated[str, Field(min_length=1)]
+    """CSV with deflection and load; relative to the study file."""
     label: Annotated[str, Field(min_length=1)]
+    """What the report calls it."""
     source: Annotated[str, Field(min_length=1)]
+    """Where it comes from."""
     compare_with: Literal["average", "orientation"] = "average"
+    """The average of the FE curves, or one orientation."""
     orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)] | None = None
+    """One of fe.orientations [rad]."""
 
     @model_validator(mode="after")
     def _orientation_if_wanted(self) -> CurveSection:
@@ -191,26 +243,45 @@ class ToleranceSection(Section):
     """How far a number may lie off; relative unless a unit is named. The gates' defaults are the project's own."""
 
     initial_tangent: Annotated[Number, Positive] = 0.03
+    """Slope against the reference, relative [-]."""
     initial_tangent_up_to: Annotated[Length, Positive] = 0.005
+    """Deflection up to which the slope is taken [m]."""
     initial_tangent_orientations: Orientations | None = None
     """Those of fe.orientations whose mean the slope is taken of; all of them by default."""
     ancf_preset: Annotated[Number, Positive] = 0.01
+    """Curves of the thesis' tire against their known table, relative [-]."""
     ancf_fit: Annotated[Number, Positive] = 0.03
+    """Fitted ANCF tires against the FE average, relative to the load [-]."""
     flexible_mass: Annotated[Number, Positive] = 0.01
+    """Mass of the ANCF plates against Table I, relative [-]."""
     mesh_mass: Annotated[Number, Positive] = 0.001
+    """Volume and mass of the mesh against closed form, relative [-]."""
     min_scaled_jacobian: Annotated[Number, Positive] = 0.2
+    """Of the worst cell, at least [-]."""
     reach_deflection: Annotated[Length, Positive] = 0.030
+    """Each orientation is to come so far [m], or to ``reach_load``."""
     reach_load: Annotated[Force, Positive] = 300.0
+    """Each orientation is to carry so much [N], or to come to ``reach_deflection``."""
     fe_residual: Annotated[Number, Positive] = 1e-8
+    """Of any increment, relative [-]."""
     fe_balance: Annotated[Number, Positive] = 1e-6
+    """Of forces and moments, relative [-]."""
     fe_energy: Annotated[Number, Positive] = 0.01
+    """Work against stored energy, relative [-]."""
     mesh_uncertainty: Annotated[Number, Positive] = 0.05
+    """Grid convergence index of the load [-]."""
     hub_compliance: Annotated[Number, Positive] = 0.01
+    """What elastic hubs change of the load, relative [-]."""
     surface_distance: Annotated[Length, Positive] = 1e-9
+    """STEP surfaces of the ANCF tire against its plates [m]."""
     section_agreement: Annotated[Number, Positive] = 0.05
+    """Planar against solid model, relative [-]."""
     model_agreement: Annotated[Number, Positive] = 0.10
+    """ANCF, brush and own curves against FE: relative L2 difference [-]."""
     iso_rating: Annotated[Number, Positive] = 0.80
+    """ISO/TS 18571 rating, at least [-]."""
     orientation_spread: Annotated[Number, Positive] = 0.50
+    """(Largest - smallest) / mean load over the orientations [-]."""
     reference_wheel: StrictBool = False
     """True states that this wheel is the one the reference describes: slope and reach of its curves are then gates."""
 

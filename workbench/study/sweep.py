@@ -27,7 +27,9 @@ class SweepRange(Section):
     """Everything from ``low`` to ``high``, both in the same unit: plain numbers, or strings such as ``"0.5 mm"``."""
 
     low: str | StrictInt | float
+    """With its unit."""
     high: str | StrictInt | float
+    """In the same unit."""
 
 
 class SweepSection(Section):
@@ -45,13 +47,21 @@ class SweepSection(Section):
     """
 
     parameters: dict[str, Annotated[tuple[Value, ...], Field(min_length=1)] | SweepRange]
+    """Every other key of the section: values or a range."""
     models: Annotated[tuple[SweptModel, ...], Field(min_length=1)] = ("section",)
+    """What each point runs."""
     design: Literal["grid", "latin-hypercube"] = "grid"
+    """Every combination, or a Latin hypercube."""
     samples: Annotated[StrictInt, Field(ge=2, le=MOST_POINTS)] | None = None
+    """Points of the hypercube."""
     seed: Annotated[StrictInt, Field(ge=0)] = 0
+    """Of the hypercube."""
     base: StrictBool = True
+    """Whether the study as it is runs too."""
     deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
+    """Where the load is read [m]."""
     loads: Annotated[tuple[Annotated[Force, Positive], ...], Field(min_length=1)] = (160.0, 250.0)
+    """Where deflection and stress are read [N]."""
 
     @model_validator(mode="before")
     @classmethod
