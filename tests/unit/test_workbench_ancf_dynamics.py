@@ -57,7 +57,7 @@ def test_a_motion_that_stops_is_marked_partial(tmp_path: Path) -> None:
 
 
 def test_energy_closes_and_integrators_agree(results: AncfMotions) -> None:
-    checks = ANCF_DYNAMICS.checks(read_study(built_in_study()), None, results)  # type: ignore[arg-type]
+    checks = ANCF_DYNAMICS.checks(read_study(built_in_study()), results)
     assert [check.id for check in checks] == ["ancf.energy_drop", "ancf.energy_ride", "ancf.integrators"]
     assert {check.status for check in checks} == {"pass"}
 
@@ -67,7 +67,7 @@ def test_an_open_account_fails_the_gate(results: AncfMotions) -> None:
     drop = results["drop"]
     broken = replace(drop, numbers={**drop.numbers, "closure": 0.02})
     damaged = replace(results, motions=(broken, *results.motions[1:]))
-    checks = ANCF_DYNAMICS.checks(read_study(built_in_study()), None, damaged)  # type: ignore[arg-type]
+    checks = ANCF_DYNAMICS.checks(read_study(built_in_study()), damaged)
     assert [check.status for check in checks] == ["fail", "pass", "pass"]
 
 

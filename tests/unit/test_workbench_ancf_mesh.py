@@ -44,7 +44,7 @@ def test_excess_is_that_of_the_coarsest_over_the_finest() -> None:
 
 
 def test_a_coarse_rim_is_a_finding_not_an_error(results: AncfMeshStudy) -> None:
-    (check,) = ANCF_MESH.checks(read_study(built_in_study()), None, results)  # type: ignore[arg-type]
+    (check,) = ANCF_MESH.checks(read_study(built_in_study()), results)
     assert check.role == "finding"
     assert check.status == "fail"
     assert check.value is not None

@@ -41,7 +41,7 @@ def run(temperature: float, metal: Material = TI_6AL_4V, factor: float = 1.0, en
 
 def checks(*others: EnvironmentRun, reference: EnvironmentRun | None = None) -> dict[str, Any]:
     series = Series(label="as designed", reference=reference or run(REFERENCE_TEMPERATURE), others=others)
-    return {check.id: check for check in environment_checks(STUDY, None, (series,))}
+    return {check.id: check for check in environment_checks(STUDY, (series,))}
 
 
 def test_a_similar_wheel_passes_and_one_per_cent_off_fails_the_gate() -> None:

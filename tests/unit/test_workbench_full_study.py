@@ -101,10 +101,10 @@ def test_mirrored_orientations_are_found_and_held_against_each_other(study: Stud
     assert found.mirror_error() == pytest.approx(0.0, abs=1e-12)
     assert _map(damage=10.0).mirror_error() == pytest.approx(600.0 / 8600.0, rel=1e-9)
     for damage, status in ((0.0, "pass"), (10.0, "fail")):
-        (check,) = ORIENTATIONS.checks(study, None, _map(damage=damage))  # type: ignore[arg-type]
+        (check,) = ORIENTATIONS.checks(study, _map(damage=damage))
         assert (check.id, check.role, check.status) == ("fe.mirror_symmetry", "finding", status)
     assert replace(found, mirrored=False).mirror_pairs == ()
-    assert ORIENTATIONS.checks(study, None, _map((0.0, 15.0, 60.0))) == ()  # type: ignore[arg-type]
+    assert ORIENTATIONS.checks(study, _map((0.0, 15.0, 60.0))) == ()
 
 
 def test_loads_over_orientation_reach_as_far_as_every_curve() -> None:

@@ -63,6 +63,6 @@ def test_the_change_is_relative_to_the_rigid_hub(study: Study) -> None:
     for loads, change, status in (((160.0, 159.6), -0.0025, "pass"), ((160.0, 156.0), -0.025, "fail")):
         found = _hub_study(loads)
         assert found.change(found.runs[1], 0.02) == pytest.approx(change)
-        (check,) = HUB.checks(study, None, found)  # type: ignore[arg-type]
+        (check,) = HUB.checks(study, found)
         assert (check.id, check.role, check.status) == ("fe.hub_compliance", "finding", status)
         assert check.value == pytest.approx(-change)

@@ -92,5 +92,5 @@ def test_deflections_of_the_study_change_its_keys(shipped: Study) -> None:
 
 def test_check_is_a_gate_that_a_coarse_mesh_fails(shipped: Study) -> None:
     for errors, status in (((0.01, 0.02, 0.03), "pass"), ((0.01, 0.02, 0.06), "fail")):
-        (check,) = MESH_STUDY.checks(shipped, None, _study(errors))  # type: ignore[arg-type]
+        (check,) = MESH_STUDY.checks(shipped, _study(errors))
         assert (check.id, check.role, check.status) == ("fe.mesh_uncertainty", "gate", status)

@@ -48,7 +48,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> MultibodyResults:
 
 
 def _checks(results: MultibodyResults) -> dict[str, Check]:
-    checks = MULTIBODY.checks(read_study(built_in_study()), None, results)  # type: ignore[arg-type]
+    checks = MULTIBODY.checks(read_study(built_in_study()), results)
     return {check.id: check for check in checks}
 
 

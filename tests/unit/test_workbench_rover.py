@@ -34,7 +34,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> RoverResults:
 
 
 def _checks(results: RoverResults) -> dict[str, Check]:
-    checks = ROVER.checks(read_study(built_in_study()), None, results)  # type: ignore[arg-type]
+    checks = ROVER.checks(read_study(built_in_study()), results)
     return {check.id: check for check in checks}
 
 

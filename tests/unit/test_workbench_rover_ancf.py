@@ -91,7 +91,7 @@ def study() -> Study:
 
 
 def _checks(study: Study, results: AncfRover) -> dict[str, Check]:
-    return {check.id: check for check in ROVER_ANCF.checks(study, None, results)}  # type: ignore[arg-type]
+    return {check.id: check for check in ROVER_ANCF.checks(study, results)}
 
 
 def test_a_study_says_what_is_driven(study: Study) -> None:

@@ -67,7 +67,7 @@ def look() -> CloserLook:
 
 
 def statuses(found: CloserLook) -> dict[str, str]:
-    checks = ROVER_CLOSER.checks(STUDY, None, found)  # type: ignore[arg-type]
+    checks = ROVER_CLOSER.checks(STUDY, found)
     return {check.id.partition(".")[2]: check.status for check in checks}
 
 
@@ -126,9 +126,9 @@ def test_a_tire_of_ones_own_that_does_not_carry_the_rover_is_a_finding() -> None
         "strain_standing",
         "strain_rolling",
     }
-    roles = {check.role for check in ROVER_CLOSER.checks(STUDY, None, fallen)}  # type: ignore[arg-type]
+    roles = {check.role for check in ROVER_CLOSER.checks(STUDY, fallen)}
     assert roles == {"finding"}
-    gates = [c.id for c in ROVER_CLOSER.checks(STUDY, None, replace(look(), of_thesis=False)) if c.role == "gate"]  # type: ignore[arg-type]
+    gates = [c.id for c in ROVER_CLOSER.checks(STUDY, replace(look(), of_thesis=False)) if c.role == "gate"]
     assert gates == ["rover_closer.pressure_standing", "rover_closer.pressure_rolling", "rover_closer.strain_standing"]
 
 

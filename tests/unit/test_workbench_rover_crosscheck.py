@@ -13,7 +13,6 @@ import pytest
 import workbench.report.page
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.comparison.comparison import Comparison
 from workbench.comparison.mesh_study import MeshRun, MeshStudy
 from workbench.comparison.rover_crosscheck import CrossCheck, StoodTire, Warmth, WheelPoint, image, lattice, unsolved
 from workbench.study.reading import built_in_study, read_study
@@ -89,7 +88,7 @@ def test_differences_are_those_of_the_springs() -> None:
 
 def test_a_tire_as_the_wheel_is_inside_and_a_stiffer_one_is_not() -> None:
     def statuses(factor: float) -> list[str]:
-        checks = ROVER_CROSSCHECK.checks(STUDY, Comparison.__new__(Comparison), results(factor))
+        checks = ROVER_CROSSCHECK.checks(STUDY, results(factor))
         assert [c.role for c in checks] == ["gate", "gate", "finding", "finding"]
         return [c.status for c in checks]
 
@@ -100,9 +99,7 @@ def test_a_tire_as_the_wheel_is_inside_and_a_stiffer_one_is_not() -> None:
 def test_a_tire_that_folds_is_not_evaluated() -> None:
     found = results()
     folded = StoodTire(name="six_spokes", period=60.0, points=(), failure="a tire folded")
-    checks = ROVER_CROSSCHECK.checks(
-        STUDY, Comparison.__new__(Comparison), replace(found, stood=(found.stood[0], folded))
-    )
+    checks = ROVER_CROSSCHECK.checks(STUDY, replace(found, stood=(found.stood[0], folded)))
     assert {c.status for c in checks} == {"error"}
     with pytest.raises(InputError, match="a tire folded"):
         _ = replace(found, stood=(folded,)).best

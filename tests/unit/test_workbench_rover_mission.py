@@ -76,7 +76,7 @@ def test_without_a_fit_there_is_no_motion_and_it_says_why(tmp_path: Path) -> Non
 
 
 def test_what_is_met_and_what_is_not(mission: Mission) -> None:
-    checks = ROVER_MISSION.checks(STUDY, None, mission)  # type: ignore[arg-type]
+    checks = ROVER_MISSION.checks(STUDY, mission)
     assert [check.status for check in checks] == ["pass", "fail"]
     assert [check.id for check in checks] == ["rover_mission.slope_up", "rover_mission.step"]
     assert {check.role for check in checks} == {"finding"}
@@ -86,7 +86,7 @@ def test_a_run_of_which_nothing_is_required_is_held_to_its_end(mission: Mission)
     driven = replace(drive("rocks", "ancf"), outcomes=())
     for stopped, status in ((None, "pass"), ("a tire folds at t = 3 s", "fail")):
         rocks = replace(mission, fitted={"rocks": replace(driven, stopped=stopped)})
-        (check,) = ROVER_MISSION.checks(STUDY, None, rocks)  # type: ignore[arg-type]
+        (check,) = ROVER_MISSION.checks(STUDY, rocks)
         assert (check.quantity, check.status) == ("run", status)
 
 

@@ -103,7 +103,7 @@ def test_the_aim_of_the_rover_on_ancf_tires_follows_the_kept_run() -> None:
 
 
 def test_the_check_fails_where_a_curve_took_too_many_iterations() -> None:
-    statuses = [SPEED.checks(None, None, results(replace(SOLID, iterations=n)))[0].status for n in (72, 73)]  # type: ignore[arg-type]
+    statuses = [SPEED.checks(None, results(replace(SOLID, iterations=n)))[0].status for n in (72, 73)]  # type: ignore[arg-type]
     assert statuses == ["pass", "fail"]
 
 

@@ -120,7 +120,7 @@ class Series:
         return float(np.max(np.abs(load[inside] - expected) / load[inside]))
 
 
-def environment_checks(study: Study, found: object, results: tuple[Series, ...]) -> list[Check]:
+def environment_checks(study: Study, results: tuple[Series, ...]) -> list[Check]:
     """Similarity of wheels of one metal (gate); mean load ratio and load at first yield at each temperature."""
     checks = []
     for series in results:

@@ -112,9 +112,7 @@ def compare(study: Study, folders: Mapping[str, Path]) -> Comparison:
         checks=(),
         topic_of={},
     )
-    by_topic = {
-        topic.name: topic.checks(study, comparison, comparison.topics[topic.name]) for topic in topics_of(study)
-    }
+    by_topic = {topic.name: topic.checks(study, comparison.topics[topic.name]) for topic in topics_of(study)}
     checks = [completeness_check(early_ends(folders)), *_checks(study, comparison, folders)]
     checks += [check for made in by_topic.values() for check in made]
     return replace(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.comparison.rover_drive import Drive
 
-__all__ = ["TITLES", "MissionRow", "mission_rows"]
+__all__ = ["TITLES", "Mission", "MissionRow", "mission_rows"]
 
 TITLES = {
     "slope_up": "slope of 25 degrees, upwards",
@@ -61,3 +61,21 @@ def mission_rows(driven: Mapping[str, Drive], brush: Mapping[str, Drive]) -> lis
             for one in ours
         ]
     return rows
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mission:
+    """Runs on fitted tires and on brush tires, by scenario.
+
+    ``tire`` is the fit's name, ``friction`` that of the study's ground or None.
+    """
+
+    fitted: Mapping[str, Drive]
+    brush: Mapping[str, Drive]
+    tire: str
+    friction: float | None
+
+    @property
+    def rows(self) -> list[MissionRow]:
+        """What is required of each run on fitted tires."""
+        return mission_rows(self.fitted, self.brush)

@@ -14,7 +14,15 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 
-__all__ = ["FirstYield", "PeakStress", "first_yield", "peak_stresses", "smallest_yield_load", "utilisation"]
+__all__ = [
+    "FirstYield",
+    "PeakStress",
+    "StrengthResults",
+    "first_yield",
+    "peak_stresses",
+    "smallest_yield_load",
+    "utilisation",
+]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,3 +118,17 @@ def smallest_yield_load(found: Sequence[FirstYield], needed: float) -> float:
         rule = f"ends before {needed:g} N without yielding"
         raise InputError("curve", f"{end:.4g} N", rule, "raise fe.max_deflection or fe.max_load")
     return min(load, end)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StrengthResults:
+    """FE curves by orientation [deg], yield strengths by part [Pa], first yield by orientation and by part.
+
+    Orientations of which no point converged are ``missing`` [deg] and nowhere else.
+    """
+
+    curves: Mapping[float, StiffnessCurve]
+    missing: Sequence[float]
+    yield_strength: Mapping[str, float]
+    by_orientation: Mapping[float, FirstYield]
+    by_part: Mapping[str, tuple[float, FirstYield]]

@@ -8,7 +8,7 @@ from workbench.figures.interactive import empty_figure, figure_html
 from workbench.figures.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 
 if TYPE_CHECKING:
-    from workbench.topics.ancf_fit import AncfFits
+    from workbench.comparison.ancf_fits import AncfFits
 
 __all__ = ["fit_figures"]
 

@@ -6,10 +6,9 @@ import numpy as np
 
 from contracts.materials_tables import KELVIN_AT_ZERO_CELSIUS
 from workbench.checks.environment import Series
-from workbench.comparison.yielding import utilisation
+from workbench.comparison.yielding import StrengthResults, utilisation
 from workbench.figures.interactive import empty_figure, figure_html, named
 from workbench.figures.palette import INK, ORIENTATION_COLOURS
-from workbench.topics.strength import StrengthResults
 
 __all__ = ["environment_figures", "strength_figures"]
 

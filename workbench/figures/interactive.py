@@ -16,7 +16,6 @@ from plotly.offline import get_plotlyjs  # type: ignore[import-untyped]
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.text import for_html, for_plotly, for_script
-from workbench.comparison.comparison import Comparison
 from workbench.comparison.curves import ModelCurves, UserCurve
 from workbench.comparison.mesh_study import MeshStudy
 from workbench.figures.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
@@ -60,14 +59,14 @@ def plotly_script() -> str:
     return f"{plotly_source()}\n{_DRAW_ALL}"
 
 
-def fe_figure(found: Comparison, band: Band | None) -> str:
+def fe_figure(fe: ModelCurves, study: MeshStudy | None, users: Sequence[UserCurve], band: Band | None) -> str:
     """FE at each orientation, their average with the mesh uncertainty, the band if there is one."""
     figure = empty_figure()
     _add_band(figure, band)
-    _add_orientations(figure, found.fe, "FE")
-    _add_uncertainty(figure, found.fe.average, found.mesh_study)
-    _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
-    _add_users(figure, found.users)
+    _add_orientations(figure, fe, "FE")
+    _add_uncertainty(figure, fe.average, study)
+    _add_line(figure, fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
+    _add_users(figure, users)
     return figure_html(figure, "fe-curves")
 
 
@@ -80,17 +79,25 @@ def ancf_figure(fe: StiffnessCurve, ancf: ModelCurves) -> str:
     return figure_html(figure, "ancf-curves")
 
 
-def models_figure(found: Comparison, band: Band | None) -> str:
+def models_figure(
+    fe: StiffnessCurve,
+    study: MeshStudy | None,
+    users: Sequence[UserCurve],
+    band: Band | None,
+    *,
+    ancf: StiffnessCurve | None,
+    brush: StiffnessCurve | None,
+) -> str:
     """The averages of all models together, with the band and the user's curves."""
     figure = empty_figure()
     _add_band(figure, band)
-    _add_uncertainty(figure, found.fe.average, found.mesh_study)
-    _add_line(figure, found.fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
-    if found.ancf is not None:
-        _add_line(figure, found.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
-    if found.brush is not None:
-        _add_line(figure, found.brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
-    _add_users(figure, found.users)
+    _add_uncertainty(figure, fe, study)
+    _add_line(figure, fe, "FE average", MODEL_COLOURS["fe"], width=4.0)
+    if ancf is not None:
+        _add_line(figure, ancf, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
+    if brush is not None:
+        _add_line(figure, brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
+    _add_users(figure, users)
     return figure_html(figure, "model-curves")
 
 

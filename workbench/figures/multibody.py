@@ -10,7 +10,7 @@ from workbench.figures.palette import ORIENTATION_COLOURS
 from workbench.figures.published import log_axes, low_figure
 
 if TYPE_CHECKING:
-    from workbench.topics.multibody import WorkRow
+    from workbench.comparison.multibody_work import WorkRow
 
 __all__ = ["work_figures"]
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from workbench.comparison.orientation_map import OrientationMap
 from workbench.figures.interactive import empty_figure, figure_html
 from workbench.figures.palette import ORIENTATION_COLOURS
-from workbench.topics.orientations import OrientationMap
 
 __all__ = ["orientation_figures"]
 

@@ -9,7 +9,7 @@ from workbench.figures.interactive import empty_figure, figure_html
 from workbench.figures.palette import MODEL_COLOURS
 
 if TYPE_CHECKING:
-    from workbench.topics.rover_mission import Mission
+    from workbench.comparison.mission_row import Mission
 
 __all__ = ["mission_figures"]
 

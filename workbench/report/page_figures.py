@@ -32,9 +32,16 @@ def page_figures(
     first, *_ = [*found.fe.loaded.values(), found.fe.average]
     strengths = {p: study.materials[n["material"]].yield_strength for p, n in found.mesh["parts"].items()}
     figures = {
-        "fe": fe_figure(found, study.reference),
+        "fe": fe_figure(found.fe, found.mesh_study, found.users, study.reference),
         "ancf": "" if found.ancf is None else ancf_figure(found.fe.average, found.ancf),
-        "models": models_figure(found, study.reference),
+        "models": models_figure(
+            found.fe.average,
+            found.mesh_study,
+            found.users,
+            study.reference,
+            ancf=None if found.ancf is None else found.ancf.average,
+            brush=found.brush,
+        ),
         "stress": stress_figure(first, strengths),
         **_scenes(found, results, min(strengths.values())),
     }

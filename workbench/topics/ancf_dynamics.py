@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contracts.records import Check
 from contracts.series import TimeSeries, read_series
@@ -18,9 +18,6 @@ from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, ancf_tire
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["ANCF_DYNAMICS", "AncfMotion", "AncfMotions"]
 
@@ -108,7 +105,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> AncfMotions:
     return AncfMotions(radius=ancf_preset(study).outer_radius, motions=tuple(motions))
 
 
-def _checks(study: Study, found: Comparison, results: AncfMotions) -> Sequence[Check]:
+def _checks(study: Study, results: AncfMotions) -> Sequence[Check]:
     checks = [
         at_most(
             Claim(

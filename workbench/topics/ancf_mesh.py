@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_most
@@ -17,9 +16,6 @@ from workbench.execution.task import Task
 from workbench.study.model import Study, stated
 from workbench.study.model_parameters import ancf_preset
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["ANCF_MESH", "AncfMeshRow", "AncfMeshStudy"]
 
@@ -108,7 +104,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> AncfMeshStudy:
     return AncfMeshStudy(deflections=_deflections(study), rows=tuple(rows))
 
 
-def _checks(study: Study, found: Comparison, results: AncfMeshStudy) -> Sequence[Check]:
+def _checks(study: Study, results: AncfMeshStudy) -> Sequence[Check]:
     claim = Claim(
         id="ancf.mesh_excess",
         title=f"ANCF: largest difference of load between {results.rows[0].plates} plates around the rim, the study's, "

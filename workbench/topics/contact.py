@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
@@ -17,9 +17,6 @@ from workbench.graph.fe import INNER_STIFFNESS, fe_inputs, fe_task, mesh_task, w
 from workbench.study.model import Study
 from workbench.tasks.orientation import degrees
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["CONTACT", "ContactRun", "PenaltyStudy"]
 
@@ -116,7 +113,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> PenaltyStudy:
     return PenaltyStudy(orientation_deg=orientation, deflection=section.deflection, runs=tuple(runs))
 
 
-def _checks(study: Study, found: Comparison, results: PenaltyStudy) -> Sequence[Check]:
+def _checks(study: Study, results: PenaltyStudy) -> Sequence[Check]:
     where = f"{results.deflection * 1e3:g} mm, {results.orientation_deg:g} deg"
     return [
         penalty_check(results.loads, where),

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,9 +22,6 @@ from workbench.study.model import Study
 from workbench.study.wheel_design import wheel_design
 from workbench.tasks.orientation import degrees
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["HUB", "HubRun", "HubStudy", "held_parts"]
 
@@ -108,7 +104,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> HubStudy:
     return HubStudy(orientation_deg=orientation, deflections=section.deflections, runs=tuple(runs))
 
 
-def _checks(study: Study, found: Comparison, results: HubStudy) -> Sequence[Check]:
+def _checks(study: Study, results: HubStudy) -> Sequence[Check]:
     last, end = results.runs[-1], results.deflections[-1]
     claim = Claim(
         id="fe.hub_compliance",

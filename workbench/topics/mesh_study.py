@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contracts.curves import StiffnessCurve
 from contracts.records import Check
@@ -19,9 +19,6 @@ from workbench.graph.fe import fe_inputs, fe_task, mesh_task, without_fields
 from workbench.study.model import Study, stated
 from workbench.tasks.orientation import degrees
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["MESH_STUDY", "mesh_study_inputs", "mesh_study_runs", "read_mesh_study"]
 
@@ -65,7 +62,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> MeshStudy:
     return read_mesh_study(**mesh_study_inputs(study), folders=folders)
 
 
-def _checks(study: Study, found: Comparison, results: MeshStudy) -> Sequence[Check]:
+def _checks(study: Study, results: MeshStudy) -> Sequence[Check]:
     places = ", ".join(f"{d * 1e3:g}" for d in results.deflections)
     where = f"at {places} mm, {results.orientation_deg:g} deg"
     claim = Claim(

@@ -6,23 +6,21 @@ Verified by tests/unit/test_workbench_multibody.py.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contracts.errors import InputError
 from contracts.records import Check, Role
 from workbench.checks.rules import Claim, at_least, at_most
+from workbench.comparison.multibody_work import MultibodyResults, WorkRow, problem_of
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
 
 if TYPE_CHECKING:
-    from rover_dynamics.multibody.verification.work_precision import Problem
-    from workbench.comparison.comparison import Comparison
+    pass
 
-__all__ = ["ALLOWED", "MULTIBODY", "MultibodyResults", "WorkRow"]
+__all__ = ["ALLOWED", "MULTIBODY"]
 
 ALLOWED: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
     "pendulum": ((1e-4, 1e-6, 1e-8, 1e-10), (1e-4, 1e-5, 1e-6)),
@@ -32,46 +30,6 @@ ALLOWED: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
 }
 """Problem -> errors allowed in explicit and in implicit steps; forty windows cost most, and have the fewest."""
 SOURCE = "IFToMM library of multibody benchmarks, A01 to A03"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorkRow:
-    """One motion: its problem, ``"explicit"`` or ``"implicit"``, error allowed in a step, and what `Work` holds."""
-
-    problem: str
-    method: str
-    allowed: float
-    error: float
-    energy: float | None
-    seconds: float
-    steps: int
-    evaluations: int
-
-    @property
-    def title(self) -> str:
-        """Of the problem."""
-        return _problem(self.problem).title
-
-    @property
-    def unit(self) -> str:
-        """Of the error; nothing where it is relative."""
-        unit = _problem(self.problem).unit
-        return "" if unit == "-" else unit
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MultibodyResults:
-    """All motions, and the error that the equation of one angle has on A02 with 1e-4 a step [m]."""
-
-    rows: tuple[WorkRow, ...]
-    one_angle: float
-
-    def of(self, problem: str, method: str, allowed: float) -> WorkRow:
-        """One motion; InputError if it was not computed."""
-        for row in self.rows:
-            if (row.problem, row.method, row.allowed) == (problem, method, allowed):
-                return row
-        raise InputError("error allowed in a step", f"{allowed:g}", "was not computed", "look at the task's result")
 
 
 def _name(problem: str) -> str:
@@ -90,12 +48,6 @@ def _tasks(study: Study) -> Sequence[Task]:
     ]
 
 
-def _problem(name: str) -> Problem:
-    from rover_dynamics.multibody.verification.work_precision import PROBLEMS
-
-    return PROBLEMS[name]
-
-
 def _read(study: Study, folders: Mapping[str, Path]) -> MultibodyResults:
     from rover_dynamics.multibody.verification.work_precision import one_angle_error
 
@@ -109,7 +61,7 @@ def _claim(name: str, title: str, quantity: str, unit: str, role: Role = "gate")
     return Claim(id=f"multibody.{name}", title=title, quantity=quantity, unit=unit, role=role, source=SOURCE)
 
 
-def _checks(study: Study, found: Comparison, results: MultibodyResults) -> Sequence[Check]:
+def _checks(study: Study, results: MultibodyResults) -> Sequence[Check]:
     checks = []
     for problem, allowed, limit in (
         ("pendulum", 1e-10, 1e-7),
@@ -117,11 +69,11 @@ def _checks(study: Study, found: Comparison, results: MultibodyResults) -> Seque
         ("four_bar_40", 1e-6, 1e-2),
         ("andrews", 1e-10, 1e-6),
     ):
-        title = f"{_problem(problem).title}, explicit steps of {allowed:g}"
-        claim = _claim(problem, title, "largest error", _problem(problem).unit)
+        title = f"{problem_of(problem).title}, explicit steps of {allowed:g}"
+        claim = _claim(problem, title, "largest error", problem_of(problem).unit)
         checks.append(at_most(claim, lambda p=problem, a=allowed: results.of(p, "explicit", a).error, limit))  # type: ignore[misc]
     for problem in ("pendulum", "andrews"):
-        title = f"{_problem(problem).title}, implicit steps: error at 1e-4 over that at 1e-6 a step"
+        title = f"{problem_of(problem).title}, implicit steps: error at 1e-4 over that at 1e-6 a step"
         checks.append(at_least(_claim(f"{problem}_implicit", title, "ratio", "-"), _gained(results, problem), 5.0))
     drift = _claim("energy", "A02 four-bar, N = 40, explicit steps of 1e-6: energy over 10 s", "relative change", "-")
     checks.append(at_most(drift, lambda: results.of("four_bar_40", "explicit", 1e-6).energy or 0.0, 1e-4))

@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from contracts.errors import InputError
 from contracts.records import Check, Role
@@ -25,9 +24,6 @@ from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_brush, rover_on_brush
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["ROVER", "RoverResult", "RoverResults"]
 
@@ -183,7 +179,7 @@ ANY_TIRE = ("load", "drop")
 as printed that is four times as strong jumps by 2 % within a step, an undamped rover rocks by 0.1 % to the end."""
 
 
-def _checks(study: Study, found: Comparison, results: RoverResults) -> Sequence[Check]:
+def _checks(study: Study, results: RoverResults) -> Sequence[Check]:
     checks = []
     for name, scenario, quantity, title, source, tolerance in CLOSED_FORMS:
         gate = results.on_table_two or name in ANY_TIRE

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,9 +24,6 @@ from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, on_tire_of_thesis, rover_ancf, rover_on_ancf
 from workbench.study.rover import runs_on_ancf_tires
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["LONG", "ROVER_ANCF", "SHORT", "runs_of"]
 
@@ -93,7 +89,7 @@ def _claim(name: str, title: str, quantity: str, unit: str, source: str, *, gate
     return Claim(id=f"rover_ancf.{name}", title=title, quantity=quantity, unit=unit, role=role, source=source)
 
 
-def _checks(study: Study, found: Comparison, results: AncfRover) -> Sequence[Check]:
+def _checks(study: Study, results: AncfRover) -> Sequence[Check]:
     thesis = "Samarini 2020, section 3"
     source = "320 kg on Mars, six wheels"
     gate = _carries(results, "static")

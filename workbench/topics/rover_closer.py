@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,9 +25,6 @@ from workbench.study.model import Study
 from workbench.study.model_parameters import on_tire_of_thesis, rover_ancf, rover_on_ancf, rover_on_brush
 from workbench.topics.rover_mission import ROVER_MISSION
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["ROVER_CLOSER"]
 
@@ -90,7 +86,7 @@ def _claim(name: str, title: str, quantity: str, unit: str, source: str, role: R
     return Claim(id=f"rover_closer.{name}", title=title, quantity=quantity, unit=unit, role=role, source=source)
 
 
-def _checks(study: Study, found: Comparison, results: CloserLook) -> Sequence[Check]:
+def _checks(study: Study, results: CloserLook) -> Sequence[Check]:
     bounce, apart = "bounce of the rover on its tires, sqrt(6 k / m) / (2 pi)", "the rover at rest, solved apart"
     line = _claim("bounce", "strongest vibration of the body", "frequency", "Hz", bounce, "finding")
     driven = results.resting is not None and results.straight.stopped is None

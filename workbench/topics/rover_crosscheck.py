@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from contracts.curves import read_curve
 from contracts.errors import InputError
@@ -37,9 +36,6 @@ from workbench.study.model_parameters import fits_rover
 from workbench.tasks.orientation import degrees, orientation_name
 from workbench.topics.mesh_study import mesh_study_inputs
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["ROVER_CROSSCHECK"]
 
@@ -122,7 +118,7 @@ def _stood(name: str, folder: Path, spokes: int) -> StoodTire:
     return StoodTire(name=name, period=360.0 / spokes, points=points, failure=numbers.get(FAILURE))
 
 
-def _checks(study: Study, found: Comparison, results: CrossCheck) -> Sequence[Check]:
+def _checks(study: Study, results: CrossCheck) -> Sequence[Check]:
     """The averages are a gate where the study's wheel is that of the reference."""
     role: Role = "gate" if study.tolerances.reference_wheel else "finding"
     return [

@@ -6,15 +6,13 @@ Verified by tests/unit/test_workbench_rover_mission.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from contracts.records import Check
 from contracts.series import TimeSeries
 from workbench.checks.mission import mission_checks
-from workbench.comparison.mission_row import MissionRow, mission_rows
-from workbench.comparison.rover_drive import Drive, read_drive
+from workbench.comparison.mission_row import Mission
+from workbench.comparison.rover_drive import read_drive
 from workbench.execution.task import Task
 from workbench.graph.fit import fit_name
 from workbench.study.model import Study
@@ -22,32 +20,11 @@ from workbench.study.rover import runs_on_ancf_tires
 from workbench.topics.rover_crosscheck import ROVER_CROSSCHECK
 from workbench.topics.topic import Topic
 
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
-
-__all__ = ["ROVER_MISSION", "Mission"]
+__all__ = ["ROVER_MISSION"]
 
 SHORT = {"slope_up": 9.0, "slope_down": 12.0, "slope_across": 9.0, "step": 14.0, "point_turn": 20.0}
 LONG = {"crevasse": 120.0, "rocks": 110.0}
 """Run -> processor time it takes about [s]."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Mission:
-    """Runs on fitted tires and on brush tires, by scenario.
-
-    ``tire`` is the fit's name, ``friction`` that of the study's ground or None.
-    """
-
-    fitted: Mapping[str, Drive]
-    brush: Mapping[str, Drive]
-    tire: str
-    friction: float | None
-
-    @property
-    def rows(self) -> list[MissionRow]:
-        """What is required of each run on fitted tires."""
-        return mission_rows(self.fitted, self.brush)
 
 
 def _runs(study: Study) -> Sequence[str]:
@@ -83,7 +60,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> Mission:
     )
 
 
-def _checks(study: Study, found: Comparison, results: Mission) -> Sequence[Check]:
+def _checks(study: Study, results: Mission) -> Sequence[Check]:
     """Findings: what the mission asks for, met or not."""
     return mission_checks(results.rows, "rover_mission.", "fitted ANCF tires")
 

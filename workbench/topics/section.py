@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
@@ -15,9 +14,6 @@ from workbench.comparison.curves import ModelCurves, model_curves
 from workbench.graph.section import section_tasks, without_planar_model
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["SECTION", "SectionRow", "SectionRuns"]
 
@@ -76,7 +72,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> SectionRuns:
     return SectionRuns(section=model_curves("section", folders), fe=model_curves("fe", folders))
 
 
-def _checks(study: Study, found: Comparison, runs: SectionRuns) -> Sequence[Check]:
+def _checks(study: Study, runs: SectionRuns) -> Sequence[Check]:
     return section_checks(runs.section, runs.fe, study.tolerances)
 
 

@@ -169,7 +169,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> SpeedResults:
     return SpeedResults(**kept_runs(), curves=tuple(costs))
 
 
-def _checks(study: Study, found: object, results: SpeedResults) -> Sequence[Check]:
+def _checks(study: Study, results: SpeedResults) -> Sequence[Check]:
     claim = Claim(
         id="speed.iterations",
         title="FE: Newton iterations, for a curve of 20 points, at the dearest orientation",

@@ -6,35 +6,19 @@ Verified by tests/unit/test_workbench_yielding.py and tests/end_to_end/test_repo
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.checks.rules import Claim, at_least
 from workbench.comparison.curves import model_curves
 from workbench.comparison.results import yield_strengths
-from workbench.comparison.yielding import FirstYield, first_yield, smallest_yield_load, utilisation
+from workbench.comparison.yielding import StrengthResults, first_yield, smallest_yield_load, utilisation
 from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
 
-__all__ = ["STRENGTH", "StrengthResults"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StrengthResults:
-    """FE curves by orientation [deg], yield strengths by part [Pa], first yield by orientation and by part.
-
-    Orientations of which no point converged are ``missing`` [deg] and nowhere else.
-    """
-
-    curves: Mapping[float, StiffnessCurve]
-    missing: Sequence[float]
-    yield_strength: Mapping[str, float]
-    by_orientation: Mapping[float, FirstYield]
-    by_part: Mapping[str, tuple[float, FirstYield]]
+__all__ = ["STRENGTH"]
 
 
 def _no_tasks(study: Study) -> Sequence[Task]:
@@ -61,7 +45,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
     )
 
 
-def _checks(study: Study, found: object, results: StrengthResults) -> list[Check]:
+def _checks(study: Study, results: StrengthResults) -> list[Check]:
     up_to = study.fe.judged_load
     which = "fe.max_load" if up_to == study.fe.max_load else "the upper wheel load of the thesis' sweep"
     claim = Claim(

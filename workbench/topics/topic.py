@@ -8,16 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from contracts.series import TimeSeries
 from workbench.execution.task import Task
 from workbench.study.model import Study
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["Topic"]
 
@@ -48,7 +45,7 @@ class Topic:
     title : what the page's navigation calls it
     tasks : study -> tasks, each after those it needs; "mesh", "mesh_whole" and "fe_phi..." are there already
     read : study, result folder of every task by name -> the topic's results
-    checks : study, the comparison of the models, the topic's results -> checks
+    checks : study, the topic's results -> checks
     figures : study, the topic's results -> HTML of each figure by name; the template sees them as ``figures``
     curves : study, the topic's results -> curves to publish as CSV beside the models'
     series : study, the topic's results -> time series to publish as CSV; the section links them by
@@ -60,7 +57,7 @@ class Topic:
     title: str
     tasks: Callable[[Study], Sequence[Task]]
     read: Callable[[Study, Mapping[str, Path]], Any]
-    checks: Callable[[Study, Comparison, Any], Sequence[Check]]
+    checks: Callable[[Study, Any], Sequence[Check]]
     figures: Callable[[Study, Any], Mapping[str, str]] = _no_figures
     curves: Callable[[Study, Any], Sequence[StiffnessCurve]] = _no_curves
     series: Callable[[Study, Any], Sequence[TimeSeries]] = _no_series

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contracts.records import Check
 from workbench.checks.verification import BENCHMARKS
@@ -18,9 +18,6 @@ from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.topics.topic import Topic
-
-if TYPE_CHECKING:
-    from workbench.comparison.comparison import Comparison
 
 __all__ = ["VERIFICATION", "ModelVerification", "Verification"]
 
@@ -81,7 +78,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> Verification:
     return Verification(fe=of(BENCHMARKS), ancf=of(ANCF_BENCHMARKS))
 
 
-def _checks(study: Study, found: Comparison, results: Verification) -> Sequence[Check]:
+def _checks(study: Study, results: Verification) -> Sequence[Check]:
     return [check for benchmark in results.benchmarks for check in benchmark.checks]
 
 
