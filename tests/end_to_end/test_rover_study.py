@@ -114,7 +114,15 @@ def test_a_rover_with_the_studys_wheels_drives_on_it(tmp_path: Path) -> None:
     text = EXOMARS_ROVER.read_text(encoding="utf-8")
     (tmp_path / "small.toml").write_text(text.replace("radius = 0.1425", "radius = 0.09"), encoding="utf-8")
     amalia = built_in_study().parent / "amalia.toml"
-    ended = run("rover", "static", "--study", amalia, "--rover", tmp_path / "small.toml", "--out", tmp_path / "o")
+    bare = run("rover", "static", "--study", amalia, "--rover", tmp_path / "small.toml", "--out", tmp_path / "none")
+    assert (bare.returncode, "[brush]: is not in the study" in bare.stderr) == (2, True)
+    brush = "[brush]" + built_in_study().read_text(encoding="utf-8").split("[brush]")[1].split("[rover]")[0]
+    text = amalia.read_text(encoding="utf-8") + brush.replace('"8250 N/m"', '"16500 N/m"')
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    (tmp_path / "amalia_fe.csv").write_bytes(amalia.with_name("amalia_fe.csv").read_bytes())
+    ended = run(
+        "rover", "static", "--study", tmp_path / "own.toml", "--rover", tmp_path / "small.toml", "--out", tmp_path / "o"
+    )
     assert ended.returncode == 0, ended.stderr
     series = read_series(tmp_path / "o" / "series" / "static_brush.csv", "static", "brush")
     assert mean(series, "deflection_m") == pytest.approx(LOAD / 16500.0, rel=1e-6)

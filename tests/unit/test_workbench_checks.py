@@ -126,7 +126,8 @@ def test_spread_and_yield_are_findings() -> None:
 def test_a_spread_is_asked_of_several_orientations_and_where_the_study_goes() -> None:
     fe = _fe()
     one = replace(fe, by_orientation={0.0: fe.by_orientation[0.0]})
-    assert spread_checks(one, TOLERANCES, 0.036) == []
+    assert spread_checks(one, ToleranceSection(), 0.036) == []
+    assert {c.status for c in spread_checks(one, ToleranceSection(reference_wheel=True), 0.036)} == {"error"}
     assert [c.id for c in spread_checks(fe, TOLERANCES, 0.020)] == ["fe.spread_5mm", "fe.spread_20mm"]
 
 

@@ -20,7 +20,7 @@ from workbench.study.reading import built_in_study, read_study, read_study_table
 from workbench.topics.environment import chosen_points, environment_tasks
 
 COLD = 130.15
-STUDY: Any = SimpleNamespace(fe=SimpleNamespace(judged_load=250.0))
+STUDY: Any = SimpleNamespace(judged_load=250.0)
 
 
 def load(d: np.ndarray) -> np.ndarray:

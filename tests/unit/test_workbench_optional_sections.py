@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -112,9 +113,11 @@ def test_the_band_is_that_of_the_wheel_of_the_reference_only() -> None:
 def test_loads_beyond_what_the_runs_are_to_carry_are_not_judged() -> None:
     table = _table()
     table["fe"] |= {"max_load": "100 N", "snapshot_loads": []}
-    study = study_of(built_in_study(), table)
-    assert study.fe.judged_load == 100.0
-    assert _study().fe.judged_load == 250.0
+    reference = study_of(built_in_study(), table)
+    assert (reference.judged_load, reference.judged_deflection) == (250.0, math.inf)
+    table["tolerances"] = {}
+    other = study_of(built_in_study(), table)
+    assert (other.judged_load, other.judged_deflection) == (100.0, 0.040)
 
 
 def test_rover_and_wheel_stay_apart() -> None:

@@ -128,7 +128,7 @@ def environment_checks(study: Study, results: tuple[Series, ...]) -> list[Check]
         if one_metal:
             checks.append(_similarity(series, one_metal))
         checks += [_ratio(series, run) for run in one_metal]
-        checks += [_yield(series, run, study.fe.judged_load) for run in series.others if run.yield_is_known]
+        checks += [_yield(series, run, study.judged_load) for run in series.others if run.yield_is_known]
     return checks
 
 

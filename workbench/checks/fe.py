@@ -57,8 +57,10 @@ def _tangent_check(fe: ModelCurves, band: Band, tolerances: ToleranceSection) ->
 
 
 def spread_checks(fe: ModelCurves, tolerances: ToleranceSection, up_to: float) -> list[Check]:
-    """How much the load varies around the wheel at those of three deflections that lie within ``up_to`` [m]; none of a
-    single orientation."""
+    """How much the load varies around the wheel at those of three deflections that lie within ``up_to`` [m].
+
+    A single orientation of any but the reference's wheel is asked none.
+    """
     curves = list(fe.by_orientation.values())
     return [
         at_most(
@@ -70,12 +72,19 @@ def spread_checks(fe: ModelCurves, tolerances: ToleranceSection, up_to: float) -
                 "finding",
                 "the thesis says that stiffness varies around the wheel, not how much; the limit is ours",
             ),
-            partial(largest_spread, curves, d),
+            partial(_spread, curves, d),
             tolerances.orientation_spread,
         )
         for d in _SPREAD_AT
-        if d <= up_to and len(curves) > 1
+        if d <= up_to and (len(curves) > 1 or tolerances.reference_wheel)
     ]
+
+
+def _spread(curves: list[StiffnessCurve], deflection: float) -> float:
+    if len(curves) < 2:
+        rule = "needs at least two to have a spread"
+        raise InputError("orientations", len(curves), rule, "add another to fe.orientations")
+    return largest_spread(curves, deflection)
 
 
 def reach_check(fe: ModelCurves, tol: ToleranceSection) -> Check:

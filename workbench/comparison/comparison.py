@@ -144,9 +144,9 @@ def _checks(study: Study, found: Comparison, folders: Mapping[str, Path]) -> lis
     models = [name for name, curves in (("ancf", found.ancf), ("brush", found.brush)) if curves is not None]
     checks += noted(agreement_checks(models, found.metrics, tol), found.agreements)
     checks += [
-        *spread_checks(fe, tol, study.fe.max_deflection),
-        yield_check(fe, strength, study.fe.judged_load),
-        *overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.fe.judged_load),
+        *spread_checks(fe, tol, study.judged_deflection),
+        yield_check(fe, strength, study.judged_load),
+        *overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.judged_load),
     ]
     if study.reference is not None:
         checks.append(circumferential_tangent_check(fe, study.reference, tol, rotational_period(study)))

@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_study.py.
 
 from __future__ import annotations
 
+import math
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -36,6 +37,7 @@ from workbench.study.wheel import WheelStudy
 __all__ = ["Band", "BandPoint", "CompareSection", "Study", "stated", "thesis_band"]
 
 DATA = Path(__file__).parents[1] / "data"
+LARGEST_WHEEL_LOAD = 250.0
 
 
 class BandPoint(Section):
@@ -123,6 +125,17 @@ class Study(WheelStudy):
     tolerances: ToleranceSection = ToleranceSection()
     inferred: dict[str, str] = Field(default_factory=dict)
     """Key -> why: values that no publication states."""
+
+    @property
+    def judged_load(self) -> float:
+        """Load up to which strength is judged [N]: 250, the largest of the thesis' sweep (Samarini 2020, section 3.2),
+        or for any but the thesis' wheel what the runs are to carry if that is less."""
+        return LARGEST_WHEEL_LOAD if self.tolerances.reference_wheel else min(LARGEST_WHEEL_LOAD, self.fe.max_load)
+
+    @property
+    def judged_deflection(self) -> float:
+        """Deflection [m] up to which loads are judged: any of the thesis' wheel, else what the runs are to reach."""
+        return math.inf if self.tolerances.reference_wheel else self.fe.max_deflection
 
     @model_validator(mode="after")
     def _reference_of_its_wheel(self) -> Study:

@@ -37,7 +37,6 @@ __all__ = [
 ]
 
 NotNegative = Field(ge=0.0)
-_LARGEST_WHEEL_LOAD = 250.0
 
 
 def _all_different(orientations: tuple[float, ...]) -> tuple[float, ...]:
@@ -120,12 +119,6 @@ class FeSection(Section):
     @classmethod
     def _automatic(cls, value: object, check: ValidatorFunctionWrapHandler) -> object:
         return None if value == "auto" else check(value)
-
-    @property
-    def judged_load(self) -> float:
-        """Load up to which strength is judged [N]: 250, the largest of the thesis' sweep (Samarini 2020, section 3.2),
-        or what the runs are to carry if that is less."""
-        return min(_LARGEST_WHEEL_LOAD, self.max_load)
 
     @property
     def turned(self) -> bool:

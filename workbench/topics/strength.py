@@ -15,7 +15,7 @@ from workbench.comparison.curves import model_curves
 from workbench.comparison.results import yield_strengths
 from workbench.comparison.yielding import StrengthResults, first_yield, smallest_yield_load, utilisation
 from workbench.execution.task import Task
-from workbench.study.model import Study
+from workbench.study.model import LARGEST_WHEEL_LOAD, Study
 from workbench.topics.topic import Topic
 
 __all__ = ["STRENGTH"]
@@ -46,8 +46,8 @@ def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
 
 
 def _checks(study: Study, results: StrengthResults) -> list[Check]:
-    up_to = study.fe.judged_load
-    which = "fe.max_load" if up_to == study.fe.max_load else "the upper wheel load of the thesis' sweep"
+    up_to = study.judged_load
+    which = "fe.max_load" if up_to < LARGEST_WHEEL_LOAD else "the upper wheel load of the thesis' sweep"
     claim = Claim(
         id="fe.first_yield_load",
         title="FE: smallest load of any orientation at which a part begins to yield (or where the curve ends)",
