@@ -24,7 +24,7 @@ from benchmarks.output.run import Run, add_option  # noqa: E402
 from workbench.execution.runner import Computing, run_tasks  # noqa: E402
 from workbench.execution.store import Entry, Store  # noqa: E402
 from workbench.execution.task import Progress, Task  # noqa: E402
-from workbench.graph.section import section_task  # noqa: E402
+from workbench.questions.section.graph import section_task  # noqa: E402
 from workbench.study.reading import read_study  # noqa: E402
 
 TINY = 200

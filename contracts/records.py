@@ -11,7 +11,7 @@ __all__ = ["Check", "Role", "Status", "Timing"]
 
 Status = Literal["pass", "fail", "error"]
 Role = Literal["gate", "finding"]
-_HINT = "words of checks stand in workbench/data/statements"
+_HINT = "words of checks stand in workbench/questions/*/statements.toml"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -18,8 +18,8 @@ from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
 from rover_dynamics.vehicle.vehicle import VehicleMotion
-from workbench.tasks.field_file import write_fields, write_points
-from workbench.tasks.motion_file import write_motion
+from workbench.questions.fe.field_file import write_fields, write_points
+from workbench.questions.rover.motion_file import write_motion
 
 LOADS = (100.0, 200.0)
 POINTS = (25.0, 50.0, 75.0, 100.0, 125.0, 150.0, 175.0, 200.0)

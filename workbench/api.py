@@ -85,12 +85,13 @@ def stiffness(
         If a task failed otherwise, or Ctrl-C ended the run; finished results are kept.
     """
     from workbench.commands.options import DEFAULT_STORE, computing
-    from workbench.comparison.results import stiffness_curves, yield_strengths
     from workbench.execution.logged import Logged
     from workbench.execution.result_files import early_ends
     from workbench.execution.runner import run_tasks
     from workbench.execution.store import Store
-    from workbench.graph.study_graph import MODELS, stiffness_tasks
+    from workbench.questions.models.curves import stiffness_curves
+    from workbench.questions.strength.yielding import yield_strengths
+    from workbench.questions.study_graph import MODELS, stiffness_tasks
 
     if not isinstance(study, Study):
         raise InputError("study", repr(study), "is no study", "give what read_study returns")

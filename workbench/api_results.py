@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from _typeshed import DataclassInstance
     from pandas import DataFrame  # type: ignore[import-untyped]
 
-    from workbench.figures.still_charts import Axes
+    from workbench.charts.still_charts import Axes
 
 __all__ = ["Curve", "Report", "Series", "curve_of", "report_in"]
 
@@ -45,7 +45,7 @@ class Curve(StiffnessCurve):
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw load [N] against deflection [mm] into ``ax``, or into new axes of pyplot; returns the axes."""
-        from workbench.figures.still_charts import curve_axes
+        from workbench.charts.still_charts import curve_axes
 
         return curve_axes(self, ax)
 
@@ -66,7 +66,7 @@ class Curve(StiffnessCurve):
         InputError
             If the curve does not reach the load.
         """
-        from workbench.comparison.yielding import peak_stresses
+        from workbench.questions.strength.yielding import peak_stresses
 
         found = peak_stresses(self, self.yield_strength, load)
         return _frame(

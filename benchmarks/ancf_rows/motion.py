@@ -20,7 +20,7 @@ from ancf_reduced.tire.preset import thesis_preset
 from ancf_reduced.tire.wheel_rig import MARS_GRAVITY, wheel_rig
 from benchmarks.ancf_rows.clock import row, shortest
 from contracts.terrain import Plane
-from workbench.checks.speed_ancf import DAMPING_RATIOS, REAL_TIME, wheel_case
+from workbench.questions.speed.ancf import DAMPING_RATIOS, REAL_TIME, wheel_case
 
 __all__ = ["QUADRATURE", "motion_rows", "six_wheels_rows"]
 

@@ -28,7 +28,7 @@ DESIGN = read_rover()
 SETTLES, SUNK, TORQUE = 5.0, -0.02, 3.5
 """Time before zero in which the rover comes to rest [s]; its height where that begins [m]; traction [N m]."""
 LAW = replace(THESIS_LAW, damping_depth=1e-3)
-"""The thesis' contact; its damper builds up over a millimetre, see `workbench.tasks.rover_tires`."""
+"""The thesis' contact; its damper builds up over a millimetre, see `workbench.questions.rover.tires`."""
 STRAIGHT = Actuators(
     laws={
         f"drive_{leg.name}": SpeedTrapezoid(

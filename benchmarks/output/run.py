@@ -1,7 +1,7 @@
 """Writes a benchmark's rows: always to ``build/bench``, and into the package when a run is to be kept.
 
 The kept run (``--record``) is what the report shows under "Speed", with the date, machine, load and versions it was
-measured with: see `workbench.checks.benchmark_record`.
+measured with: see `workbench.questions.speed.record`.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import platform
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from workbench.checks.benchmark_record import DATA
 from workbench.execution.fingerprint import library_versions
+from workbench.questions.speed.record import DATA
 from workbench.report.provenance import git_commit
 
 __all__ = ["Run", "add_option"]

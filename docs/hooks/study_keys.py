@@ -23,8 +23,8 @@ from pydantic.fields import FieldInfo
 
 from contracts.errors import InputError, WorkbenchError
 from workbench.execution.fingerprint import canonical_json
-from workbench.graph import study_graph
-from workbench.graph.study_graph import report_tasks
+from workbench.questions import study_graph
+from workbench.questions.study_graph import report_tasks
 from workbench.study.full import full_study
 from workbench.study.magnitudes import study_ranges
 from workbench.study.model import Study
@@ -122,12 +122,12 @@ class Given:
 
 def given(study: Study) -> dict[str, Given]:
     """What each task of the report is given, and of the fine one if the study has one; not how long it takes."""
-    folder, foreseen = built_in_study().parent, study_graph.foreseen
+    foreseen = study_graph.foreseen
     study_graph.foreseen = tuple  # type: ignore[assignment]
     try:
-        tasks = {("report", task.name): task for task in report_tasks(study, folder)}
+        tasks = {("report", task.name): task for task in report_tasks(study)}
         with suppress(InputError):
-            tasks |= {("full", task.name): task for task in report_tasks(full_study(study), folder)}
+            tasks |= {("full", task.name): task for task in report_tasks(full_study(study))}
     finally:
         study_graph.foreseen = foreseen
     return {

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.end_to_end.small_study import run, said
-from workbench.comparison.calibration import strip_thicknesses
+from workbench.questions.calibration import strip_thicknesses
 from workbench.study.reading import read_study
 
 

@@ -20,7 +20,7 @@ from tests.end_to_end.small_study import run, small_study_text
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.integrity import sealed, unsealed
 from workbench.execution.result_files import FAILURE, read_result
-from workbench.tasks.fe import solve_orientation
+from workbench.questions.fe.task import solve_orientation
 
 BELOW_ROUND_OFF = 1e-10
 """Residuals of the small study stall at 1e-9."""

@@ -30,9 +30,9 @@ from workbench.execution.result_files import FAILURE, read_result, write_result
 from workbench.execution.runner import run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Progress, Task
-from workbench.graph.fe import material_inputs
-from workbench.tasks.fe import solve_orientation
-from workbench.tasks.mesh_file import MESH, write_mesh
+from workbench.questions.fe.graph import material_inputs
+from workbench.questions.fe.task import solve_orientation
+from workbench.questions.wheel.mesh_file import MESH, write_mesh
 
 REASON = "orientation 0 deg, curve reached 3 mm: a made-up reason; try another wheel"
 

@@ -72,6 +72,6 @@ def test_what_workers_load_is_what_keys_cover(
 
 
 def test_negative_control_what_is_not_reached_is_found() -> None:
-    assert "workbench.report.page" not in reached("workbench.tasks.fe")
+    assert "workbench.report.page" not in reached("workbench.questions.fe.task")
     with pytest.raises(ModuleNotFoundError):
         reached("workbench.tasks.nowhere")

@@ -16,9 +16,9 @@ from contracts.curves import read_curve
 from contracts.series import read_series
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from tests.end_to_end.small_study import run, small_study_text
-from workbench.checks.statements import statement_of
-from workbench.figures.packing import unpacked
+from workbench.charts.packing import unpacked
 from workbench.study.loosened import GATES
+from workbench.verdict.statements import statement_of
 
 TASKS = {
     *("mesh", "mesh_whole", "fe_phi000"),

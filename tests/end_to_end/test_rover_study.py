@@ -11,8 +11,8 @@ import pytest
 from contracts.series import TimeSeries, read_series
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER
 from tests.end_to_end.small_study import run
+from workbench.questions.rover.motion_file import read_motion
 from workbench.study.reading import built_in_study
-from workbench.tasks.motion_file import read_motion
 
 LOAD = 197.92
 """A sixth of 320 kg on Mars [N]."""

@@ -11,7 +11,7 @@ import pytest
 from contracts.errors import StudyError
 from tests.end_to_end.small_study import run, said
 from workbench.commands.studies import run_check
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.study.reading import built_in_study, read_study
 
 SHIPPED = sorted(built_in_study().parent.glob("*.toml"))
@@ -32,7 +32,7 @@ def test_a_new_study_is_the_shipped_one_wherever_it_lies(shipped: Path, tmp_path
     assert study.wheel == before.wheel
     checked = run("check", "my-wheel.toml", folder=tmp_path)
     assert (checked.returncode, checked.stderr) == (0, "")
-    assert f"its report takes {len(report_tasks(before, shipped.parent))} tasks" in checked.stdout
+    assert f"its report takes {len(report_tasks(before))} tasks" in checked.stdout
     assert [path.name for path in tmp_path.iterdir()] == ["my-wheel.toml"]
 
 

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from tests.end_to_end.small_study import run, small_study_text
-from workbench.checks.verification import BENCHMARKS
-from workbench.checks.verification_ancf import ANCF_BENCHMARKS
-from workbench.topics.multibody import ALLOWED
+from workbench.questions.multibody.question import ALLOWED
+from workbench.questions.verification.checks import BENCHMARKS
+from workbench.questions.verification.checks_ancf import ANCF_BENCHMARKS
 
 NAMES = [*BENCHMARKS, *ANCF_BENCHMARKS]
 

@@ -10,8 +10,8 @@ import pytest
 from contracts.errors import InputError
 from contracts.text import for_markdown
 from tests.unit.test_workbench_statements import SHIPPED
-from workbench.checks.statements import statement_of
 from workbench.report.evidence_document import document, main
+from workbench.verdict.statements import statement_of
 
 ROOT = Path(__file__).parents[2]
 DOCUMENT = ROOT / "docs" / "evidence.md"

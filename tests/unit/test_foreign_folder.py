@@ -9,7 +9,7 @@ import pytest
 from contracts.errors import InputError
 from contracts.foreign_folder import read_json, require_inside
 from tests.small_report_folder import write_small_report
-from workbench.comparison.baseline import read_baseline
+from workbench.verdict.baseline import read_baseline
 from workbench.viewer.folder import read_folder
 
 

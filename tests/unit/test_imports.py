@@ -136,7 +136,7 @@ def test_help_loads_no_heavy_library() -> None:
 def test_a_study_is_planned_without_them() -> None:
     """What is wrong with a study is told after a second, not after three."""
     planned = "from workbench.commands.report import *\nfrom workbench.study.reading import *\n"
-    planned += "from workbench.graph.study_graph import *\nreport_tasks(read_study(built_in_study()), built_in_study())"
+    planned += "from workbench.questions.study_graph import *\nreport_tasks(read_study(built_in_study()))"
     assert loaded_by(planned) & NEVER_ON_HELP == set()
 
 

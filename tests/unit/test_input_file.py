@@ -13,9 +13,9 @@ from contracts.curves import read_curve
 from contracts.errors import InputError, StudyError
 from contracts.input_file import input_bytes, input_table, input_text, require_ordinary_file
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER, read_rover
-from workbench.comparison.baseline import read_baseline
 from workbench.study.curve_file import in_si, read_measured_curve
 from workbench.study.reading import built_in_study, read_study
+from workbench.verdict.baseline import read_baseline
 
 
 def _pipe(folder: Path) -> Path:

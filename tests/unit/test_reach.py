@@ -19,7 +19,7 @@ import pytest
 
 from workbench.execution import reach
 from workbench.execution.reach import PACKAGES, reached, reached_libraries
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.study.reading import built_in_study, read_study
 
 ROOT = Path(__file__).parents[2]
@@ -150,10 +150,10 @@ import json, sys
 from pathlib import Path
 from workbench.execution import reach
 from workbench.execution.task import task_keys
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.study.reading import built_in_study, read_study
 root = Path(sys.argv[1])
-tasks = report_tasks(read_study(built_in_study()), built_in_study().parent)
+tasks = report_tasks(read_study(built_in_study()))
 before, found = task_keys(tasks), {}
 for name in json.loads(sys.argv[2]):
     path = root / name
@@ -166,17 +166,17 @@ for name in json.loads(sys.argv[2]):
 print(json.dumps(found))
 """
 DECIDES = {
-    "workbench/tasks/contact.py": {"fe_phi000", "fe_phi060", "fe_x2"},
+    "workbench/questions/fe/ground.py": {"fe_phi000", "fe_phi060", "fe_x2"},
     "workbench/study/quantities.py": {"mesh", "mesh_whole", "fe_phi000", "section_phi000"},
     "workbench/study/wheel.py": {"mesh", "mesh_whole", "fe_phi000", "section_phi000"},
-    "workbench/tasks/ancf_tire.py": {"ancf_phi000", "ancf_phi045"},
-    "workbench/comparison/grid_convergence.py": {"ancf_fit_six_spokes"},
+    "workbench/study/ancf_tire.py": {"ancf_phi000", "ancf_phi045"},
+    "workbench/questions/mesh_study/grid_convergence.py": {"ancf_fit_six_spokes"},
     "reference_fe/contact/law.py": {"fe_phi000"},
     "rover_dynamics/rover/exomars_rover.toml": {"rover_straight", "rover_ancf_straight"},
     "contracts/published/hertz_line.csv": {"verify_hertz"},
 }
 """File -> some of the tasks whose keys it must change; the first five are what lists kept by hand had missed."""
-DECIDES_NOTHING = ("workbench/report/page.py", "workbench/figures/interactive.py", "workbench/checks/fe.py")
+DECIDES_NOTHING = ("workbench/report/page.py", "workbench/charts/interactive.py", "workbench/questions/fe/checks.py")
 DECIDES_NOTHING += ("workbench/data/ranges.toml", "workbench/study/reading.py")
 
 
@@ -203,7 +203,7 @@ def test_a_changed_line_of_any_module_changes_exactly_the_keys_of_what_can_reach
     assert run.returncode == 0, run.stderr
     found = {name: set(tasks) for name, tasks in json.loads(run.stdout).items()}
     inside, parsed = dict[str, set[str]](), dict[str, set[str]]()
-    for task in report_tasks(read_study(built_in_study()), built_in_study().parent):
+    for task in report_tasks(read_study(built_in_study())):
         inside[task.name] = _closure(task.function.partition(":")[0], parsed).union(*(inside[n] for n in task.needs))
     for name, module in modules.items():
         assert found[name] == {task for task, reachable in inside.items() if module in reachable}, name
@@ -214,7 +214,7 @@ def test_a_changed_line_of_any_module_changes_exactly_the_keys_of_what_can_reach
 
 def test_every_library_has_its_distribution() -> None:
     """A version that reads "missing" would never change."""
-    tasks = report_tasks(read_study(built_in_study()), built_in_study().parent)
+    tasks = report_tasks(read_study(built_in_study()))
     names = {name for task in tasks for name in reached_libraries(task.function.partition(":")[0])}
     installed = {str(one.name).lower().replace("_", "-") for one in importlib.metadata.distributions()}
     assert names <= installed
@@ -223,7 +223,7 @@ def test_every_library_has_its_distribution() -> None:
 
 def test_nothing_reached_imports_by_a_name_made_at_run_time() -> None:
     """No import of ours hides from the text."""
-    tasks = report_tasks(read_study(built_in_study()), built_in_study().parent)
+    tasks = report_tasks(read_study(built_in_study()))
     modules = {name for task in tasks for name in reached(task.function.partition(":")[0]) if "/" not in name}
     for module in modules:
         calls = [n for n in ast.walk(ast.parse(reach._file(module).read_text("utf-8"))) if isinstance(n, ast.Call)]

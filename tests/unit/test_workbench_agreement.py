@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from contracts.records import Check
-from workbench.comparison.agreement import Agreement, noted, verdict
+from workbench.questions.models.agreement import Agreement, noted, verdict
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""The topic of the ANCF wheel in motion: tasks, files, checks, figures."""
+"""The question of the ANCF wheel in motion: tasks, files, checks, figures."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from contracts.series import read_series
+from workbench.questions.ancf_dynamics.question import ANCF_DYNAMICS, AncfMotions
+from workbench.questions.ancf_dynamics.task import move_wheel
 from workbench.report.series import series_files
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.ancf_dynamics import move_wheel
-from workbench.topics.ancf_dynamics import ANCF_DYNAMICS, AncfMotions
 
 
 @pytest.fixture(scope="module")

@@ -15,17 +15,17 @@ from ancf_reduced.tire.preset import thesis_preset
 from ancf_reduced.tire.static import stiffness_curve
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import InputError, StudyError
-from workbench.comparison.ancf_fit import average_error, fitted_deflections, perturbed, read_fit
-from workbench.comparison.curves import ModelCurves
-from workbench.graph.fit import fit_tasks
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.ancf_fit.fit import average_error, fitted_deflections, perturbed, read_fit
+from workbench.questions.ancf_fit.graph import fit_tasks
+from workbench.questions.ancf_fit.question import AncfFits
+from workbench.questions.ancf_fit.task import evaluate, fit
+from workbench.questions.model_curves import ModelCurves
+from workbench.questions.registry import questions_of
+from workbench.questions.study_graph import report_tasks
 from workbench.study.model import Study
 from workbench.study.model_parameters import fit_start
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.rewrite import rewritten_table
-from workbench.tasks.fit import evaluate, fit
-from workbench.topics.ancf_fit import AncfFits
-from workbench.topics.registry import topics_of
 
 D = np.linspace(0.0, 0.03, 16)
 LINE = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=D, load=8e3 * D)
@@ -70,12 +70,12 @@ def test_tasks_of_the_built_in_study(study: Study) -> None:
     assert list(tasks) == ["ancf_as_it_is", *(f"ancf_fit_{tire.name}" for tire in study.ancf_fit.tires)]
     kept = [n for n, task in tasks.items() if task.inputs.get("realisations")]
     assert kept == [f"ancf_fit_{study.ancf_fit.kept.name}"]
-    known = {task.name for task in report_tasks(study, Path())}
+    known = {task.name for task in report_tasks(study)}
     assert all(set(task.needs) < known for task in tasks.values())
-    assert "ancf_fit" in [topic.name for topic in topics_of(study)]
+    assert "ancf_fit" in [question.name for question in questions_of(study)]
     without = study.model_copy(update={"ancf_fit": None})
     assert fit_tasks(without) == []
-    assert "ancf_fit" not in [topic.name for topic in topics_of(without)]
+    assert "ancf_fit" not in [question.name for question in questions_of(without)]
 
 
 def test_the_start_keeps_the_stiffness_per_area_and_the_datum(study: Study) -> None:

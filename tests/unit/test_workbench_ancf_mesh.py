@@ -1,4 +1,4 @@
-"""The topic of the ANCF tire's number of plates: tasks, numbers and the finding."""
+"""The question of the ANCF tire's number of plates: tasks, numbers and the finding."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from workbench.questions.ancf_mesh.question import ANCF_MESH, FACTORS, AncfMeshRow, AncfMeshStudy
+from workbench.questions.ancf_mesh.task import solve_refined
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.ancf_mesh import solve_refined
-from workbench.topics.ancf_mesh import ANCF_MESH, FACTORS, AncfMeshRow, AncfMeshStudy
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,6 @@
 """What counts as a change since the accepted report, and which changes make the gate fail.
 
-Source: the rules of workbench/comparison/baseline.py and docs/ci_gate.md. Negative control: a report held against
+Source: the rules of workbench/verdict/baseline.py and docs/ci_gate.md. Negative control: a report held against
 itself has no change.
 """
 
@@ -16,9 +16,9 @@ import pytest
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.commands.accept import run_accept
-from workbench.comparison.baseline import Baseline, changes_since, read_baseline
 from workbench.report.evidence import Evidence
 from workbench.report.outputs import summary, to_json
+from workbench.verdict.baseline import Baseline, changes_since, read_baseline
 
 
 def _check(**changed: Any) -> Check:

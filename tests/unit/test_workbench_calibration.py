@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError
-from workbench.comparison.calibration import calibrate, scaled_study, strip_thicknesses
+from workbench.questions.calibration import calibrate, scaled_study, strip_thicknesses
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.rewrite import rewritten_study
 

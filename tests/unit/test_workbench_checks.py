@@ -12,21 +12,21 @@ import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.records import Check
-from workbench.checks.fe import (
-    band_checks,
-    mesh_checks,
-    reach_check,
-    solver_checks,
-    spread_checks,
-    yield_check,
-)
-from workbench.checks.models import agreement_checks, ancf_checks, preset_error, user_checks
-from workbench.checks.preset_table import preset_table
-from workbench.comparison.comparison import exit_status, overall_status
-from workbench.comparison.curves import ModelCurves, UserCurve
-from workbench.comparison.mesh_study import MeshRun
+from geometry.measures import MeshQuality
+from workbench.questions.ancf.checks import ancf_checks, preset_error
+from workbench.questions.ancf.preset_table import preset_table
+from workbench.questions.fe.checks import band_checks, reach_check, spread_checks
+from workbench.questions.mesh_study.results import MeshRun
+from workbench.questions.model_curves import ModelCurves, UserCurve
+from workbench.questions.models.checks import agreement_checks, user_checks
+from workbench.questions.models.metrics import CurveMetrics
+from workbench.questions.numerics.checks import solver_checks
+from workbench.questions.strength.checks import yield_check
+from workbench.questions.wheel.checks import mesh_checks
+from workbench.questions.wheel.results import MeshNumbers
 from workbench.study.model import thesis_band
 from workbench.study.sections import ToleranceSection
+from workbench.verdict.status import exit_status, overall_status
 
 TOLERANCES = ToleranceSection(reference_wheel=True)
 D = np.linspace(0.0, 0.036, 37)
@@ -137,16 +137,31 @@ def test_yield_of_a_curve_too_short_is_not_evaluated() -> None:
     assert yield_check(short, {"tire": 880e6}, 230.0).status == "pass"
 
 
+def _quality(smallest: float) -> MeshQuality:
+    return MeshQuality(
+        n_points=8,
+        n_cells=1,
+        order=1,
+        min_scaled_jacobian=smallest,
+        mean_scaled_jacobian=0.95,
+        min_edge=1e-3,
+        max_edge=1e-3,
+        max_aspect_ratio=1.0,
+    )
+
+
 def test_mesh_checks_catch_lost_mass_and_bad_cells() -> None:
-    whole = {
-        "total_volume": 1.0,
-        "total_volume_closed_form": 1.0005,
-        "total_mass": 1.0,
-        "total_mass_closed_form": 1.0005,
-        "quality": {"min_scaled_jacobian": 0.9},
-    }
+    whole = MeshNumbers(
+        quality=_quality(0.9),
+        parts={},
+        volume=1.0,
+        volume_closed_form=1.0005,
+        mass=1.0,
+        mass_closed_form=1.0005,
+        hash="",
+    )
     assert {c.status for c in mesh_checks(whole, whole, TOLERANCES)} == {"pass"}
-    damaged = whole | {"total_mass": 0.998, "quality": {"min_scaled_jacobian": -0.1}}
+    damaged = replace(whole, mass=0.998, quality=_quality(-0.1))
     failing = {c.id for c in mesh_checks(whole, damaged, TOLERANCES) if c.status == "fail"}
     assert failing == {"mesh.mass", "mesh.min_scaled_jacobian"}
 
@@ -186,13 +201,18 @@ def test_ancf_preset_without_its_orientations_cannot_be_evaluated() -> None:
 
 
 def test_agreement_and_user_checks_are_findings() -> None:
-    numbers = {"start": 0.0, "end": 0.03, "relative_l2": 0.2, "max_error": 10.0, "reference_load": 231.0}
-    numbers |= {"tangent": 9000.0, "tangent_reference": 8250.0}
-    metrics: dict[str, dict[str, Any]] = {
-        "ancf_average": numbers | {"iso_rating": 0.9},
-        "brush": numbers,
-        "user_0": {"relative_l2": 0.05},
-    }
+    numbers = CurveMetrics(
+        start=0.0,
+        end=0.03,
+        relative_l2=0.2,
+        max_error=10.0,
+        max_error_at=0.03,
+        tangent=9000.0,
+        tangent_reference=8250.0,
+        reference_load=231.0,
+        iso_rating=0.9,
+    )
+    metrics = {"ancf_average": numbers, "brush": numbers, "user_0": replace(numbers, relative_l2=0.05)}
     checks = _by_id(agreement_checks(["ancf", "brush"], metrics, TOLERANCES))
     assert {c.role for c in checks.values()} == {"finding"}
     assert {c.id for c in checks.values() if c.status == "fail"} == {
@@ -200,7 +220,7 @@ def test_agreement_and_user_checks_are_findings() -> None:
         "brush_vs_fe.relative_l2",
     }
     assert all("0.0 to 30.0 mm" in c.title and "up to 231 N" in c.source for c in checks.values())
-    metrics["ancf_average"]["iso_rating"] = None
+    metrics["ancf_average"] = replace(numbers, iso_rating=None)
     assert _by_id(agreement_checks(["ancf", "brush"], metrics, TOLERANCES))["ancf_vs_fe.iso_18571"].status == "error"
     user = UserCurve(label="paper", curve=replace(_fe_curve(0.0, 8000.0), source="a paper"), orientation_deg=None)
     (check,) = user_checks([user], metrics, TOLERANCES)

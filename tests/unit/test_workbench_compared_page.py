@@ -12,8 +12,8 @@ from PIL import Image
 
 from contracts.csv_table import TableRule, read_table
 from contracts.curves import StiffnessCurve
-from workbench.comparison.curve_pair import CurvePair, compared
-from workbench.figures.compared import compared_still
+from workbench.questions.two_curves.figures import compared_still
+from workbench.questions.two_curves.pair import CurvePair, compared
 from workbench.report.compared_page import compared_html, compared_rows, compared_table, compared_values
 from workbench.study.curve_file import MeasuredCurve
 

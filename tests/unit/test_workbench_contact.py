@@ -12,12 +12,12 @@ import pytest
 from contracts.curves import StiffnessCurve
 from reference_fe.contact.obstacle import ContactMethod
 from reference_fe.contact.obstacles import HalfRoundRock, Plane, StepEdge
-from workbench.graph.fe import fe_inputs
+from workbench.questions.contact.question import CONTACT, ContactRun, PenaltyStudy
+from workbench.questions.fe.graph import fe_inputs
+from workbench.questions.fe.ground import obstacle_of
+from workbench.questions.fe.task import load_case
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.contact import obstacle_of
-from workbench.tasks.fe import load_case
-from workbench.topics.contact import CONTACT, ContactRun, PenaltyStudy
 
 
 @pytest.fixture(scope="module")

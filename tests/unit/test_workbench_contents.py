@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
 from contracts.records import Check
-from workbench.comparison.agreement import Agreement
-from workbench.report.contents import contents, section_of
+from workbench.questions.comparison import Comparison
+from workbench.questions.models.agreement import Agreement
+from workbench.questions.registry import QUESTIONS
+from workbench.report.contents import contents, section_titles
 from workbench.report.opening import check_groups, opening
 from workbench.study.reading import built_in_study, read_study
-from workbench.topics.registry import TOPICS
 
 STUDY = read_study(built_in_study())
-TITLES = {topic.name: topic.title for topic in TOPICS} | {
-    name: name for name in ("models", "wheel", "fe", "ancf", "checks", "numerics", "origin", "reading", "new")
-}
 
 
 def _check(name: str, status: str = "pass", role: str = "finding", **more: Any) -> Check:
@@ -37,44 +37,38 @@ def _agreement(distance: float, uncertainty: float | None, verdict: str) -> Agre
     return Agreement(pair="brush", distance=distance, uncertainty=uncertainty, limit=0.1, verdict=verdict)  # type: ignore[arg-type]
 
 
+def _found(checks: list[Check], judged: Mapping[str, Agreement] | None = None, **made_by: str) -> Comparison:
+    """A comparison with these checks, each made by the question named like its first part unless said otherwise."""
+    made = {c.id: made_by.get(c.id.replace(".", "_"), c.id.partition(".")[0]) for c in checks}
+    return cast(Comparison, SimpleNamespace(checks=tuple(checks), question_of=made, agreements=judged or {}))
+
+
 def test_every_section_stands_in_one_group() -> None:
-    placed = [section.name for group in contents(TITLES) for section in group.sections]
-    assert sorted(placed) == sorted(TITLES)
-    assert {"checks", "origin", "reading", "new"} <= {s.name for s in contents(TITLES)[-1].sections}
-    assert all(group.sections for group in contents({"fe": "Finite elements"}))
+    placed = [section.name for group in contents(STUDY) for section in group.sections]
+    assert len(set(placed)) == len(placed)
+    assert set(placed) == {one.name for one in QUESTIONS} | {"checks", "evidence", "chosen", "origin", "reading"}
+    assert list(section_titles(STUDY)) == placed
+    assert [s.name for s in contents(STUDY)[0].sections] == ["models"]
+    assert {s.name for s in contents(STUDY)[-1].sections} == {"checks", "evidence", "chosen", "origin", "reading"}
 
 
-@pytest.mark.parametrize(
-    ("check", "section"),
-    [
-        ("fe.initial_tangent", "fe"),
-        ("fe.mesh_uncertainty", "mesh_study"),
-        ("fe.first_yield_load", "strength"),
-        ("user_3.relative_l2", "models"),
-        ("ancf_vs_fe.iso_18571", "models"),
-        ("rover_ancf.drop", "rover_ancf"),
-        ("verify.ring_load", "verification"),
-        ("unheard.of", "checks"),
-    ],
-)
-def test_a_check_links_to_the_section_that_shows_it(check: str, section: str) -> None:
-    assert section_of(_check(check), TITLES) == section
-
-
-def test_a_check_of_a_section_that_is_left_out_goes_one_up() -> None:
-    without = {name: title for name, title in TITLES.items() if name != "strength"}
-    assert section_of(_check("fe.yield"), without) == "fe"
+def test_a_study_without_rover_has_no_group_of_it() -> None:
+    without = STUDY.model_copy(update={"rover": None})
+    assert "Rover" in [group.title for group in contents(STUDY)]
+    assert "Rover" not in [group.title for group in contents(without)]
+    assert all(group.sections for group in contents(without))
 
 
 def test_checks_are_grouped_in_the_order_of_the_sections() -> None:
-    made = [_check("rover.load"), _check("fe.reach"), _check("rover.drop")]
+    made = _found([_check("rover.load"), _check("fe.reach"), _check("rover.drop")])
     groups = [(name, [c.id for c in held]) for name, _, held in check_groups(made, {"fe": "F", "rover": "R"})]
     assert groups == [("fe", ["fe.reach"]), ("rover", ["rover.load", "rover.drop"])]
 
 
 def test_the_first_screen_shows_all_that_did_not_pass_gates_first() -> None:
     made = [_check("fe.yield", "fail"), _check("fe.reach"), _check("mesh.mass", "error", "gate", value=None)]
-    found = opening(STUDY, made, {"brush": _agreement(0.2, 0.01, "differs")}, TITLES)
+    judged = {"brush": _agreement(0.2, 0.01, "differs")}
+    found = opening(STUDY, _found(made, judged, fe_yield="strength", mesh_mass="wheel"))
     assert [(o.check.id, o.section, o.value) for o in found.outside] == [
         ("mesh.mass", "wheel", "–"),
         ("fe.yield", "strength", "1 N"),
@@ -84,7 +78,7 @@ def test_the_first_screen_shows_all_that_did_not_pass_gates_first() -> None:
 
 def test_a_rating_draws_its_doubt_inside_the_scale() -> None:
     rating, unknown = (
-        opening(STUDY, [], {"brush": one}, TITLES).ratings[0]
+        opening(STUDY, _found([], {"brush": one})).ratings[0]
         for one in (_agreement(0.2, 0.03, "differs"), _agreement(0.02, None, "not known"))
     )
     assert (rating.name, rating.tone, unknown.tone) == ("Brush tire", "fail", "error")

@@ -9,9 +9,9 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.comparison.curve_pair import compared, judged
-from workbench.comparison.curve_shape import tangent_stiffness, work_between
-from workbench.comparison.metrics import compare_curves
+from workbench.questions.models.metrics import compare_curves
+from workbench.questions.two_curves.pair import compared, judged
+from workbench.questions.two_curves.shape import tangent_stiffness, work_between
 from workbench.study.curve_file import MeasuredCurve
 from workbench.study.deformation import Kind
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve
-from workbench.checks.energy import energy_check, energy_error, quadrature_error
+from workbench.questions.numerics.energy import energy_check, energy_error, quadrature_error
 
 
 def _curve(points: int = 21, energy: float = 1.0, start: float = 0.0) -> StiffnessCurve:

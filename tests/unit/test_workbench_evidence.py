@@ -1,25 +1,25 @@
-"""Links of a check follow from the task graph: its topic's tasks with their keys, fewer where its words name them."""
+"""Links of a check follow from the task graph: its question's tasks with keys, fewer where its words name them."""
 
 from __future__ import annotations
 
 from types import SimpleNamespace
 from typing import Any, cast
 
-from workbench.checks.rules import Claim, at_most
-from workbench.comparison.comparison import Comparison
 from workbench.execution.task import task_keys
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.comparison import Comparison
+from workbench.questions.study_graph import report_tasks
 from workbench.report.evidence import Evidence, evidence_of
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
+from workbench.verdict.rules import Claim, at_most
 
 STUDY = read_study(built_in_study())
-KEYS = task_keys(report_tasks(STUDY, built_in_study().parent))
+KEYS = task_keys(report_tasks(STUDY))
 FILES = ["curves/fe_-40C_phi015.csv", "curves/fe_AISI_301_20C_phi015.csv", "series/step_fitted_ancf.csv"]
 FILES += ["curves/fe_phi000.csv", "curves/fe_average.csv", "curves/section_phi015.csv", "series/drop_brush.csv"]
 MADE_BY = {
-    "fe.balance": "",
-    "mesh.mass": "",
+    "fe.balance": "numerics",
+    "mesh.mass": "wheel",
     "fe.mesh_uncertainty": "mesh_study",
     "section.vs_solid_phi015": "section",
     "verify.ancf_end_shear_order": "verification",
@@ -39,7 +39,7 @@ def _evidence(study: Study, made_by: dict[str, str]) -> dict[str, Evidence]:
         claim = Claim(id=id, title="Mesh, 15 deg: mass", quantity="run", unit="-", role="gate", source="s")
         return at_most(claim, lambda: 1.0, 2.0)
 
-    found = SimpleNamespace(checks=[check(id) for id in made_by], topic_of={k: v for k, v in made_by.items() if v})
+    found = SimpleNamespace(checks=[check(id) for id in made_by], question_of=made_by)
     return {one.check.id: one for one in evidence_of(study, cast(Comparison, found), KEYS, FILES)}
 
 
@@ -51,7 +51,7 @@ def test_tasks_come_with_the_keys_of_their_results() -> None:
     assert list(found["section.vs_solid_phi015"].tasks) == ["fe_phi015", "section_phi015"]
 
 
-def test_without_words_the_identifier_or_the_topic_decides() -> None:
+def test_without_words_the_identifier_or_the_question_decides() -> None:
     found = _evidence(STUDY, MADE_BY)
     assert list(found["verify.ancf_end_shear_order"].tasks) == ["verify_ancf_end_shear"]
     assert list(found["verify.end_shear_path"].tasks) == ["verify_end_shear"]

@@ -9,8 +9,8 @@ import pytest
 
 from contracts.errors import InputError
 from workbench.execution.task import Task, chain_costs, task_keys
-from workbench.graph.foresight import solve_bytes, solve_seconds
-from workbench.graph.study_graph import mesh_tasks, report_tasks, stiffness_tasks
+from workbench.questions.fe.foresight import solve_bytes, solve_seconds
+from workbench.questions.study_graph import mesh_tasks, report_tasks, stiffness_tasks
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
@@ -28,7 +28,7 @@ def _finer(times: float) -> Study:
 
 
 def _solves(tasks: tuple[Task, ...]) -> list[Task]:
-    return [task for task in tasks if task.function == "workbench.tasks.fe:solve_orientation"]
+    return [task for task in tasks if task.function == "workbench.questions.fe.task:solve_orientation"]
 
 
 def test_the_law_of_memory_is_what_was_measured() -> None:
@@ -43,11 +43,11 @@ def test_the_law_of_time_is_what_was_measured() -> None:
 
 def test_unknowns_are_those_that_are_solved() -> None:
     """41 544 on the built-in study's mesh of curves; the whole graph has an expectation for each mesh and solve."""
-    tasks = report_tasks(STUDY, built_in_study().parent)
+    tasks = report_tasks(STUDY)
     curve = next(task for task in _solves(tasks) if task.name == "fe_phi000")
     assert curve.unknowns == pytest.approx(41544, rel=0.08)
     assert all(task.memory > 2.8e8 and task.unknowns > 10_000 for task in _solves(tasks))
-    assert all(task.memory > 0.0 for task in tasks if task.function == "workbench.tasks.mesh:build")
+    assert all(task.memory > 0.0 for task in tasks if task.function == "workbench.questions.wheel.mesh_task:build")
 
 
 def test_a_mesh_ten_times_finer_needs_18_gb() -> None:

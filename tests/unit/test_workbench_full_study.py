@@ -11,12 +11,12 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.orientations.question import ORIENTATIONS, OrientationMap
+from workbench.questions.study_graph import report_tasks
 from workbench.study.full import full_study, is_mirrored, rotational_period
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.rules import broken_rules
-from workbench.topics.orientations import ORIENTATIONS, OrientationMap
 
 HERE = built_in_study().parent
 
@@ -37,19 +37,20 @@ def test_the_graph_holds_every_orientation_of_a_period_on_the_finer_mesh(study: 
     full = full_study(study)
     assert list(broken_rules(full)) == []
     assert full.tolerances.initial_tangent_orientations == study.fe.orientations  # what the strip was chosen on
-    tasks = {task.name: task for task in report_tasks(full, HERE)}
+    tasks = {task.name: task for task in report_tasks(full)}
     solved = [name for name in tasks if name.startswith("fe_phi")]
     assert solved == [f"fe_phi{o:03d}" for o in range(0, 120, 5)]
     assert tasks["mesh"].inputs["options"]["factor"] == 1.5
     assert {"fe_x1", "fe_x2"} <= set(tasks)
     assert "fe_x1.5" not in tasks
-    assert set(report_tasks(study, HERE)[0].inputs["options"]) == set(tasks["mesh"].inputs["options"])
+    (own,) = (task for task in report_tasks(study) if task.name == "mesh")
+    assert set(own.inputs["options"]) == set(tasks["mesh"].inputs["options"])
     metrics = tasks["metrics"].needs
     assert set(solved) <= set(metrics)
 
 
 def test_meshes_of_default_and_full_study_are_shared(study: Study) -> None:
-    default, full = ({t.name: t for t in report_tasks(s, HERE)} for s in (study, full_study(study)))
+    default, full = ({t.name: t for t in report_tasks(s)} for s in (study, full_study(study)))
     assert default["mesh_x1.5"].inputs == full["mesh"].inputs
     assert default["mesh"].inputs == full["mesh_x1"].inputs
     assert default["fe_x2"].key({"mesh_x2": "m"}) == full["fe_x2"].key({"mesh_x2": "m"})

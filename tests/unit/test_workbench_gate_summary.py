@@ -7,9 +7,9 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from tests.unit.test_workbench_baseline import _check, _kept
-from workbench.comparison.baseline import changes_since
 from workbench.report.gate_summary import Gate, gate_lines, gate_markdown, gate_rows
 from workbench.report.outputs import junit
+from workbench.verdict.baseline import changes_since
 
 
 def _gate(tmp_path: Path) -> Gate:

@@ -11,18 +11,18 @@ import pytest
 from contracts.materials import TI_6AL_4V
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task, task_keys
-from workbench.graph.study_graph import mesh_tasks, report_tasks, stiffness_tasks
+from workbench.questions.multibody.question import MULTIBODY
+from workbench.questions.registry import QUESTIONS
+from workbench.questions.rover.question import ROVER
+from workbench.questions.rover_ancf.question import ROVER_ANCF
+from workbench.questions.rover_closer.question import ROVER_CLOSER
+from workbench.questions.rover_mission.question import ROVER_MISSION
+from workbench.questions.study_graph import mesh_tasks, report_tasks, stiffness_tasks
+from workbench.questions.verification.question import VERIFICATION
 from workbench.study.model import Study
+from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.wheel_design import design_from, wheel_design
-from workbench.tasks.orientation import orientation_name
-from workbench.topics.multibody import MULTIBODY
-from workbench.topics.registry import TOPICS
-from workbench.topics.rover import ROVER
-from workbench.topics.rover_ancf import ROVER_ANCF
-from workbench.topics.rover_closer import ROVER_CLOSER
-from workbench.topics.rover_mission import ROVER_MISSION
-from workbench.topics.verification import VERIFICATION
 
 HERE = built_in_study().parent
 
@@ -43,19 +43,19 @@ def _new_keys(before: tuple[Task, ...], after: tuple[Task, ...]) -> set[str]:
 
 
 def test_report_has_every_task_and_needs_come_first(study: Study) -> None:
-    tasks = report_tasks(study, HERE)
+    tasks = report_tasks(study)
     names = [t.name for t in tasks]
     orientations = [f"fe_phi{o:03d}" for o in (0, 15, 30, 45, 60)] + ["ancf_phi000", "ancf_phi045"]
     others = {"mesh", "mesh_whole", "brush", "ancf_surfaces", "metrics", "pictures"}
-    topics = {task.name for topic in TOPICS for task in topic.tasks(study)}
-    assert set(names) == {*orientations, *others, *topics}
+    questions = {task.name for question in QUESTIONS for task in question.tasks(study)}
+    assert set(names) == {*orientations, *others, *questions}
     assert len(names) == len(set(names))
     for i, task in enumerate(tasks):
         assert set(task.needs) <= set(names[:i])
 
 
 def test_inputs_are_json_that_survives_a_round_trip(study: Study) -> None:
-    for task in report_tasks(study, HERE):
+    for task in report_tasks(study):
         assert json.loads(canonical_json(task.inputs)) == json.loads(json.dumps(task.inputs))
 
 
@@ -74,27 +74,27 @@ def test_wheel_design_survives_the_trip_to_the_worker(study: Study) -> None:
 
 def test_deflections_contain_the_one_where_meshes_are_compared(study: Study) -> None:
     odd = _changed(study, "fe", points=7)
-    task = next(t for t in report_tasks(odd, HERE) if t.name == "fe_phi000")
+    task = next(t for t in report_tasks(odd) if t.name == "fe_phi000")
     assert 0.02 in task.inputs["deflections"]
     assert task.inputs["deflections"][-1] == pytest.approx(study.fe.max_deflection)
 
 
 def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
-    before = report_tasks(study, HERE)
-    assert _new_keys(before, report_tasks(study, HERE)) == set()
-    ancf = report_tasks(_changed(study, "ancf", young_modulus=281e3), HERE)
+    before = report_tasks(study)
+    assert _new_keys(before, report_tasks(study)) == set()
+    ancf = report_tasks(_changed(study, "ancf", young_modulus=281e3))
     refined = {f"ancf_plates_x{factor}" for factor in (1, 2, 4, 8)} | {"ancf_drop", "ancf_drop_share", "ancf_ride"}
-    driven = {task.name for topic in (ROVER_ANCF, ROVER_CLOSER) for task in topic.tasks(study)}
+    driven = {task.name for question in (ROVER_ANCF, ROVER_CLOSER) for task in question.tasks(study)}
     curves = {"ancf_phi000", "ancf_phi045", "ancf_surfaces", "ancf_as_it_is", "metrics"}
     assert _new_keys(before, ancf) == curves | refined | driven
-    finest = report_tasks(_changed(study, "mesh_study", factors=(1.0, 1.5, 2.5)), HERE)
+    finest = report_tasks(_changed(study, "mesh_study", factors=(1.0, 1.5, 2.5)))
     on_the_fit = {"rover_stands_six_spokes"} | {task.name for task in ROVER_MISSION.tasks(study)}
     assert _new_keys(before, finest) == {"mesh_x2.5", "fe_x2.5", "ancf_fit_six_spokes"} | on_the_fit
-    tolerance = report_tasks(_changed(study, "tolerances", initial_tangent=0.5), HERE)
+    tolerance = report_tasks(_changed(study, "tolerances", initial_tangent=0.5))
     assert _new_keys(before, tolerance) == set()
-    mesh = report_tasks(_changed(study, "mesh", element_size=7e-3), HERE)
+    mesh = report_tasks(_changed(study, "mesh", element_size=7e-3))
     closed = (VERIFICATION, MULTIBODY, ROVER, ROVER_ANCF, ROVER_CLOSER)
-    verified = {task.name for topic in closed for task in topic.tasks(study)}
+    verified = {task.name for question in closed for task in question.tasks(study)}
     kept = {"ancf_phi000", "ancf_phi045", "brush", "ancf_surfaces"} | refined | verified
     assert kept == set(task_keys(before)) - _new_keys(before, mesh)
 
@@ -110,19 +110,19 @@ def test_text_of_a_user_curve_is_part_of_the_key(study: Study, tmp_path: Path) -
     from workbench.study.model import CompareSection
     from workbench.study.sections import CurveSection
 
-    section = CurveSection(file="mine.csv", label="mine", source="me")
+    section = CurveSection(file=str(tmp_path / "mine.csv"), label="mine", source="me")
     with_curve = study.model_copy(update={"compare": CompareSection(curves=(section,))})
     (tmp_path / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.01,82\n", encoding="utf-8")
-    before = report_tasks(with_curve, tmp_path)
+    before = report_tasks(with_curve)
     (tmp_path / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.01,83\n", encoding="utf-8")
-    assert _new_keys(before, report_tasks(with_curve, tmp_path)) == {"metrics"}
+    assert _new_keys(before, report_tasks(with_curve)) == {"metrics"}
 
 
 def test_the_preset_is_solved_at_the_deflections_of_its_table(study: Study) -> None:
-    from workbench.checks.preset_table import preset_table
+    from workbench.questions.ancf.preset_table import preset_table
 
     def points(changed: Study) -> list[float]:
-        (task,) = (t for t in report_tasks(changed, HERE) if t.name == "ancf_phi000")
+        (task,) = (t for t in report_tasks(changed) if t.name == "ancf_phi000")
         return list(task.inputs["deflections"])
 
     table = set(preset_table()[:, 0].round(12).tolist())

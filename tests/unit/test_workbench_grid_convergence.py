@@ -10,7 +10,7 @@ from __future__ import annotations
 import pytest
 
 from contracts.errors import InputError
-from workbench.comparison.grid_convergence import apparent_order, grid_convergence
+from workbench.questions.mesh_study.grid_convergence import apparent_order, grid_convergence
 
 CELIK = {
     "monotonic, p 1.53": ((6.063, 5.972, 5.863), (1.5, 4.0 / 3.0), 1.53, 6.1685, 1.5, 1.7, 2.2),

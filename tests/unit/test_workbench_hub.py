@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.hub.question import HUB, HubRun, HubStudy, held_parts
+from workbench.questions.study_graph import report_tasks
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
-from workbench.topics.hub import HUB, HubRun, HubStudy, held_parts
 
 HERE = built_in_study().parent
 
@@ -43,7 +43,7 @@ def test_a_wheel_without_these_parts_has_no_such_topic(study: Study) -> None:
 def test_the_switch_takes_all_parts_into_the_mesh_and_holds_the_bore_only(study: Study) -> None:
     elastic = study.model_copy(update={"fe": study.fe.model_copy(update={"hub": "elastic"})})
     for chosen, parts, rigid in ((study, "flexible", 4), (elastic, "all", 0)):
-        tasks = {task.name: task for task in report_tasks(chosen, HERE)}
+        tasks = {task.name: task for task in report_tasks(chosen)}
         assert tasks["mesh"].inputs["options"]["parts"] == parts
         assert len(tasks["fe_phi000"].inputs["rigid_parts"]) == rigid
         assert len(tasks["fe_x2"].inputs["rigid_parts"]) == rigid

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
-from workbench.checks.limits import GAP, circumferential_tangent_check, overlap_checks
-from workbench.comparison.curves import ModelCurves
+from workbench.questions.fe.limits import GAP, circumferential_tangent_check, overlap_checks
+from workbench.questions.model_curves import ModelCurves
 
 BAND: Any = SimpleNamespace(initial_tangent=8000.0, source="test")
 TOLERANCES: Any = SimpleNamespace(initial_tangent_up_to=0.005, initial_tangent=0.03)

@@ -33,7 +33,7 @@ COMPILER = (
     "import sys; sys.stderr.write('a.c:1:10: fatal error: Python.h: No such file or directory\\nCommand failed\\n');"
     "sys.exit(1)"
 )
-TASK = Task(name="brush", function="workbench.tasks.brush:solve", inputs={})
+TASK = Task(name="brush", function="workbench.questions.models.brush_task:solve", inputs={})
 
 
 @pytest.mark.parametrize(

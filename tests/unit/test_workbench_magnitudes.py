@@ -20,7 +20,6 @@ from contracts.errors import InputError, StudyError
 from contracts.ranges import Key, range_table
 from rover_dynamics.rover.rover_file import EXOMARS_ROVER, read_rover
 from tests.end_to_end.small_study import small_study_text
-from workbench.checks.statements import families
 from workbench.report.opening import verdict
 from workbench.study.key_units import is_whole_number, parts_of
 from workbench.study.loosened import GATES, loosened
@@ -28,6 +27,7 @@ from workbench.study.magnitudes import numbers_of, require_possible, study_range
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study, study_of
 from workbench.study.sections import ToleranceSection
+from workbench.verdict.statements import families
 
 SHIPPED = sorted(built_in_study().parent.glob("*.toml"))
 TABLE = tomllib.loads(built_in_study().read_text(encoding="utf-8"))

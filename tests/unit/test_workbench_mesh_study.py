@@ -9,11 +9,11 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.comparison.mesh_study import MeshRun, MeshStudy, sorted_runs
 from workbench.execution.task import task_keys
+from workbench.questions.mesh_study.question import MESH_STUDY
+from workbench.questions.mesh_study.results import MeshRun, MeshStudy, sorted_runs
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
-from workbench.topics.mesh_study import MESH_STUDY
 
 D = (0.010, 0.020, 0.030)
 EXACT = (80.0, 160.0, 240.0)

@@ -7,7 +7,7 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.comparison.metrics import compare_curves, iso_18571_rating, largest_spread
+from workbench.questions.models.metrics import compare_curves, iso_18571_rating, largest_spread
 
 
 def _line(slope: float, end: float = 0.03, offset: float = 0.0, start: float = 0.0) -> StiffnessCurve:

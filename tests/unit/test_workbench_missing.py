@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve, read_curve, write_curve
-from workbench.checks.energy import energy_check
-from workbench.checks.fe import solver_checks, spread_checks
-from workbench.checks.models import agreement_checks
-from workbench.checks.section import section_checks
-from workbench.comparison.curves import ModelCurves, mean_curve
 from workbench.execution.result_files import FAILURE
+from workbench.questions.fe.checks import spread_checks
+from workbench.questions.model_curves import ModelCurves, mean_curve
+from workbench.questions.models.checks import agreement_checks
+from workbench.questions.numerics.checks import solver_checks
+from workbench.questions.numerics.energy import energy_check
+from workbench.questions.section.checks import section_checks
 from workbench.study.sections import ToleranceSection
 
 TOLERANCES = ToleranceSection(reference_wheel=True)

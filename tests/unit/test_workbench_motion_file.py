@@ -13,8 +13,8 @@ from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 from tests.small_report_folder import rolling_run
 from tests.unit.test_workbench_tire_animation import flexible
-from workbench.tasks.ancf_tire import drawn_tire, tire_values
-from workbench.tasks.motion_file import read_motion, write_motion
+from workbench.questions.rover.motion_file import read_motion, write_motion
+from workbench.study.ancf_tire import drawn_tire, tire_values
 from workbench.viewer.stages import RoverStage
 
 

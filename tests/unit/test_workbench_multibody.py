@@ -1,4 +1,4 @@
-"""The topic of the multibody engine: tasks, checks, figures, section."""
+"""The question of the multibody engine: tasks, checks, figures, section."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-import workbench.report.page
 from contracts.records import Check
 from workbench.execution.result_files import read_result, write_result
+from workbench.questions.multibody.question import ALLOWED, MULTIBODY, MultibodyResults
+from workbench.questions.multibody.task import measure_work
+from workbench.questions.registry import QUESTIONS
+from workbench.report.page import TEMPLATES
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.multibody import measure_work
-from workbench.topics.multibody import ALLOWED, MULTIBODY, MultibodyResults
-from workbench.topics.registry import TOPICS
 
 MEASURED = {  # error and relative change of energy of the last run of the report
     ("pendulum", "explicit", 1e-10): (3.4e-10, 1.9e-10),
@@ -71,7 +71,7 @@ def test_a_task_measures_both_kinds_of_steps(tmp_path: Path) -> None:
 def test_a_task_for_each_problem_of_a_study_that_verifies() -> None:
     study = read_study(built_in_study())
     assert [task.name for task in MULTIBODY.tasks(study)] == [f"multibody_{problem}" for problem in ALLOWED]
-    assert MULTIBODY in TOPICS
+    assert MULTIBODY in QUESTIONS
     assert MULTIBODY.applies(study)
 
 
@@ -103,7 +103,6 @@ def test_a_row_that_is_missing_is_an_error(results: MultibodyResults) -> None:
 
 def test_figures_of_the_section_exist(results: MultibodyResults) -> None:
     figures = MULTIBODY.figures(read_study(built_in_study()), results)
-    folder = Path(workbench.report.page.__file__).parent / "templates"
-    text = (folder / "section_multibody.html.j2").read_text(encoding="utf-8")
+    text = (TEMPLATES[1] / "multibody" / "section.html.j2").read_text(encoding="utf-8")
     assert set(re.findall(r"figures\.(\w+)", text)) == set(figures)
     assert "A02 four-bar, N = 40, implicit" in figures["seconds"]

@@ -12,23 +12,24 @@ import pytest
 import tomlkit
 
 from contracts.errors import InputError, StudyError
-from workbench.checks.limits import overlap_checks
 from workbench.commands.calibrate import run_calibrate
-from workbench.comparison.curves import ModelCurves
 from workbench.execution.runner import Computing
-from workbench.graph.study_graph import report_tasks, stiffness_tasks
+from workbench.questions.fe.limits import overlap_checks
+from workbench.questions.model_curves import ModelCurves
+from workbench.questions.registry import questions_of
+from workbench.questions.study_graph import report_tasks, stiffness_tasks
 from workbench.report.chosen import chosen_groups
 from workbench.report.contents import section_titles
 from workbench.study.full import full_study
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, study_of
 from workbench.study.sweep_points import sweep_points
-from workbench.topics.registry import topics_of
 
 ENOUGH = {"name", "title", "wheel", "materials", "mesh", "fe"}
+ALWAYS = {"models", "wheel", "fe", "orientations", "strength", "section", "numerics"}
 OTHERS = {"mesh", "mesh_whole", "metrics", "pictures"}
 ADDED = {
-    "ancf": {"ancf_mesh", "ancf_dynamics"},
+    "ancf": {"ancf", "ancf_mesh", "ancf_dynamics"},
     "brush": set(),
     "mesh_study": {"mesh_study"},
     "hub_study": {"hub"},
@@ -40,7 +41,7 @@ ADDED = {
     "tolerances": set(),
     "inferred": set(),
 }
-"""Section of the built-in study that stands by itself -> the topics it adds."""
+"""Section of the built-in study that stands by itself -> the questions it adds."""
 
 
 def _table() -> dict[str, Any]:
@@ -53,7 +54,7 @@ def _study(*sections: str) -> Study:
 
 
 def _tasks(study: Study) -> set[str]:
-    return {task.name for task in report_tasks(study, built_in_study().parent)}
+    return {task.name for task in report_tasks(study)}
 
 
 def test_every_other_section_of_the_built_in_study_is_known_here() -> None:
@@ -62,7 +63,7 @@ def test_every_other_section_of_the_built_in_study_is_known_here() -> None:
 
 def test_the_wheel_alone_is_meshed_and_solved_and_nothing_else() -> None:
     study = _study()
-    assert {topic.name for topic in topics_of(study)} == {"orientations", "section", "strength"}
+    assert {question.name for question in questions_of(study)} == ALWAYS
     assert all(name.startswith(("fe_phi", "section_")) for name in _tasks(study) - OTHERS)
     assert "ancf" not in section_titles(study)
     assert {group.title for group in chosen_groups(study)} == {"What curves are held against", "Continuum model"}
@@ -71,8 +72,8 @@ def test_the_wheel_alone_is_meshed_and_solved_and_nothing_else() -> None:
 @pytest.mark.parametrize("section", ADDED)
 def test_a_section_adds_what_it_asks_for(section: str) -> None:
     alone, more = _study(), _study(section)
-    assert {t.name for t in topics_of(more)} - {t.name for t in topics_of(alone)} == ADDED[section]
-    assert {t.name for t in topics_of(alone)} <= {t.name for t in topics_of(more)}
+    assert {t.name for t in questions_of(more)} - {t.name for t in questions_of(alone)} == ADDED[section]
+    assert {t.name for t in questions_of(alone)} <= {t.name for t in questions_of(more)}
     assert _tasks(alone) <= _tasks(more)
     assert (_tasks(more) > _tasks(alone)) == (section not in ("full", "tolerances", "inferred"))
     full_study(more)
@@ -148,8 +149,8 @@ def test_the_rover_stands_on_no_wheel_of_another_size() -> None:
 
 def test_a_rover_without_tires_of_the_study_s_own_has_the_thesis() -> None:
     """What a study does not state is the thesis'."""
-    own = {t.name: t.key(dict.fromkeys(t.needs, "")) for t in report_tasks(_study("rover", "ancf", "brush"), Path())}
-    without = {t.name: t.key(dict.fromkeys(t.needs, "")) for t in report_tasks(_study("rover"), Path())}
+    own = {t.name: t.key(dict.fromkeys(t.needs, "")) for t in report_tasks(_study("rover", "ancf", "brush"))}
+    without = {t.name: t.key(dict.fromkeys(t.needs, "")) for t in report_tasks(_study("rover"))}
     rover = [name for name in without if name.startswith("rover_")]
     assert len(rover) > 20
     assert {name: own[name] for name in rover} == {name: without[name] for name in rover}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contracts.errors import InputError
-from workbench.comparison.oscillation import period, ripple, spectrum
+from workbench.questions.rover.oscillation import period, ripple, spectrum
 
 TIME = np.linspace(0.0, 30.0, 301)
 

@@ -16,10 +16,10 @@ from contracts.records import Check, Timing
 from contracts.series import TimeSeries
 from workbench.report.evidence import Evidence
 from workbench.report.folders import check_folder
-from workbench.report.number_format import displayed, displayed_reference, largest_by_unit, power_of_ten
 from workbench.report.opening import verdict
 from workbench.report.outputs import curve_file, junit, publish, summary, to_json
 from workbench.report.own_files import FILES
+from workbench.verdict.number_format import displayed, displayed_reference, largest_by_unit, power_of_ten
 
 
 def _check(name: str, role: str = "gate", status: str = "pass", value: float | None = 8.0) -> Check:

@@ -1,4 +1,4 @@
-"""Figures of the page: each name belongs to one topic."""
+"""Figures of the page: each name belongs to one question."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from workbench.figures.still_charts import blank_figure
+from workbench.charts.still_charts import blank_figure
 from workbench.report import pdf
 from workbench.report.document import read_html
 from workbench.report.pdf import set_document

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from workbench.figures.interactive import empty_figure, figure_html
-from workbench.figures.printed import draw, plain, values
+from workbench.charts.interactive import empty_figure, figure_html
+from workbench.charts.printed import draw, plain, values
 from workbench.report.document import read_html
 
 

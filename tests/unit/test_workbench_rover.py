@@ -1,4 +1,4 @@
-"""The topic of the rover: tasks, files, checks, figures, section."""
+"""The question of the rover: tasks, files, checks, figures, section."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
-import workbench.report.page
 from contracts.records import Check
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from workbench.execution.result_files import read_result
+from workbench.questions.rover.question import CLOSED_FORMS, MISSION, ROVER, THESIS, RoverResults
+from workbench.questions.rover.task import drive_rover
+from workbench.report.page import TEMPLATES
 from workbench.report.series import series_files
 from workbench.study.model_parameters import rover_on_brush
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.rover import drive_rover
-from workbench.topics.rover import CLOSED_FORMS, MISSION, ROVER, THESIS, RoverResults
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +29,8 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> RoverResults:
         for task in (one for one in ROVER.tasks(study) if "scenario" in one.inputs):
             folders[task.name] = tmp_path_factory.mktemp(task.name)
             assert drive_rover(task.inputs, {}, folders[task.name], lambda fraction: None) == 6 * 22
+    folders["rover_still"] = tmp_path_factory.mktemp("still")
+    Image.new("RGB", (4, 3)).save(folders["rover_still"] / "rover.png")
     found = ROVER.read(study, folders)
     assert isinstance(found, RoverResults)
     return found
@@ -102,9 +105,7 @@ def test_series_and_figures_of_the_section_exist(results: RoverResults) -> None:
     study = read_study(built_in_study())
     published = series_files(ROVER.series(study, results))
     assert set(published) == {f"{name}_brush.csv" for name in SCENARIOS}
-    text = (Path(workbench.report.page.__file__).parent / "templates" / "section_rover.html.j2").read_text(
-        encoding="utf-8"
-    )
+    text = (TEMPLATES[1] / "rover" / "section.html.j2").read_text(encoding="utf-8")
     assert set(re.findall(r"figures\.(\w+)", text)) == set(ROVER.figures(study, results))
 
 

@@ -1,4 +1,4 @@
-"""The topic of the rover on ANCF tires: runs, what a task leaves, what is read, checks and section."""
+"""The question of the rover on ANCF tires: runs, what a task leaves, what is read, checks and section."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from contracts.records import Check
 from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.comparison.rover_ancf_results import AncfRover
-from workbench.comparison.rover_drive import Drive, read_drive
 from workbench.execution.result_files import read_result
+from workbench.questions.rover.drive import Drive, read_drive
+from workbench.questions.rover_ancf.question import LONG, ROVER_ANCF, SHORT, runs_of
+from workbench.questions.rover_ancf.results import AncfRover
+from workbench.questions.rover_ancf.runs import ancf_run
+from workbench.questions.rover_ancf.task import drive_on_ancf_tires
 from workbench.report.page import page_environment
 from workbench.report.series import series_links
+from workbench.study.ancf_tire import tire_values
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.ancf_tire import tire_values
-from workbench.tasks.rover_ancf import drive_on_ancf_tires
-from workbench.tasks.rover_ancf_runs import ancf_run
-from workbench.topics.rover_ancf import LONG, ROVER_ANCF, SHORT, runs_of
 
 SPIN = 0.1364
 TIRE = build_tire(thesis_preset())
@@ -182,8 +182,8 @@ def test_three_spokes_follow_on_each_other_after_a_third_of_a_turn(results: Ancf
 def test_the_section_shows_both_tires_and_what_stopped(study: Study, results: AncfRover) -> None:
     environment = page_environment()
     series, figures = series_links(ROVER_ANCF.series(study, results)), ROVER_ANCF.figures(study, results)
-    template = environment.get_template("section_rover_ancf.html.j2")
-    text = template.render(topic=results, series=series, figures=figures)
+    template = environment.get_template("rover_ancf/section.html.j2")
+    text = template.render(results=results, series=series, figures=figures)
     assert results.power == pytest.approx(
         {"drives": 50.0, "contact_damping": 30.0, "kinetic": 20.0, "speed": 0.0187}
         | dict.fromkeys(("strain", "contact", "weight", "damping", "friction"), 0.0)

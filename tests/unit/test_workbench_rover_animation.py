@@ -26,10 +26,10 @@ from contracts.terrain_ridges import Step
 from rover_dynamics.rover.rover import build_rover
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.vehicle.vehicle import VehicleMotion
-from workbench.figures.rover_animation import framing, shown_frames, write_animation
-from workbench.figures.rover_solids import MARKER, body_names, ground_solids, rover_solids
-from workbench.figures.solids import Solid
-from workbench.figures.stills import View, draw_motion
+from workbench.charts.solids import Solid
+from workbench.charts.stills import View, draw_motion
+from workbench.questions.rover.animation import framing, shown_frames, write_animation
+from workbench.questions.rover.solids import MARKER, body_names, ground_solids, rover_solids
 
 DESIGN = read_rover()
 NAMES = body_names(DESIGN)

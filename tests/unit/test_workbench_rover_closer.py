@@ -9,20 +9,20 @@ import jinja2
 import numpy as np
 import pytest
 
-import workbench.report.page
 from contracts.series import TimeSeries, read_series
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
 from tests.unit.test_workbench_tire_animation import TIRE, flexible
-from workbench.comparison.rover_closer_results import CloserLook, Resting
-from workbench.comparison.rover_drive import Drive
+from workbench.questions.rover.close_look import PRESSURE, body_series, write_close_look
+from workbench.questions.rover.drive import Drive
+from workbench.questions.rover_ancf.question import ROVER_ANCF
+from workbench.questions.rover_closer.question import ROVER_CLOSER
+from workbench.questions.rover_closer.results import CloserLook, Resting
+from workbench.report.page import TEMPLATES
 from workbench.report.series import series_links
 from workbench.study.model_parameters import ancf_preset
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.rover_close_look import PRESSURE, body_series, write_close_look
-from workbench.topics.rover_ancf import ROVER_ANCF
-from workbench.topics.rover_closer import ROVER_CLOSER
 
 T = np.arange(0.0, 40.0, 0.02)
 STUDY = read_study(built_in_study())
@@ -135,22 +135,22 @@ def test_a_tire_of_ones_own_that_does_not_carry_the_rover_is_a_finding() -> None
 def test_the_section_shows_what_there_is() -> None:
     found = look()
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates"),
+        loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
     )
-    template = environment.get_template("section_rover_closer.html.j2")
+    template = environment.get_template("rover_closer/section.html.j2")
     links = series_links(list(found.series.values()))
     figures = ROVER_CLOSER.figures(STUDY, found)
-    text = template.render(topic=found, figures=figures, series=links)
+    text = template.render(results=found, figures=figures, series=links)
     assert "&lt;p&gt;page&lt;/p&gt;" in text
     assert "ended early: a tire folds" in text
     assert "50 mm long; largest pressure 40.0 kPa" in text
     bare = replace(found, series={}, pressure=np.zeros((0, 5)), stopped={}, animation=None)
-    text = template.render(topic=bare, figures=ROVER_CLOSER.figures(STUDY, bare), series={})
+    text = template.render(results=bare, figures=ROVER_CLOSER.figures(STUDY, bare), series={})
     assert "iframe" not in text
     fallen = replace(found, resting=None, stopped={"at rest": "a tire folded"})
-    text = template.render(topic=fallen, figures=figures, series=links)
+    text = template.render(results=fallen, figures=figures, series=links)
     assert "at rest: the drive on ANCF tires ended early: a tire folded" in text
 
 

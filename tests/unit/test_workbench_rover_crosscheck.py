@@ -10,14 +10,22 @@ import jinja2
 import numpy as np
 import pytest
 
-import workbench.report.page
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.comparison.mesh_study import MeshRun, MeshStudy
-from workbench.comparison.rover_crosscheck import CrossCheck, StoodTire, Warmth, WheelPoint, image, lattice, unsolved
+from workbench.questions.mesh_study.results import MeshRun, MeshStudy
+from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK, SWEEP
+from workbench.questions.rover_crosscheck.results import (
+    CrossCheck,
+    StoodTire,
+    Warmth,
+    WheelPoint,
+    image,
+    lattice,
+    unsolved,
+)
+from workbench.questions.rover_crosscheck.task import stand
+from workbench.report.page import TEMPLATES
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.rover_crosscheck import stand
-from workbench.topics.rover_crosscheck import ROVER_CROSSCHECK, SWEEP
 
 D = np.linspace(0.0, 0.04, 41)
 STUDY = read_study(built_in_study())
@@ -144,12 +152,12 @@ def test_a_fit_without_a_result_is_passed_on(tmp_path: Path) -> None:
 def test_the_section_says_what_was_found() -> None:
     found = results(1.04)
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates"),
+        loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
     )
     figures = ROVER_CROSSCHECK.figures(STUDY, found)
-    text = environment.get_template("section_rover_crosscheck.html.j2").render(topic=found, figures=figures)
+    text = environment.get_template("rover_crosscheck/section.html.j2").render(results=found, figures=figures)
     assert "5 orientations are solved by the solid model; the 8 others" in " ".join(text.split())
     assert text.count("crosscheck-sweep") > 1
     assert text.count("<td>section</td>") == 16

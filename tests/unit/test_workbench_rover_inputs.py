@@ -19,18 +19,18 @@ from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from workbench.commands.rover_tires import on_tires
 from workbench.execution.task import Task
+from workbench.questions.rover.question import ROVER
+from workbench.questions.rover.tires import AncfRide, contact_law
+from workbench.questions.rover_ancf.question import LONG, ROVER_ANCF, SHORT
+from workbench.questions.rover_ancf.runs import FINE_GRID, ancf_run
+from workbench.questions.rover_closer.question import ROVER_CLOSER
+from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
+from workbench.questions.rover_mission.question import ROVER_MISSION
+from workbench.study.ancf_tire import tire_from
+from workbench.study.brush_tire import brush_from
 from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, rover_on_ancf, rover_on_brush
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.ancf_tire import tire_from
-from workbench.tasks.brush import brush_from
-from workbench.tasks.rover_ancf_runs import FINE_GRID, ancf_run
-from workbench.tasks.rover_tires import AncfRide, contact_law
-from workbench.topics.rover import ROVER
-from workbench.topics.rover_ancf import LONG, ROVER_ANCF, SHORT
-from workbench.topics.rover_closer import ROVER_CLOSER
-from workbench.topics.rover_crosscheck import ROVER_CROSSCHECK
-from workbench.topics.rover_mission import ROVER_MISSION
 
 STUDY, DESIGN = read_study(built_in_study()), read_rover()
 ON_BRUSH = {f"rover_{name}" for name in SCENARIOS}
@@ -76,8 +76,8 @@ def changed(section: str, **values: Any) -> Study:
 
 def keys(study: Study) -> dict[str, str]:
     """Of every rover task, as if what it needs stayed the same."""
-    topics = (ROVER, ROVER_ANCF, ROVER_CROSSCHECK, ROVER_MISSION, ROVER_CLOSER)
-    tasks: list[Task] = [task for topic in topics for task in topic.tasks(study)]
+    questions = (ROVER, ROVER_ANCF, ROVER_CROSSCHECK, ROVER_MISSION, ROVER_CLOSER)
+    tasks: list[Task] = [task for question in questions for task in question.tasks(study)]
     return {task.name: task.key(dict.fromkeys(task.needs, "")) for task in tasks if task.name.startswith("rover")}
 
 
@@ -199,6 +199,6 @@ def test_a_study_of_another_wheel_is_refused_and_its_ancf_tire_not_driven() -> N
     own = amalia.model_copy(update={"brush": changed("brush", radial_stiffness=16500.0).brush})
     assert on_tires(SCENARIOS["static"], "brush", own, small).tire.radial_stiffness == 16500.0
     assert (fits_rover(STUDY), fits_rover(amalia)) == (True, False)
-    topics: Mapping[str, Any] = {t.name: t for t in (ROVER_ANCF, ROVER_CROSSCHECK, ROVER_MISSION, ROVER_CLOSER)}
-    assert [t.applies(amalia) for t in topics.values()] == [False] * 4
-    assert [t.applies(STUDY) for t in topics.values()] == [True] * 4
+    questions: Mapping[str, Any] = {t.name: t for t in (ROVER_ANCF, ROVER_CROSSCHECK, ROVER_MISSION, ROVER_CLOSER)}
+    assert [t.applies(amalia) for t in questions.values()] == [False] * 4
+    assert [t.applies(STUDY) for t in questions.values()] == [True] * 4

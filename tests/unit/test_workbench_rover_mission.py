@@ -12,15 +12,15 @@ from ancf_reduced.tire.preset import thesis_preset
 from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.comparison.rover_drive import Drive
 from workbench.execution.result_files import FAILURE, read_result, write_result
+from workbench.questions.rover.drive import Drive
+from workbench.questions.rover.tires import AncfRide
+from workbench.questions.rover_ancf.runs import FITTED_DAMPING, SETTLING_DAMPING, fitted_run
+from workbench.questions.rover_ancf.task import drive_on_fitted_tires
+from workbench.questions.rover_mission.question import ROVER_MISSION, Mission
 from workbench.report.page import page_environment
 from workbench.report.series import series_links
 from workbench.study.reading import built_in_study, read_study
-from workbench.tasks.rover_ancf import drive_on_fitted_tires
-from workbench.tasks.rover_ancf_runs import FITTED_DAMPING, SETTLING_DAMPING, fitted_run
-from workbench.tasks.rover_tires import AncfRide
-from workbench.topics.rover_mission import ROVER_MISSION, Mission
 
 STUDY = read_study(built_in_study())
 WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
@@ -94,8 +94,8 @@ def test_the_section_draws_each_run_and_says_where_it_ends(mission: Mission) -> 
     environment = page_environment()
     figures, series = ROVER_MISSION.figures(STUDY, mission), series_links(list(ROVER_MISSION.series(STUDY, mission)))
     assert set(figures) == {f"mission_{n}_{what}" for n in ("slope_up", "step") for what in ("load", "place")}
-    text = environment.get_template("section_rover_mission.html.j2").render(
-        topic=mission, figures=figures, series=series
+    text = environment.get_template("rover_mission/section.html.j2").render(
+        results=mission, figures=figures, series=series
     )
     for words in ("a tire folds at t = 20.3 s", "met</td><td>met", 'download="step_fitted_ancf.csv.gz"', "not met"):
         assert words in text, words

@@ -18,8 +18,8 @@ from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_terrain, touching_height
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario, scenario_series
-from workbench.tasks.rover_shapes import TireShapes
-from workbench.tasks.rover_tires import START_HEIGHT, on_ancf_tires
+from workbench.questions.rover.tire_shapes import TireShapes
+from workbench.questions.rover.tires import START_HEIGHT, on_ancf_tires
 
 DESIGN = read_rover()
 

@@ -12,9 +12,9 @@ import pytest
 from PIL import Image
 
 from rover_dynamics.rover.rover_file import read_rover
-from workbench.figures.packing import packed, picture_link, quantised, unpacked
-from workbench.figures.rover_scene import rover_pieces
-from workbench.figures.scenes import Look, Piece, Pose, Stressed, coloured_scene, stressed_scene
+from workbench.charts.packing import packed, picture_link, quantised, unpacked
+from workbench.charts.scenes import Look, Piece, Pose, Stressed, coloured_scene, stressed_scene
+from workbench.questions.rover.scene import rover_pieces
 
 LOOK = Look(eye=(1.0, -1.0, 0.5), zoom=1.5, alt='a "square"')
 SQUARE = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 0.5]])

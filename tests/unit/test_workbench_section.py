@@ -9,15 +9,15 @@ import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.errors import InputError
-from workbench.checks.section import largest_difference, section_checks
-from workbench.comparison.curves import ModelCurves
 from workbench.execution.task import task_keys
-from workbench.graph.study_graph import report_tasks, stiffness_tasks
+from workbench.questions.model_curves import ModelCurves
+from workbench.questions.registry import questions_of
+from workbench.questions.section.checks import largest_difference, section_checks
+from workbench.questions.section.question import SectionRuns
+from workbench.questions.study_graph import report_tasks, stiffness_tasks
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.sections import ToleranceSection
-from workbench.topics.registry import topics_of
-from workbench.topics.section import SectionRuns
 
 D = np.linspace(0.0, 0.03, 16)
 
@@ -81,9 +81,9 @@ def test_section_tasks_need_no_mesh_and_see_every_size(study: Study) -> None:
 
 def test_a_law_without_planar_form_leaves_the_topic_out(study: Study) -> None:
     neo = study.model_copy(update={"fe": study.fe.model_copy(update={"material_law": "neo_hookean"})})
-    assert "section" in {t.name for t in topics_of(study)}
-    assert "section" not in {t.name for t in topics_of(neo)}
-    assert not any(t.name.startswith("section_") for t in report_tasks(neo, built_in_study().parent))
+    assert "section" in {t.name for t in questions_of(study)}
+    assert "section" not in {t.name for t in questions_of(neo)}
+    assert not any(t.name.startswith("section_") for t in report_tasks(neo))
     with pytest.raises(InputError, match="no planar form"):
         stiffness_tasks(neo, "section", [])
 
@@ -91,6 +91,6 @@ def test_a_law_without_planar_form_leaves_the_topic_out(study: Study) -> None:
 def test_springs_that_bend_out_of_the_plane_leave_it_out_too(study: Study) -> None:
     springs = object()
     closed = study.model_copy(update={"wheel": study.wheel.model_copy(update={"sidewall_springs": springs})})
-    assert "section" not in {t.name for t in topics_of(closed)}
+    assert "section" not in {t.name for t in questions_of(closed)}
     with pytest.raises(InputError, match="out of the plane"):
         stiffness_tasks(closed, "section", [])

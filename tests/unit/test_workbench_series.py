@@ -7,7 +7,7 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.series import TimeSeries, series_text
-from workbench.figures.packing import unpacked
+from workbench.charts.packing import unpacked
 from workbench.report.series import is_ours, series_file, series_files, series_links
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from workbench.figures.solids import WORLD, Solid, bar, box, joined, tube
+from workbench.charts.solids import WORLD, Solid, bar, box, joined, tube
 
 Quads = tuple[NDArray[np.float64], NDArray[np.int64]]
 

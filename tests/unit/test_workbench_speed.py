@@ -11,20 +11,20 @@ import jinja2
 import numpy as np
 import pytest
 
-import workbench.report.page
 from benchmarks.fe_wheel import CASES
 from benchmarks.output.run import Run
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.errors import InputError
-from workbench.checks.benchmark_record import read_record
-from workbench.checks.speed_aim import Aim
-from workbench.checks.speed_ancf import CHRONO, ancf_aims
-from workbench.checks.speed_flexible import FASTER as FLEXIBLE_FASTER
-from workbench.checks.speed_flexible import STRAIGHT_PATH, TIME, flexible_aims
-from workbench.checks.speed_rover import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME, rover_aims
-from workbench.comparison.curves import ModelCurves
-from workbench.report.number_format import displayed
-from workbench.topics.speed import RANKS, SPEED, CurveCost, SpeedResults, _costs, kept_runs
+from workbench.questions.model_curves import ModelCurves
+from workbench.questions.speed.aim import Aim
+from workbench.questions.speed.ancf import CHRONO, ancf_aims
+from workbench.questions.speed.flexible import FASTER as FLEXIBLE_FASTER
+from workbench.questions.speed.flexible import STRAIGHT_PATH, TIME, flexible_aims
+from workbench.questions.speed.question import RANKS, SPEED, CurveCost, SpeedResults, _costs, kept_runs
+from workbench.questions.speed.record import read_record
+from workbench.questions.speed.rover import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME, rover_aims
+from workbench.report.page import TEMPLATES
+from workbench.verdict.number_format import displayed
 
 SOLID = CurveCost(model="fe", orientation=15.0, dofs=40, points=18, increments=19, iterations=72, solve_s=9.0)
 
@@ -121,11 +121,11 @@ def test_cost_is_read_from_the_stored_numbers() -> None:
 
 
 def test_the_section_says_met_and_missed() -> None:
-    loader = jinja2.FileSystemLoader(Path(workbench.report.page.__file__).parent / "templates")
+    loader = jinja2.FileSystemLoader(TEMPLATES)
     environment = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, autoescape=True)
     environment.filters["number"] = displayed
     found = results(SOLID, replace(SOLID, model="section", solve_s=6.0))
-    text = environment.get_template("section_speed.html.j2").render(topic=found)
+    text = environment.get_template("speed/section.html.j2").render(results=found)
     met = sum(aim.met for aim in found.aims)
     assert (text.count("✓ met"), text.count("△ missed")) == (met, len(found.aims) - met)
     assert 0 < met < len(found.aims)

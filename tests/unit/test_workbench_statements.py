@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError
-from workbench.checks.rules import Claim, at_most
-from workbench.checks.statements import Family, Statement, families, statement_of
 from workbench.study.sections import ToleranceSection
+from workbench.verdict.rules import Claim, at_most
+from workbench.verdict.statements import Family, Statement, families, statement_of
 
 ROOT = Path(__file__).parents[2]
 with (ROOT / "tests" / "data" / "shipped_checks.csv").open(encoding="utf-8", newline="") as stream:
@@ -59,7 +59,7 @@ def test_every_family_is_of_a_check_that_the_report_makes() -> None:
 
 
 def test_a_check_without_words_cannot_be_made() -> None:
-    with pytest.raises(InputError, match="workbench/data/statements, is to 0"):
+    with pytest.raises(InputError, match=r"statements\.toml, is to 0"):
         at_most(_claim("fe.unheard_of"), lambda: 1.0, 2.0)
     with pytest.raises(InputError, match="is to 2"):
         statement_of("a.b_x", "q", "t", [FAMILY, FAMILY])

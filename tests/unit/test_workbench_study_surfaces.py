@@ -17,13 +17,13 @@ from contracts.curves import read_curve
 from contracts.errors import StudyError
 from geometry.surface_step import write_surfaces_step
 from workbench.execution.task import Task
-from workbench.graph.study_graph import report_tasks, stiffness_tasks
+from workbench.questions.ancf.task import solve_orientation
+from workbench.questions.study_graph import report_tasks, stiffness_tasks
+from workbench.study.ancf_tire import tire_from, tire_values
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.rewrite import rewritten_study, rewritten_table
-from workbench.tasks.ancf import solve_orientation
-from workbench.tasks.ancf_tire import tire_from, tire_values
 
 TIRE = build_tire(thesis_preset())
 SURFACES = plate_surfaces(TIRE.mesh, TIRE.mesh.reference_coordinates())
@@ -89,7 +89,7 @@ def test_the_surfaces_are_part_of_the_key_and_the_file_s_date_is_not(exported: P
 def test_every_task_of_the_study_s_own_tire_has_its_plates(exported: Path, tmp_path: Path) -> None:
     """Curves, surfaces, comparison with the FE and motions; the refinement of a parametric tire is left out."""
     study = study_in(tmp_path, exported.read_text(encoding="utf-8"))
-    tasks = {task.name: task for task in report_tasks(study, tmp_path)}
+    tasks = {task.name: task for task in report_tasks(study)}
     own = ("ancf_phi000", "ancf_phi045", "ancf_surfaces", "ancf_as_it_is", "ancf_drop", "ancf_drop_share", "ancf_ride")
     assert all("plates" in tasks[name].inputs for name in own)
     assert not [name for name in tasks if name.startswith("ancf_plates_x")]

@@ -13,14 +13,14 @@ import pyarrow.parquet as pq  # type: ignore[import-untyped]
 import pytest
 
 from contracts.curves import StiffnessCurve, read_curve, write_curve
-from workbench.comparison.sweep import Outcome, outcomes, references
-from workbench.comparison.sweep_table import SweepTable, sweep_table
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.store import Entry
 from workbench.execution.task import task_keys
-from workbench.figures.sweep import coordinate_axes, curves_figure, parallel_coordinates
-from workbench.graph.study_graph import stiffness_tasks
-from workbench.graph.sweep import SweepGraph, sweep_graph
+from workbench.questions.study_graph import stiffness_tasks
+from workbench.questions.sweep.figures import coordinate_axes, curves_figure, parallel_coordinates
+from workbench.questions.sweep.graph import SweepGraph, sweep_graph
+from workbench.questions.sweep.results import Outcome, outcomes, references
+from workbench.questions.sweep.table import SweepTable, sweep_table
 from workbench.report.parquet import write_parquet
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study_table, study_of

@@ -16,9 +16,11 @@ from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from reference_fe.wheel.case import FieldSnapshot
 from workbench.execution.result_files import read_result, write_result
-from workbench.tasks import ancf, brush, metrics
-from workbench.tasks.field_file import read_points, write_fields, write_points
-from workbench.tasks.mesh_file import read_mesh, write_mesh
+from workbench.questions.ancf import task as ancf
+from workbench.questions.fe.field_file import read_points, write_fields, write_points
+from workbench.questions.models import brush_task as brush
+from workbench.questions.models import metrics_task as metrics
+from workbench.questions.wheel.mesh_file import read_mesh, write_mesh
 
 
 def _ignore(fraction: float) -> None:

@@ -21,10 +21,10 @@ from contracts.errors import InputError
 from contracts.terrain import Plane
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion
 from tests.unit.test_workbench_rover_animation import DESIGN, WHEELS, constant, rolling
-from workbench.figures.palette import STRAIN_COLOURS
-from workbench.figures.rover_animation import write_animation
-from workbench.figures.stills import View, draw_motion
-from workbench.figures.tire_animation import strain_colours, strained_tires
+from workbench.charts.palette import STRAIN_COLOURS
+from workbench.charts.stills import View, draw_motion
+from workbench.charts.tire_animation import strain_colours, strained_tires
+from workbench.questions.rover.animation import write_animation
 
 TIRE = build_tire(replace(thesis_preset(), quadrature=(3, 3, 2)))
 REST = tire_skin(TIRE, 2, 2).coordinates.restrict(TIRE.mesh.reference_coordinates())

@@ -9,13 +9,13 @@ from typing import Any
 
 import pytest
 
-from workbench.checks.verification import BENCHMARKS
-from workbench.comparison.verification_lines import benchmark_lines
-from workbench.figures.verification import verification_figures
+from workbench.questions.verification.checks import BENCHMARKS
+from workbench.questions.verification.figures import verification_figures
+from workbench.questions.verification.lines import benchmark_lines
+from workbench.questions.verification.question import VERIFICATION, ModelVerification, Verification
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.sections import VerificationSection
-from workbench.topics.verification import VERIFICATION, ModelVerification, Verification
 
 type Results = dict[str, dict[str, Any]]
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from workbench.checks.verification_ancf import ANCF_BENCHMARKS
-from workbench.comparison.verification_lines import benchmark_lines
-from workbench.figures.verification_ancf import ancf_verification_figures
-from workbench.topics.verification import ModelVerification
+from workbench.questions.verification.checks_ancf import ANCF_BENCHMARKS
+from workbench.questions.verification.figures_ancf import ancf_verification_figures
+from workbench.questions.verification.lines import benchmark_lines
+from workbench.questions.verification.question import ModelVerification
 
 type Results = dict[str, dict[str, Any]]
 

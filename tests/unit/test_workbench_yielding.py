@@ -7,7 +7,13 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.comparison.yielding import FirstYield, first_yield, peak_stresses, smallest_yield_load, utilisation
+from workbench.questions.strength.yielding import (
+    FirstYield,
+    first_yield,
+    peak_stresses,
+    smallest_yield_load,
+    utilisation,
+)
 
 STRENGTH = {"tire": 800e6, "springs": 1000e6, "hub": 500e6}
 

@@ -24,7 +24,7 @@ from geometry.wheel import WheelDesign
 from reference_fe.contact.obstacles import HalfRoundRock
 from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 from reference_fe.wheel.section import solve_section
-from workbench.checks.energy import energy_error, quadrature_error
+from workbench.questions.numerics.energy import energy_error, quadrature_error
 
 STEPS = 8
 END = 0.004

@@ -12,10 +12,10 @@ from pathlib import Path
 from contracts.errors import InputError
 from contracts.foreign_folder import read_json
 from workbench.commands.computing import console, tell_kept
-from workbench.comparison.baseline import SUMMARY, read_baseline
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.own_files import plain_file
 from workbench.report.placing import keep_foreign
+from workbench.verdict.baseline import SUMMARY, read_baseline
 
 __all__ = ["run_accept"]
 

@@ -18,26 +18,26 @@ from contracts.curves import read_curve
 from contracts.errors import InputError
 from contracts.input_file import input_text
 from workbench.commands.computing import read_and_warn, tell_kept
-from workbench.comparison.calibration import Calibration, Trial, calibrate, scaled_study, strip_thicknesses
-from workbench.comparison.curves import CURVE, mean_curve
 from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
 from workbench.execution.terminal import console
-from workbench.graph.fe import without_fields
-from workbench.graph.section import without_planar_model
-from workbench.graph.study_graph import stiffness_tasks
+from workbench.questions.calibration import Calibration, Trial, calibrate, scaled_study, strip_thicknesses
+from workbench.questions.fe.graph import without_fields
+from workbench.questions.model_curves import CURVE, mean_curve
+from workbench.questions.section.graph import without_planar_model
+from workbench.questions.study_graph import stiffness_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish, to_json
 from workbench.study.magnitudes import require_possible
 from workbench.study.model import Study
+from workbench.study.orientation import degrees
 from workbench.study.quantities import to_si
 from workbench.study.reading import built_in_study, study_of
 from workbench.study.rewrite import rewritten_study
 from workbench.study.wheel_design import wheel_design
-from workbench.tasks.orientation import degrees
 
 __all__ = ["run_calibrate"]
 

@@ -15,23 +15,23 @@ from rich.table import Table
 from contracts.errors import InputError
 from contracts.input_file import input_text
 from workbench.commands.computing import read_and_warn, tell_kept
-from workbench.comparison.ancf_fit import FittedTire, read_fit
 from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
 from workbench.execution.terminal import console
-from workbench.graph.fit import AS_IT_IS, fit_name, fit_tasks
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.ancf_fit.fit import FittedTire, read_fit
+from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.report.folders import check_folder, check_targets
-from workbench.report.number_format import displayed
 from workbench.report.outputs import publish, to_json
+from workbench.study.ancf_tire import preset_from
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset
 from workbench.study.reading import built_in_study, study_of
 from workbench.study.rewrite import rewritten_study, rewritten_table
-from workbench.tasks.ancf_tire import preset_from
+from workbench.verdict.number_format import displayed
 
 __all__ = ["run_calibrate_ancf"]
 
@@ -49,7 +49,7 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     check_folder(out)
     name = f"{path.stem}_fitted.toml"
     check_targets(out, ("ancf_fit.json", name))
-    tasks = _with_needs(fit_tasks(study), report_tasks(study, path.parent))
+    tasks = _with_needs(fit_tasks(study), report_tasks(study))
     with RunDisplay(console, tasks) as display:
         entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
     own = read_fit("own", entries[AS_IT_IS].path)

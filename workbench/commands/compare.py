@@ -19,7 +19,7 @@ from workbench.study.curve_file import MeasuredCurve, load_uncertainty, newtons,
 from workbench.study.magnitudes import require_possible, unusual_curve
 
 if TYPE_CHECKING:
-    from workbench.comparison.curve_pair import CurvePair
+    from workbench.questions.two_curves.pair import CurvePair
 
 __all__ = ["CompareChoices", "run_compare"]
 
@@ -54,7 +54,7 @@ def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices)
     InputError
         For an option or a file that cannot be used.
     """
-    from workbench.comparison.curve_pair import compared
+    from workbench.questions.two_curves.pair import compared
 
     max_load = None if choices.max_load is None else _max_load(choices.max_load)
     tolerance = None if choices.tolerance is None else _tolerance(choices.tolerance)
@@ -126,7 +126,7 @@ def _print(pair: CurvePair, title: str) -> None:
 
 
 def _write(pair: CurvePair, out: Path) -> None:
-    from workbench.figures.compared import compared_still
+    from workbench.questions.two_curves.figures import compared_still
     from workbench.report.compared_page import compared_html, compared_table, compared_values
     from workbench.report.outputs import to_json
 

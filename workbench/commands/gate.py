@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contracts.records import Check
-from workbench.comparison.baseline import Baseline, changes_since
 from workbench.execution.terminal import Terminal
 from workbench.report.gate_summary import Gate, gate_lines, gate_markdown
+from workbench.verdict.baseline import Baseline, changes_since
 
 __all__ = ["GateChoices", "gate_of", "plain_console", "tell"]
 

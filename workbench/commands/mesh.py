@@ -17,8 +17,8 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.result_files import read_result
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
-from workbench.graph.study_graph import mesh_tasks
-from workbench.graph.surfaces import surfaces_task
+from workbench.questions.ancf.surfaces import surfaces_task
+from workbench.questions.study_graph import mesh_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import copy_files
 from workbench.study.magnitudes import require_possible

@@ -15,12 +15,11 @@ from rich.text import Text
 from contracts.records import Check
 from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn, tell_kept
 from workbench.commands.gate import GateChoices, gate_of, plain_console, tell
-from workbench.comparison.baseline import read_baseline
 from workbench.execution.integrity import stated
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.execution.task import Task, task_keys
-from workbench.graph.study_graph import report_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.gate_summary import gate_markdown, gate_rows
 from workbench.report.outputs import curve_file, field_files, junit, publish, summary, to_json
@@ -29,6 +28,7 @@ from workbench.study.full import full_study
 from workbench.study.loosened import loosened
 from workbench.study.magnitudes import warnings_of
 from workbench.study.reading import built_in_study
+from workbench.verdict.baseline import read_baseline
 
 __all__ = ["ReportChoices", "run_report"]
 
@@ -54,41 +54,39 @@ def run_report(
         with naming(path):
             study = full_study(study)
     if choices.dry_run:
-        return _list_tasks(report_tasks(study, path.parent), store)
+        return _list_tasks(report_tasks(study), store)
     check_folder(out)
     check_targets(out, (*_TEXTS, *(f"{folder}/any" for folder in ("curves", "fields", MOTIONS_FOLDER, SERIES_FOLDER))))
     accepted = None if choices.gate.baseline is None else read_baseline(choices.gate.baseline, study.name)
     shown_on = plain_console() if choices.gate.ci else console
-    entries = computed(path, report_tasks(study, path.parent), store, computing, shown_on)
+    entries = computed(path, report_tasks(study), store, computing, shown_on)
 
-    from workbench.comparison.comparison import compare, exit_status
-    from workbench.comparison.results import task_timings
+    from workbench.questions.comparison import compare
     from workbench.report.curve_links import curve_links
     from workbench.report.evidence import evidence_of
     from workbench.report.opening import verdict
     from workbench.report.page import PageContent, render, rendered_sections
     from workbench.report.pdf import document_pdf
-    from workbench.report.provenance import provenance
+    from workbench.report.provenance import provenance, task_timings
     from workbench.report.series import series_files
-    from workbench.topics.registry import topics_of
+    from workbench.verdict.status import exit_status
 
     with naming(path):
         folders = {name: entry.path for name, entry in entries.items()}
         found = compare(study, folders)
     timings, origin = task_timings(entries), provenance(path, entries)
-    curves = [*found.curves, *(c for topic in topics_of(study) for c in topic.curves(study, found.topics[topic.name]))]
-    series = [one for topic in topics_of(study) for one in topic.series(study, found.topics[topic.name])]
-    named = [f"curves/{curve_file(curve)}" for curve in curves] + [f"series/{name}" for name in series_files(series)]
+    named = [f"curves/{curve_file(curve)}" for curve in found.curves]
+    named += [f"series/{name}" for name in series_files(found.series)]
     evidence = evidence_of(study, found, origin["tasks"], named)
     content = PageContent(
         study=study,
         found=found,
-        results=folders,
         timings=timings,
         provenance=origin,
         evidence=evidence,
-        curves=curve_links(curves),
+        curves=curve_links(found.curves),
     )
+    copies = field_files(entries) | _motion_files(entries)
     gate = gate_of(study.name, verdict(found.checks, loosened(study)), found.checks, accepted)
     page = rendered_sections(content)
     texts: dict[str, str | bytes] = {
@@ -100,7 +98,7 @@ def run_report(
             summary(study.name, evidence, timings, origin) | {"warnings": warnings_of(study)} | gate_rows(gate)
         ),
     }
-    tell_kept(publish(out, "report", texts, curves, series, field_files(entries) | _motion_files(entries)), shown_on)
+    tell_kept(publish(out, "report", texts, found.curves, found.series, copies), shown_on)
     if choices.gate.ci:
         tell(gate, shown_on)
     else:
@@ -131,7 +129,7 @@ def _motion_files(entries: dict[str, Entry]) -> dict[str, Path]:
 
 
 def _print_checks(checks: Sequence[Check]) -> None:
-    from workbench.report.number_format import displayed
+    from workbench.verdict.number_format import displayed
 
     table = Table(title="checks", title_justify="left")
     for column in ("status", "role", "check", "value", "tolerance"):

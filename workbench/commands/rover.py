@@ -25,10 +25,10 @@ from workbench.commands.rover_tires import check_tire, on_tires
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console
 from workbench.report.folders import check_folder, check_targets
-from workbench.report.number_format import displayed
 from workbench.report.placing import new_files
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, series_file
-from workbench.tasks.ancf_tire import tire_values
+from workbench.study.ancf_tire import tire_values
+from workbench.verdict.number_format import displayed
 
 __all__ = ["RoverChoices", "list_scenarios", "run_rover"]
 
@@ -114,13 +114,13 @@ def _resumed(scenario: Scenario, design: RoverDesign, store: Path) -> Scenario:
     """The scenario on ANCF tires with its checkpoint in the store, named after what decides its motion."""
     from workbench.execution.store import Store
     from workbench.execution.task import Task
-    from workbench.tasks.rover_tires import AncfRide, resuming
+    from workbench.questions.rover.tires import AncfRide, resuming
 
     assert isinstance(scenario.ride, AncfRide)
     tire, law = scenario.ride.tire, scenario.ride.on_ground(scenario)
     task = Task(
         name=f"rover_{scenario.name}",
-        function="workbench.tasks.rover_tires:on_ancf_tires",
+        function="workbench.questions.rover.tires:on_ancf_tires",
         inputs={
             "scenario": scenario.name,
             "title": scenario.title,
@@ -146,16 +146,16 @@ def _more(scenario: Scenario, design: RoverDesign) -> list[Outcome]:
 
 def _record(scenario: Scenario, run: ScenarioRun, path: Path) -> None:
     """The motion as a file for the viewer."""
-    from workbench.tasks.motion_file import write_motion
-    from workbench.tasks.rover_tires import tire_of
+    from workbench.questions.rover.motion_file import write_motion
+    from workbench.questions.rover.tires import tire_of
 
     tire = tire_of(scenario)
     write_motion(run, path, None if tire is None else tire_values(tire.preset, tire.mesh))
 
 
 def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Path) -> None:
-    from workbench.figures.rover_animation import write_animation
-    from workbench.tasks.rover_tires import tire_of
+    from workbench.questions.rover.animation import write_animation
+    from workbench.questions.rover.tires import tire_of
 
     (x, y, z), ground = scenario.tilt.gravity(1.0), scenario.terrain(design)
     title, tire = scenario.title, tire_of(scenario)

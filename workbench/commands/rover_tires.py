@@ -27,8 +27,8 @@ def _on_rigid(scenario: Scenario, study: Study | None) -> Scenario:
 
 
 def _on_ancf(scenario: Scenario, study: Study | None) -> Scenario:
-    from workbench.tasks.ancf_tire import tire_from
-    from workbench.tasks.rover_tires import on_ancf_tires
+    from workbench.questions.rover.tires import on_ancf_tires
+    from workbench.study.ancf_tire import tire_from
 
     return on_ancf_tires(scenario, None if study is None else tire_from(rover_on_ancf(study)))
 

@@ -22,11 +22,11 @@ from workbench.commands.computing import (
     tell_kept,
     warn,
 )
-from workbench.comparison.results import stiffness_curves, yield_strengths
-from workbench.comparison.yielding import PeakStress, peak_stresses
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
-from workbench.graph.study_graph import MODELS, stiffness_tasks
+from workbench.questions.models.curves import stiffness_curves
+from workbench.questions.strength.yielding import PeakStress, peak_stresses, yield_strengths
+from workbench.questions.study_graph import MODELS, stiffness_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import field_files, publish
 from workbench.study.model import Study

@@ -16,8 +16,8 @@ from contracts.errors import InputError
 from contracts.input_file import input_text
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.disk import STUDY, naming_the_disk
-from workbench.graph.study_graph import report_tasks
-from workbench.graph.sweep import sweep_graph
+from workbench.questions.study_graph import report_tasks
+from workbench.questions.sweep.graph import sweep_graph
 from workbench.report.placing import moved
 from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.study.rewrite import rewritten_study
@@ -65,7 +65,7 @@ def run_check(path: Path) -> int:
     points = end_points(path, read_study_table(path)) if study.sweep is not None else []
     warn(path, beyond_reach(study, points))
     with naming(path):
-        tasks = report_tasks(study, path.parent)
+        tasks = report_tasks(study)
         if study.sweep is not None:
             sweep_graph(points, study.sweep.models)
     console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)

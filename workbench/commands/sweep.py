@@ -11,13 +11,13 @@ from typing import Any
 
 from contracts.errors import InputError, StudyError
 from workbench.commands.computing import console, naming, tell_kept, warn
-from workbench.comparison.sweep import Outcome, outcomes, references
-from workbench.comparison.sweep_table import SweepTable, sweep_table
 from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_all
 from workbench.execution.store import Store
-from workbench.graph.sweep import sweep_graph
+from workbench.questions.sweep.graph import sweep_graph
+from workbench.questions.sweep.results import Outcome, outcomes, references
+from workbench.questions.sweep.table import SweepTable, sweep_table
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.parquet import write_parquet
 from workbench.report.placing import new_files

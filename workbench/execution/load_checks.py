@@ -144,7 +144,7 @@ subprocess.run([mpiexec(), "-n", "2", sys.executable, "-c", code], check=True)
         purpose="report.pdf and its fonts",
         code="""
 import typst
-from workbench.figures.still_charts import font_folder
+from workbench.charts.still_charts import font_folder
 folders = [str(font_folder())]
 known = typst.Fonts(include_system_fonts=False, font_paths=folders).families()
 assert {"DejaVu Sans", "Libertinus Serif"} <= set(known), f"fonts: only {known}"

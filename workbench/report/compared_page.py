@@ -14,7 +14,7 @@ import numpy as np
 
 from contracts.csv_table import CsvTable, table_text
 from contracts.text import for_html
-from workbench.comparison.curve_pair import CurvePair
+from workbench.questions.two_curves.pair import CurvePair
 
 __all__ = ["Row", "compared_html", "compared_rows", "compared_table", "compared_values", "sentence"]
 
@@ -108,8 +108,8 @@ def compared_table(pair: CurvePair) -> str:
 
 def compared_html(pair: CurvePair) -> str:
     """The page as text; nothing is loaded from elsewhere."""
-    from workbench.figures.compared import compared_figure
-    from workbench.figures.interactive import plotly_script
+    from workbench.charts.interactive import plotly_script
+    from workbench.questions.two_curves.figures import compared_figure
 
     both = (pair.curve.curve, pair.reference.curve)
     partial = [f"{one.model} is partial: its run ended before its target." for one in both if one.partial]

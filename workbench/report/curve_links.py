@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from contracts.curves import StiffnessCurve, write_curve
-from workbench.figures.packing import file_link
+from workbench.charts.packing import file_link
 from workbench.report.outputs import curve_file
 
 __all__ = ["curve_links"]

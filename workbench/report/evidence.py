@@ -1,7 +1,7 @@
 """Where each check comes from: the tasks behind it with the keys of their results, and the files that show it.
 
-Links follow from the task graph: a check of a topic rests on the topic's tasks, unless the words of its family, or its
-own identifier, name others. Verified by tests/unit/test_workbench_evidence.py.
+Links follow from the task graph: a check rests on the tasks of its question, unless the words of its family, or its own
+identifier, name others. Verified by tests/unit/test_workbench_evidence.py.
 """
 
 from __future__ import annotations
@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from contracts.records import Check
-from workbench.checks.statements import Statement, statement_of
-from workbench.comparison.comparison import Comparison
-from workbench.report.contents import section_of, section_titles
+from workbench.questions.comparison import Comparison
+from workbench.questions.registry import questions_of
 from workbench.study.model import Study
-from workbench.topics.registry import topics_of
+from workbench.verdict.statements import Statement, statement_of
 
 __all__ = ["Evidence", "evidence_of"]
 
@@ -27,7 +26,7 @@ class Evidence:
     Attributes
     ----------
     check : the check
-    section : section of the page that shows it, as `workbench.report.contents.section_of` says
+    section : section of the page that shows it, that of its question
     tasks : task -> key under which its result is stored: the hash of everything it depends on
     files : curves and series in the report's folder, e.g. ``"curves/fe_phi000.csv"``
     """
@@ -43,16 +42,16 @@ def evidence_of(study: Study, found: Comparison, keys: Mapping[str, str], files:
 
     Parameters
     ----------
-    study : decides the topics and their tasks
-    found : the checks, and which topic made each
+    study : decides the questions and their tasks
+    found : the checks, and which question made each
     keys : task -> key of its result, of the whole graph
     files : what the report publishes
     """
-    own = {topic.name: [task.name for task in topic.tasks(study)] for topic in topics_of(study)}
-    titles = section_titles(study)
+    own = {question.name: [task.name for task in question.tasks(study)] for question in questions_of(study)}
     return tuple(
-        _evidence(check, section_of(check, titles), own.get(found.topic_of.get(check.id, ""), ()), keys, files)
+        _evidence(check, name, own[name], keys, files)
         for check in found.checks
+        if (name := found.question_of[check.id])
     )
 
 
@@ -69,7 +68,7 @@ def _evidence(
 
 
 def _tasks(id: str, words: Statement, own: Sequence[str], keys: Mapping[str, str]) -> list[str]:
-    """Those the words name; else the topic's task whose name begins the identifier; else all of the topic's."""
+    """Those the words name; else the question's task whose name begins the identifier; else all of the question's."""
     if words.tasks:
         return [name for name in keys if any(fnmatchcase(name, pattern) for pattern in words.tasks)]
     flat = f"{id.replace('.', '_')}_"

@@ -15,15 +15,15 @@ from typing import Any
 
 from contracts.errors import InputError
 from contracts.text import for_markdown
-from workbench.report.number_format import displayed
+from workbench.verdict.number_format import displayed
 
 __all__ = ["document", "main", "rows_of", "written_list"]
 
 _HEAD = """# Evidence
 
 What each check of the shipped report claims, which tests hold the rule or the model behind it, and its last value; made
-by `make evidence` from a report's `summary.json`. The words are data, `workbench/data/statements`. Why each tolerance
-is what it is, and the tasks and files behind each value, are in the report's section "Evidence".
+by `make evidence` from a report's `summary.json`. The words are data, `workbench/questions/*/statements.toml`. Why each
+tolerance is what it is, and the tasks and files behind each value, are in the report's section "Evidence".
 """
 
 

@@ -12,8 +12,8 @@ from typing import Any
 
 from contracts.records import Check
 from contracts.text import for_markdown
-from workbench.comparison.baseline import NOISE, Baseline, Change, Kept
-from workbench.report.number_format import displayed, displayed_reference
+from workbench.verdict.baseline import NOISE, Baseline, Change, Kept
+from workbench.verdict.number_format import displayed, displayed_reference
 
 __all__ = ["Gate", "gate_lines", "gate_markdown", "gate_rows"]
 

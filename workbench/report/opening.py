@@ -9,12 +9,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from contracts.records import Check
-from workbench.comparison.agreement import Agreement
-from workbench.report.contents import section_of
-from workbench.report.number_format import displayed
+from workbench.questions.comparison import Comparison
+from workbench.questions.models.agreement import Agreement
 from workbench.study.loosened import loosened
 from workbench.study.magnitudes import unusual
 from workbench.study.model import Study
+from workbench.verdict.number_format import displayed
 
 __all__ = ["Opening", "Outside", "Rating", "check_groups", "counts", "opening", "verdict"]
 
@@ -82,10 +82,9 @@ class Opening:
     outside: Sequence[Outside]
 
 
-def opening(
-    study: Study, checks: Sequence[Check], judged: Mapping[str, Agreement], titles: Mapping[str, str]
-) -> Opening:
-    """Choose it; ``titles`` are those of the sections by name."""
+def opening(study: Study, found: Comparison) -> Opening:
+    """Choose it."""
+    checks, judged = found.checks, found.agreements
     names = {"ancf_average": "ANCF tire", "brush": "Brush tire"}
     names |= {f"user_{k}": user.label for k, user in enumerate(study.compare.curves)}
     ratings = [
@@ -99,7 +98,7 @@ def opening(
         ratings=ratings,
         band=[c for c in checks if c.id == "fe.initial_tangent" or c.id.startswith("fe.deflection_at_")],
         outside=[
-            Outside(check=c, section=section_of(c, titles), value=displayed(c.value, c.unit, c.quantity)) for c in bad
+            Outside(check=c, section=found.question_of[c.id], value=displayed(c.value, c.unit, c.quantity)) for c in bad
         ],
     )
 
@@ -132,9 +131,9 @@ def counts(checks: Sequence[Check]) -> list[tuple[str, str, int]]:
     return [row for row in counted if row[2]]
 
 
-def check_groups(checks: Sequence[Check], titles: Mapping[str, str]) -> list[tuple[str, str, list[Check]]]:
-    """Section, its title, its checks; in the order of the sections."""
+def check_groups(found: Comparison, titles: Mapping[str, str]) -> list[tuple[str, str, list[Check]]]:
+    """Section, its title, its checks; in the order of the sections (name -> title)."""
     held: dict[str, list[Check]] = {}
-    for check in checks:
-        held.setdefault(section_of(check, titles), []).append(check)
+    for check in found.checks:
+        held.setdefault(found.question_of[check.id], []).append(check)
     return [(name, titles[name], held[name]) for name in titles if name in held]

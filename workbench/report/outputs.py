@@ -16,20 +16,20 @@ from contracts.curves import StiffnessCurve, write_curve
 from contracts.records import Check, Timing
 from contracts.series import TimeSeries, write_series
 from contracts.text import for_json, one_line
-from workbench.comparison.baseline import Change
-from workbench.comparison.comparison import overall_status
 from workbench.execution.store import Entry
+from workbench.questions.fe.field_file import POINTS_FILE
 from workbench.report.evidence import Evidence
 from workbench.report.placing import new_files
 from workbench.report.series import SERIES_FOLDER, series_files
-from workbench.tasks.field_file import POINTS_FILE
+from workbench.verdict.baseline import Change
+from workbench.verdict.status import overall_status
 
 __all__ = ["curve_file", "field_files", "junit", "publish", "summary", "to_json"]
 
 
 def curve_file(curve: StiffnessCurve) -> str:
     """``{model}_phi{DDD}.csv`` or ``{model}_average.csv``; the brush has one line only, its average."""
-    from workbench.tasks.orientation import orientation_name
+    from workbench.study.orientation import orientation_name
 
     if curve.orientation_deg is None:
         return f"{curve.model}_average.csv"

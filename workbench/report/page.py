@@ -16,21 +16,26 @@ import jinja2
 from contracts.errors import InputError
 from contracts.records import Timing
 from contracts.text import for_html, one_line
-from workbench.comparison.comparison import Comparison, overall_status
-from workbench.figures.interactive import plotly_source
-from workbench.figures.packing import packed
-from workbench.figures.palette import PART_COLOURS
+from workbench import questions
+from workbench.charts.interactive import plotly_source
+from workbench.charts.packing import packed
+from workbench.charts.palette import PART_COLOURS
+from workbench.questions.comparison import Comparison
 from workbench.report.chosen import chosen_groups
 from workbench.report.contents import Section, contents, section_titles
 from workbench.report.evidence import Evidence
-from workbench.report.number_format import displayed, displayed_reference, largest_by_unit, power_of_ten
 from workbench.report.opening import check_groups, opening
 from workbench.report.page_figures import page_figures
 from workbench.report.series import series_links
 from workbench.study.model import Study
-from workbench.topics.registry import topics_of
+from workbench.verdict.number_format import displayed, displayed_reference, largest_by_unit, power_of_ten
+from workbench.verdict.status import overall_status
 
-__all__ = ["PageContent", "Rendered", "page_environment", "render", "rendered_sections"]
+__all__ = ["TEMPLATES", "PageContent", "Rendered", "page_environment", "render", "rendered_sections"]
+
+
+TEMPLATES = (Path(__file__).parent / "templates", Path(questions.__file__).parent)
+"""The page's own, and the sections that lie with their questions."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,7 +46,6 @@ class PageContent:
     ----------
     study : the study, for titles and what is inferred
     found : the comparison
-    results : folder of each task's result by its name
     timings : wall time of each task
     provenance : as in ``summary.json``
     evidence : every check with its links
@@ -50,7 +54,6 @@ class PageContent:
 
     study: Study
     found: Comparison
-    results: Mapping[str, Path]
     timings: Sequence[Timing]
     provenance: Mapping[str, Any]
     evidence: Sequence[Evidence]
@@ -75,30 +78,26 @@ class Rendered:
 
 def rendered_sections(content: PageContent) -> Rendered:
     """Fill in every section's template."""
-    found, study, titles = content.found, content.study, section_titles(content.study)
-    figures, lacking = page_figures(study, found, content.results, partial=bool(content.provenance["partial"]))
+    found, study = content.found, content.study
+    figures, lacking = page_figures(study, found, partial=bool(content.provenance["partial"]))
     values: dict[str, Any] = {
-        "groups": contents(titles),
+        "groups": contents(study),
         "study": study,
-        "found": found,
-        "opening": opening(study, found.checks, found.agreements, titles),
+        "opening": opening(study, found),
         "status": overall_status(found.checks),
-        "check_groups": check_groups(found.checks, titles),
+        "check_groups": check_groups(found, section_titles(study)),
         "figures": figures,
-        "solver": [_solver_row(found, o) for o in found.fe.by_orientation],
         "timings": content.timings,
         "provenance": content.provenance,
         "evidence": content.evidence,
         "curves": content.curves,
         "chosen": chosen_groups(study),
-        "metrics": _metric_rows(found),
-        "agreements": found.agreements,
-        "series": series_links([s for t in topics_of(study) for s in t.series(study, found.topics[t.name])]),
+        "series": series_links(found.series),
         "colours": PART_COLOURS,
     }
     environment = page_environment()
     sections = [section for group in values["groups"] for section in group.sections]
-    texts = {section.name: _section_text(environment, section, values, lacking) for section in sections}
+    texts = {section.name: _section_text(environment, section, found, values, lacking) for section in sections}
     printed = {"checks": "", "evidence": environment.get_template("printed_evidence.html.j2").render(values)}
     return Rendered(sections=texts, printed=printed, values=values)
 
@@ -112,7 +111,7 @@ def render(rendered: Rendered) -> str:
 def page_environment() -> jinja2.Environment:
     """The templates of the page with their filters."""
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+        loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,
         finalize=_finalized,
         undefined=jinja2.StrictUndefined,
@@ -132,51 +131,21 @@ def _finalized(value: object) -> object:
 
 
 def _section_text(
-    environment: jinja2.Environment, section: Section, values: Mapping[str, Any], lacking: Mapping[str, InputError]
+    environment: jinja2.Environment,
+    section: Section,
+    found: Comparison,
+    values: Mapping[str, Any],
+    lacking: Mapping[str, InputError],
 ) -> str:
     """One section; where a partial curve leaves it without a number or a figure, its title and what is missing."""
-    topic = values["found"].topics.get(section.name)
+    asked = section.name in found.answers
+    name = f"{section.name}/section.html.j2" if asked else f"section_{section.name}.html.j2"
     try:
         if section.name in lacking:
             raise lacking[section.name]
-        return environment.get_template(f"section_{section.name}.html.j2").render(values, topic=topic)
+        return environment.get_template(name).render(values, results=found.answers.get(section.name))
     except (InputError, jinja2.UndefinedError) as error:
         if not values["provenance"]["partial"]:
             raise
         why = f"Not evaluated, because a curve is partial: {error}"
         return f'<section id="{section.name}"><h2>{section.title}</h2><p>{for_html(why)}</p></section>'
-
-
-def _solver_row(found: Comparison, orientation: float) -> dict[str, Any]:
-    """One orientation's line in the table of increments."""
-    curve, numbers = found.fe.by_orientation[orientation], found.fe.numbers[orientation]
-    records = numbers["increments"]
-    return {
-        "orientation": orientation,
-        "increments": sum(r["converged"] for r in records),
-        "cuts": sum(not r["converged"] for r in records),
-        "iterations": int(sum(len(r["residuals"]) - 1 for r in records)),
-        "partial": curve.partial,
-        "missing": curve.unloaded,
-        "residual": max((r["residuals"][-1] for r in records if r["converged"]), default=None),
-        "imbalance": float(abs(curve.columns["force_imbalance"]).max()),
-        "moment_imbalance": float(abs(curve.columns["moment_imbalance"]).max()),
-        "deflection": float(curve.deflection[-1]),
-        "load": float(curve.load[-1]),
-        "dofs": numbers["dofs"],
-        "solve_s": numbers["solve_s"],
-    }
-
-
-def _metric_rows(found: Comparison) -> list[tuple[str, str, Mapping[str, Any]]]:
-    """Pairs of curves: key, readable name, distances."""
-    names = {"ancf_average": "ANCF average, FE average", "brush": "brush line, FE average"}
-    names |= {f"user_{i}": f"FE, {user.label}" for i, user in enumerate(found.users)}
-    rows = []
-    for key, numbers in found.metrics.items():
-        orientation = key.removeprefix("ancf_phi")
-        name = names.get(key) or f"ANCF {orientation}°, FE {orientation}°"
-        fe = found.fe.average if key in names else found.fe.by_orientation[float(orientation)]
-        name += " (partial)" if fe.partial else ""
-        rows.append((key, name, numbers))
-    return rows

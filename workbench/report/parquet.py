@@ -7,7 +7,7 @@ from pathlib import Path
 import pyarrow as pa  # type: ignore[import-untyped]
 import pyarrow.parquet as pq  # type: ignore[import-untyped]
 
-from workbench.comparison.sweep_table import SweepTable
+from workbench.questions.sweep.table import SweepTable
 
 __all__ = ["write_parquet"]
 

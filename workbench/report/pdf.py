@@ -17,12 +17,12 @@ import typst
 from PIL import Image
 
 from contracts.records import Check
-from workbench.figures.printed import draw
-from workbench.figures.still_charts import font_folder
+from workbench.charts.printed import draw
+from workbench.charts.still_charts import font_folder
 from workbench.report.document import Node, Tree, read_html
-from workbench.report.number_format import displayed, displayed_reference
 from workbench.report.opening import Opening
 from workbench.report.page import Rendered
+from workbench.verdict.number_format import displayed, displayed_reference
 
 __all__ = ["document_pdf", "set_document", "with_pictures"]
 

@@ -13,12 +13,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from contracts.records import Timing
 from workbench.execution.doctor import NEEDED
 from workbench.execution.fingerprint import file_sha256, library_versions
 from workbench.execution.result_files import early_ends
 from workbench.execution.store import Entry
 
-__all__ = ["git_commit", "provenance"]
+__all__ = ["git_commit", "provenance", "task_timings"]
 
 
 def provenance(study_path: Path, entries: Mapping[str, Entry]) -> dict[str, Any]:
@@ -57,3 +58,8 @@ def git_commit(root: Path) -> str | None:
 def _git(root: Path, *arguments: str) -> str:
     run = subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True, check=True, timeout=10)
     return run.stdout.strip()
+
+
+def task_timings(entries: Mapping[str, Entry]) -> tuple[Timing, ...]:
+    """Wall time of the computation behind each stored result, in the order of the graph."""
+    return tuple(Timing(task=name, wall_s=entry.wall_s, dofs=entry.dofs) for name, entry in entries.items())

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from contracts.errors import InputError
 from contracts.series import TimeSeries, series_text
-from workbench.figures.packing import file_link
+from workbench.charts.packing import file_link
 
 __all__ = ["MOTIONS_FOLDER", "SERIES_FOLDER", "is_ours", "series_file", "series_files", "series_links"]
 

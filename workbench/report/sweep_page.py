@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from string import Template
 
 from contracts.text import for_html
-from workbench.comparison.sweep import Outcome
-from workbench.comparison.sweep_table import Cell, SweepTable
-from workbench.figures.interactive import plotly_script
-from workbench.figures.sweep import curves_figure, parallel_coordinates
+from workbench.charts.interactive import plotly_script
+from workbench.questions.sweep.figures import curves_figure, parallel_coordinates
+from workbench.questions.sweep.results import Outcome
+from workbench.questions.sweep.table import Cell, SweepTable
 
 __all__ = ["sweep_page"]
 

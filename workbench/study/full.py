@@ -9,9 +9,9 @@ import math
 
 from contracts.errors import InputError
 from workbench.study.model import Study
+from workbench.study.orientation import degrees
 from workbench.study.rover import RoverSection
 from workbench.study.wheel import ImpactSpringsSection
-from workbench.tasks.orientation import degrees
 
 __all__ = ["full_study", "is_mirrored", "rotational_period"]
 

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from workbench.study.ancf_tire import tire_values
+from workbench.study.brush_tire import brush_values
 from workbench.study.fit import FittedTireSection
 from workbench.study.model import Study, stated
 from workbench.study.wheel_design import in_section
-from workbench.tasks.ancf_tire import tire_values
-from workbench.tasks.brush import brush_values
 
 if TYPE_CHECKING:
     from ancf_reduced.plates.mesh import PlateMesh
@@ -66,7 +66,7 @@ def ancf_mesh(study: Study) -> PlateMesh | None:
 
 
 def ancf_tire(study: Study) -> dict[str, Any]:
-    """The ANCF tire as inputs of a task, see ``workbench.tasks.ancf_tire``."""
+    """The ANCF tire as inputs of a task, see ``workbench.study.ancf_tire``."""
     return tire_values(ancf_preset(study), ancf_mesh(study))
 
 
@@ -120,7 +120,7 @@ def on_tire_of_thesis(study: Study) -> bool:
 
 
 def rover_on_brush(study: Study) -> dict[str, Any]:
-    """Brush tire and ground of the rover as inputs of a task, see ``workbench.tasks.rover``."""
+    """Brush tire and ground of the rover as inputs of a task, see ``workbench.questions.rover.task``."""
     return {"brush": brush_values(rover_brush(study)), "friction": study.ground.friction}
 
 
@@ -134,6 +134,6 @@ def fits_rover(study: Study) -> bool:
 
 
 def rover_on_ancf(study: Study) -> dict[str, Any]:
-    """ANCF tire and ground of the rover as inputs of a task, see ``workbench.tasks.rover_ancf``."""
+    """ANCF tire and ground of the rover as inputs of a task, see ``workbench.questions.rover_ancf.task``."""
     mesh = None if study.ancf is None else ancf_mesh(study)
     return tire_values(rover_ancf(study), mesh) | {"friction": study.ground.friction}

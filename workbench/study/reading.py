@@ -81,7 +81,7 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         plain = isinstance(written, int | float) and " " in odd.value
         hint = f"a number without a unit is SI, here {odd.value}; {odd.hint}" if plain else odd.hint
         raise StudyError(path, dotted(odd.key), value, odd.rule, hint)
-    study = _with_surfaces_from(study, path.parent)
+    study = _with_whole_paths(study, path.parent)
     try:
         wheel_design(study)
         if study.ancf is not None:
@@ -95,7 +95,7 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
     if study.ancf is not None:
         _check_surfaces(path, study, table)
-    _check_curves(path, study)
+    _check_curves(path, study, table)
     return study
 
 
@@ -200,12 +200,14 @@ def _field_names(key: str, part: str, field: str, value: Any) -> list[tuple[str,
     return [(f"{key}.{field}", name) for name in sorted(names)]
 
 
-def _with_surfaces_from(study: Study, folder: Path) -> Study:
-    """The study with the whole path of its ANCF tire's surfaces."""
-    if study.ancf is None or study.ancf.surfaces is None:
-        return study
-    surfaces = str((folder / study.ancf.surfaces).absolute())
-    return study.model_copy(update={"ancf": study.ancf.model_copy(update={"surfaces": surfaces})})
+def _with_whole_paths(study: Study, folder: Path) -> Study:
+    """The study with the whole paths of its ANCF tire's surfaces and of the user's curves."""
+    curves = [one.model_copy(update={"file": str((folder / one.file).absolute())}) for one in study.compare.curves]
+    changes: dict[str, Any] = {"compare": study.compare.model_copy(update={"curves": tuple(curves)})}
+    if study.ancf is not None and study.ancf.surfaces is not None:
+        surfaces = str((folder / study.ancf.surfaces).absolute())
+        changes["ancf"] = study.ancf.model_copy(update={"surfaces": surfaces})
+    return study.model_copy(update=changes)
 
 
 def _check_surfaces(path: Path, study: Study, table: Mapping[str, Any]) -> None:
@@ -217,10 +219,11 @@ def _check_surfaces(path: Path, study: Study, table: Mapping[str, Any]) -> None:
         raise StudyError(path, error.section, table["ancf"]["surfaces"], f"{found}{error.rule}", error.hint) from error
 
 
-def _check_curves(path: Path, study: Study) -> None:
+def _check_curves(path: Path, study: Study, table: Mapping[str, Any]) -> None:
     """Read the user's own curves once, so that a bad one is found before anything runs."""
     for i, section in enumerate(study.compare.curves):
         try:
-            in_si(path.parent / section.file)
+            in_si(Path(section.file))
         except InputError as error:
-            raise StudyError(path, f"compare.curves[{i}].file", section.file, error.rule, error.hint) from error
+            written = _at(table, ("compare", "curves", i, "file"))
+            raise StudyError(path, f"compare.curves[{i}].file", written, error.rule, error.hint) from error

@@ -12,7 +12,7 @@ import numpy as np
 
 from contracts.curves import StiffnessCurve
 from contracts.series import TimeSeries
-from workbench.figures.palette import INK, MODEL_COLOURS, ORIENTATION_COLOURS
+from workbench.charts.palette import INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.viewer.folder import spoken
 from workbench.viewer.names import chart_text, plain
 

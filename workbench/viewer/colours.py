@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.figures.palette import STRESS_COLOURS
+from workbench.charts.palette import STRESS_COLOURS
 
 __all__ = ["ColourBar", "colour_bar"]
 

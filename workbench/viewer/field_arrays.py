@@ -1,4 +1,4 @@
-"""Arrays of the field files (.vtu) that `workbench.tasks.field_file` writes, decoded by what they say and no more.
+"""Arrays of the field files (.vtu) of `workbench.questions.fe.field_file`, decoded by what they say and no more.
 
 VTK's own readers take memory on a file's word and crash on some; a viewer opens folders of others. What is read here is
 what meshio writes: zlib blocks in base64 in one XML file, which names no other.

@@ -1,4 +1,4 @@
-"""What stands in the page's 3D view. Only `workbench.figures.stills` and `wheel_surface` import PyVista besides.
+"""What stands in the page's 3D view. Only `workbench.charts.stills` and `wheel_surface` import PyVista besides.
 
 Stills are drawn and gone; this scene lives as long as the page, whose browser draws it (vtk.js).
 
@@ -21,7 +21,7 @@ import pyvista as pv
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
-from workbench.figures.solids import WORLD, Quads, Solid
+from workbench.charts.solids import WORLD, Quads, Solid
 from workbench.viewer.field_arrays import field_arrays
 from workbench.viewer.wheel_surface import WheelField, WheelSurface, wheel_surface
 

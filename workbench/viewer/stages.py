@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
-from workbench.figures.palette import STRAIN_COLOURS
-from workbench.figures.solids import Quads
-from workbench.figures.tire_animation import StrainedTires, strained_tires
-from workbench.tasks.ancf_tire import drawn_tire
-from workbench.tasks.field_file import read_points
-from workbench.tasks.motion_file import RecordedMotion, read_motion
+from workbench.charts.palette import STRAIN_COLOURS
+from workbench.charts.solids import Quads
+from workbench.charts.tire_animation import StrainedTires, strained_tires
+from workbench.questions.fe.field_file import read_points
+from workbench.questions.rover.motion_file import RecordedMotion, read_motion
+from workbench.study.ancf_tire import drawn_tire
 from workbench.viewer.colours import ColourBar, colour_bar
 from workbench.viewer.scene import Camera, Scene, read_fields
 from workbench.viewer.wheel_surface import WheelField, WheelSurface

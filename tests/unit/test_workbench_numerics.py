@@ -1,0 +1,52 @@
+"""The table of increments says of each run what its result holds, of a partial and of a missing curve too."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from contracts.curves import StiffnessCurve
+from workbench.questions.model_curves import ModelCurves
+from workbench.questions.numerics.results import Numerics
+from workbench.questions.wheel.results import WheelMeshes
+
+D = np.linspace(0.0, 0.02, 5)
+INCREMENTS: list[dict[str, Any]] = [
+    {"converged": True, "residuals": [1.0, 1e-4, 3e-9]},
+    {"converged": False, "residuals": [1.0, 2.0]},
+    {"converged": True, "residuals": [0.5, 1e-9]},
+]
+
+
+def _numerics(points: int, increments: list[dict[str, Any]]) -> Numerics:
+    imbalance = {"force_imbalance": np.linspace(0.0, -2e-9, points), "moment_imbalance": np.full(points, 1e-10)}
+    curve = StiffnessCurve(
+        model="fe",
+        orientation_deg=15.0,
+        deflection=D[:points],
+        load=8e3 * D[:points],
+        columns=imbalance,
+        partial=points < len(D),
+    )
+    numbers = {15.0: {"increments": increments, "dofs": 12, "solve_s": 0.5}}
+    return Numerics(
+        fe=ModelCurves(model="fe", by_orientation={15.0: curve}, average=curve, numbers=numbers),
+        others=(),
+        meshes=cast(WheelMeshes, None),  # no row needs them
+        early_ends={},
+    )
+
+
+def test_a_row_counts_what_converged_and_what_was_cut_back() -> None:
+    (row,) = _numerics(5, INCREMENTS).rows
+    assert (row.orientation, row.increments, row.cuts, row.iterations) == (15.0, 2, 1, 4)
+    assert (row.partial, row.missing, row.residual) == (False, False, 3e-9)
+    assert (row.imbalance, row.moment_imbalance) == (2e-9, 1e-10)
+    assert (row.deflection, row.load) == pytest.approx((0.02, 160.0))
+
+
+def test_a_run_without_a_converged_increment_has_no_residual() -> None:
+    (row,) = _numerics(1, INCREMENTS[1:2]).rows
+    assert (row.increments, row.cuts, row.residual, row.partial, row.missing) == (0, 1, None, True, True)

@@ -1,0 +1,52 @@
+"""Questions of the report: each has its own folder with section and words, its own tasks and names."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from workbench import questions
+from workbench.questions.question import Group
+from workbench.questions.registry import QUESTIONS, questions_of
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+
+ROOT = Path(questions.__file__).parent
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    return read_study(built_in_study())
+
+
+def test_the_built_in_study_asks_every_question_once(study: Study) -> None:
+    assert questions_of(study) == QUESTIONS
+    names = [question.name for question in QUESTIONS]
+    assert len(names) == len(set(names))
+
+
+def test_every_question_has_a_folder_that_says_what_it_asks_and_its_section() -> None:
+    for question in QUESTIONS:
+        asked = (ROOT / question.name / "__init__.py").read_text(encoding="utf-8")
+        assert re.fullmatch(r'"""[A-Z].*\?(.*\))?"""\n', asked), question.name
+        text = (ROOT / question.name / "section.html.j2").read_text(encoding="utf-8")
+        assert f'<section id="{question.name}">' in text
+        assert (ROOT / question.name / "statements.toml").is_file()
+
+
+def test_every_section_and_every_word_belongs_to_a_question() -> None:
+    for name in ("section.html.j2", "statements.toml"):
+        assert {path.parent.name for path in ROOT.glob(f"*/{name}")} == {question.name for question in QUESTIONS}
+
+
+def test_questions_stand_in_the_order_of_their_groups() -> None:
+    groups = [question.group for question in QUESTIONS]
+    assert sorted(groups, key=get_args(Group).index) == groups
+
+
+def test_tasks_of_questions_do_not_meet(study: Study) -> None:
+    names = [task.name for question in QUESTIONS for task in question.tasks(study)]
+    assert len(names) == len(set(names))

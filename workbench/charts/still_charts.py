@@ -1,0 +1,75 @@
+"""Charts as pictures. The one module that imports matplotlib; needs no display.
+
+Verified by tests/unit/test_workbench_compared_page.py.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from matplotlib import get_data_path
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+
+from contracts.curves import StiffnessCurve
+from contracts.text import for_matplotlib
+from workbench.charts.palette import INK, MODEL_COLOURS
+
+__all__ = ["Axes", "blank_figure", "curve_axes", "font_folder", "png_bytes", "red_green_blue", "stacked_axes"]
+
+
+def stacked_axes(heights: Sequence[float], size: tuple[float, float]) -> tuple[Figure, list[Any]]:
+    """Axes above each other with one abscissa; ``heights`` relative to each other, ``size`` in inches."""
+    figure = Figure(figsize=size, layout="constrained")
+    grid = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=list(heights))
+    axes = [row[0] for row in grid]
+    for one in axes:
+        one.spines[["top", "right"]].set_visible(False)
+        one.grid(color="#e8eaed")
+        one.set_axisbelow(True)
+        one.tick_params(colors=INK)
+    return figure, axes
+
+
+def curve_axes(curve: StiffnessCurve, ax: Axes | None = None) -> Axes:
+    """Load [N] against deflection [mm], into new axes of pyplot if none are given."""
+    if ax is None:
+        from matplotlib import pyplot
+
+        ax = pyplot.subplots(layout="constrained")[1]
+    where = " average" if curve.orientation_deg is None else f" {curve.orientation_deg:g}°"
+    where = "" if curve.model == "brush" else where  # the same at every orientation
+    label = for_matplotlib(f"{curve.model}{where}" + " (partial)" * curve.partial)
+    colour = MODEL_COLOURS.get(curve.model)
+    taken = any(line.get_color() == colour for line in ax.lines)
+    ax.plot(1e3 * curve.deflection, curve.load, label=label, color=None if taken else colour)
+    ax.set_xlabel("radial deflection [mm]")
+    ax.set_ylabel("wheel load [N]")
+    ax.legend()
+    return ax
+
+
+def blank_figure(width: float, height: float) -> Any:
+    """A page [inches] without axes."""
+    return Figure(figsize=(width, height))
+
+
+def red_green_blue(name: str) -> tuple[float, float, float, float]:
+    """A colour's name or hexadecimal number as red, green, blue, opacity."""
+    return to_rgba(name)
+
+
+def font_folder() -> Path:
+    """Where matplotlib's DejaVu fonts lie."""
+    return Path(get_data_path()) / "fonts" / "ttf"
+
+
+def png_bytes(figure: Figure, dpi: int = 144) -> bytes:
+    """The figure as the content of a PNG file."""
+    stream = io.BytesIO()
+    figure.savefig(stream, format="png", dpi=dpi)
+    return stream.getvalue()

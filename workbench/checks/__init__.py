@@ -1,1 +1,0 @@
-"""Numbers with a rule: what passes, and where the rule comes from."""

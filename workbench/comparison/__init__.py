@@ -1,1 +1,0 @@
-"""Results held against each other: distances, uncertainties, verdicts."""

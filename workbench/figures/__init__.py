@@ -1,1 +1,0 @@
-"""Curves in the page, stills, animations."""

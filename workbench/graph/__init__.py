@@ -1,1 +1,0 @@
-"""From a study to the tasks that compute it."""

@@ -1,0 +1,1 @@
+"""How does the study's ANCF tire carry load, and does it agree with what is known of the thesis'?"""

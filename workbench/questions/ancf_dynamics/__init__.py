@@ -1,0 +1,1 @@
+"""Is the moving ANCF wheel's energy accounted for, dropped and riding over a half-round?"""

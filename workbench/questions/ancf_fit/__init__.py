@@ -1,0 +1,1 @@
+"""Can an ANCF tire be fitted to the average continuum curve?"""

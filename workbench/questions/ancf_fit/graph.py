@@ -1,0 +1,53 @@
+"""Tasks of the fit of the ANCF tire. Verified by tests/unit/test_workbench_ancf_fit.py."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+
+from workbench.execution.task import Task
+from workbench.questions.mesh_study.question import mesh_study_inputs, mesh_study_runs
+from workbench.study.fit import FittedTireSection
+from workbench.study.full import is_mirrored
+from workbench.study.model import Study
+from workbench.study.model_parameters import ancf_tire, fit_start
+from workbench.study.orientation import degrees, orientation_name
+
+__all__ = ["AS_IT_IS", "fit_name", "fit_tasks"]
+
+AS_IT_IS = "ancf_as_it_is"
+"""Task that holds the study's own tire against the FE curves."""
+
+
+def fit_name(tire: str) -> str:
+    """Name of the task that fits one of the study's tires."""
+    return f"ancf_fit_{tire}"
+
+
+def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) -> list[Task]:
+    """The study's own tire as it is, and one fit for each tire of [ancf_fit], or of those given."""
+    section = study.ancf_fit
+    if section is None:
+        return []
+    orientations = [degrees(o) for o in study.fe.orientations]
+    common = {"orientations_deg": orientations, "load_range": list(section.load_range), "mirrored": is_mirrored(study)}
+    needs = tuple(orientation_name("fe", o) for o in orientations)
+    own = ancf_tire(study) | common
+    tasks = [
+        Task(name=AS_IT_IS, function="workbench.questions.ancf_fit.task:evaluate", inputs=own, needs=needs, cost=5.0)
+    ]
+    for tire in section.tires if tires is None else tires:
+        realisations = section.realisations if tire == section.kept else 0
+        runs = tuple(dict.fromkeys([*needs, *mesh_study_runs(study)])) if realisations else needs
+        inputs = common | {
+            "preset": asdict(fit_start(study, tire)),
+            "free": [[name, *getattr(section.bounds, name)] for name in tire.free],
+            "phase_starts": tire.phase_starts,
+            "points": section.points,
+            "average_weight": section.average_weight,
+            "realisations": realisations,
+            "mesh_study": mesh_study_inputs(study) if realisations else None,
+        }
+        name, function = fit_name(tire.name), "workbench.questions.ancf_fit.task:fit"
+        tasks.append(Task(name=name, function=function, inputs=inputs, needs=runs, cost=30.0))
+    return tasks

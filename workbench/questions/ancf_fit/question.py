@@ -1,0 +1,85 @@
+"""Question: ANCF tires fitted to the FE curves, beside the study's own.
+
+Verified by tests/unit/test_workbench_ancf_fit.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from contracts.records import Check
+from workbench.execution.task import Task
+from workbench.questions.ancf_fit.fit import FittedTire, read_fit
+from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
+from workbench.questions.ancf_fit.results import AncfFits
+from workbench.questions.model_curves import model_curves
+from workbench.questions.question import Question
+from workbench.study.full import rotational_period
+from workbench.study.model import Study
+from workbench.verdict.rules import Claim, at_most
+
+__all__ = ["ANCF_FIT"]
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    return fit_tasks(study)
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> AncfFits:
+    section = study.ancf_fit
+    assert section is not None  # the question applies
+    fe, period, kept = model_curves("fe", folders), rotational_period(study), section.kept.name
+    try:
+        own = read_fit("own", folders[AS_IT_IS])
+        fitted = tuple(read_fit(tire.name, folders[fit_name(tire.name)]) for tire in section.tires)
+    except InputError as error:
+        return AncfFits(own=None, fitted=(), kept=kept, fe=fe, period=period, failure=error)
+    return AncfFits(own=own, fitted=fitted, kept=kept, fe=fe, period=period)
+
+
+def _checks(study: Study, fits: AncfFits) -> Sequence[Check]:
+    return [_check(tire, study.tolerances.ancf_fit) for tire in fits.fitted]
+
+
+def _check(tire: FittedTire, limit: float) -> Check:
+    preset, (low, high) = tire.numbers["preset"], tire.numbers["load_range_N"]
+    mesh = f"{preset['spokes']} spokes, {preset['circumferential_plates']} rim plates"
+    claim = Claim(
+        id=f"ancf_fit.{tire.name}",
+        title=f"Fitted ANCF tire ({mesh}) against the FE average, {low:.0f} to {high:.0f} N",
+        quantity="difference",
+        unit="-",
+        role="finding",
+        source="our own continuum model; largest difference over its load at equal deflection",
+    )
+    return at_most(claim, lambda: abs(tire.numbers["average"]["largest"]), limit)
+
+
+def _figures(study: Study, fits: AncfFits) -> Mapping[str, str]:
+    from workbench.questions.ancf_fit.figures import fit_figures
+
+    return fit_figures(fits)
+
+
+def _curves(study: Study, fits: AncfFits) -> Sequence[StiffnessCurve]:
+    return [curve for tire in fits.fitted for curve in (*tire.curves.values(), tire.average)]
+
+
+def _wanted(study: Study) -> bool:
+    return study.ancf_fit is not None
+
+
+ANCF_FIT = Question(
+    name="ancf_fit",
+    title="Fit of the ANCF tire",
+    group="ANCF tire",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    figures=_figures,
+    curves=_curves,
+    applies=_wanted,
+)

@@ -1,0 +1,202 @@
+"""Tasks that fit the ANCF tire to the FE curves, or hold it against them as it is.
+
+``result.json``: the preset, its error on every orientation and on the average; of a fit also the parameters with their
+intervals and the spread of the refits, correlation and condition. SI, null where there is no number.
+Verified by tests/unit/test_workbench_ancf_fit.py and tests/end_to_end/test_calibrate_ancf.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ancf_reduced.fit.curve_fit import CurveFit, LoadData, fit_curves
+from ancf_reduced.fit.parameters import FreeParameter, Parameter, with_mass
+from ancf_reduced.fit.phase_search import fit_from_phases
+from ancf_reduced.plates.mass import flexible_mass
+from ancf_reduced.tire.mesh import Tire, build_tire
+from ancf_reduced.tire.static import solve_tire, tire_curve
+from contracts.curves import StiffnessCurve, write_curve
+from contracts.errors import ConvergenceError, InputError
+from workbench.execution.result_files import FAILURE, write_result
+from workbench.questions.ancf_fit.fit import (
+    THESIS_WHEEL_MASS,
+    average_error,
+    compared_deflections,
+    fe_curves,
+    fitted_deflections,
+    perturbed,
+)
+from workbench.questions.mesh_study.results import read_mesh_study
+from workbench.questions.model_curves import mean_curve
+from workbench.study.ancf_tire import preset_from, tire_from
+from workbench.study.orientation import orientation_name
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
+
+__all__ = ["evaluate", "fit"]
+
+FloatArray = NDArray[np.float64]
+_STEP = 1e-3
+"""Spacing of the points of the curves that are shown [m]."""
+_TOLERANCE, _REFIT_TOLERANCE = 1e-5, 1e-3
+_MIRRORED_EVERY = 20
+"""Of the deflections at which curves are compared, solved again for the mirror images."""
+
+
+def evaluate(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Curves of a preset at the FE's orientations and how far they lie from the FE's."""
+    tire = tire_from(inputs)
+    try:
+        numbers = _held_against(tire, inputs, fe_curves(needs, inputs["orientations_deg"]), out)
+    except (InputError, ConvergenceError) as error:
+        numbers = {FAILURE: str(error)}
+    write_result(out, numbers)
+    return _unknowns(tire)
+
+
+def fit(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Fit a preset to the FE curves, then again to each perturbed set of them; without a result, say why."""
+    try:
+        numbers = _fitted(inputs, needs, out, progress)
+    except (InputError, ConvergenceError) as error:
+        numbers = {FAILURE: str(error)}
+    write_result(out, numbers)
+    return _unknowns(tire_from(inputs))
+
+
+def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> dict[str, Any]:
+    """The fit's numbers."""
+    solid = fe_curves(needs, inputs["orientations_deg"])
+    average = mean_curve(solid)
+    deflection = fitted_deflections(average, inputs["load_range"], inputs["points"])
+    load = np.array([curve.load_at(deflection) for curve in solid])
+    scale = np.broadcast_to(average.load_at(deflection), load.shape)
+    phi = np.radians([curve.orientation_deg for curve in solid if curve.orientation_deg is not None])
+    weight = inputs["average_weight"]
+    data = LoadData(phi=phi, deflection=deflection, load=load, scale=scale, mean_weight=weight)
+    free = [FreeParameter(parameter=Parameter(name), lower=low, upper=high) for name, low, high in inputs["free"]]
+    search = fit_from_phases(preset_from(inputs["preset"]), free, data, inputs["phase_starts"], _TOLERANCE)
+    found = search.fit
+    progress(0.4)
+    realisations = inputs["realisations"]
+    again = _refits(found, _uncertainty(inputs, needs, deflection), realisations, progress) if realisations else []
+    tire = build_tire(with_mass(found.preset, THESIS_WHEEL_MASS))
+    numbers = _held_against(tire, inputs, solid, out)
+    numbers |= _statistics(found) | {"parameters": _parameters(found, again), "refits": len(again)}
+    return numbers | {"phase_trials": [asdict(trial) for trial in search.trials]}
+
+
+def _unknowns(tire: Tire) -> int:
+    return int(tire.mesh.reference_coordinates()[tire.tie.free].size)
+
+
+def _uncertainty(inputs: Mapping[str, Any], needs: Mapping[str, Path], deflection: FloatArray) -> FloatArray:
+    """Numerical uncertainty of the FE loads over the load [-], from the mesh study."""
+    return read_mesh_study(**inputs["mesh_study"], folders=needs).relative_uncertainty(deflection)
+
+
+def _refits(found: CurveFit, uncertainty: FloatArray, realisations: int, progress: Progress) -> list[FloatArray]:
+    """Values of the free parameters for each perturbed set of curves that settled; one on its bound stays there.
+
+    An unknown on its bound would shorten every step of the search, which keeps strictly inside.
+    """
+    inside, values = found.statistics.inside, []
+    free = [p for p, good in zip(found.free, inside.tolist(), strict=True) if good]
+    for i, load in enumerate(perturbed(found.data.load, uncertainty, realisations)):
+        try:
+            data = replace(found.data, load=load)
+            again = fit_curves(found.preset, free, data, _REFIT_TOLERANCE, known=found)
+        except ConvergenceError:
+            continue
+        if again.settled:
+            values.append(np.array([p.parameter.of(again.preset) for p in found.free]))
+        progress(0.4 + 0.6 * (i + 1) / realisations)
+    return values
+
+
+def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[StiffnessCurve], out: Path) -> dict[str, Any]:
+    """Write the tire's curves; its numbers, and its errors in percent of the load over the range of loads."""
+    average = mean_curve(solid)
+    end = float(fitted_deflections(average, inputs["load_range"], 2)[-1])
+    grid = [*np.arange(0.0, end - 0.1 * _STEP, _STEP).round(9).tolist(), end]
+    orientations = [o for curve in solid if (o := curve.orientation_deg) is not None]
+    curves = [tire_curve(tire, math.radians(o), grid) for o in orientations]
+    for curve, o in zip(curves, orientations, strict=True):
+        write_curve(curve, out / f"{orientation_name('ancf', o)}.csv")
+    inside = compared_deflections(average, inputs["load_range"])
+    pairs = [(c.load_at(inside), s.load_at(inside)) for c, s in zip(curves, solid, strict=True)]
+    return {
+        "preset": asdict(tire.preset),
+        "flexible_mass_kg": flexible_mass(tire.model),
+        "orientations_deg": orientations,
+        "load_range_N": [float(average.load_at(d)) for d in (inside[0], inside[-1])],
+        "relative_rms": [float(np.linalg.norm(f - s) / np.linalg.norm(s)) for f, s in pairs],
+        "largest_N": [float(np.abs(f - s).max()) for f, s in pairs],
+        "average": asdict(average_error(curves, average, inputs["load_range"])),
+        "mirrored_rms": _mirrored_rms(tire, inside, solid) if inputs["mirrored"] else None,
+    }
+
+
+def _mirrored_rms(tire: Tire, deflection: FloatArray, solid: Sequence[StiffnessCurve]) -> list[float] | None:
+    """Relative rms at the mirror images of the orientations, where a wheel that is its own has the same curves.
+
+    What a free phase makes of one half of the wheel's orientations says nothing about the other. None where no
+    equilibrium is found.
+    """
+    errors = []
+    for curve in solid:
+        assert curve.orientation_deg is not None
+        try:
+            load = solve_tire(tire, -math.radians(curve.orientation_deg), deflection[::_MIRRORED_EVERY]).load
+        except ConvergenceError:
+            return None
+        wanted = curve.load_at(deflection[::_MIRRORED_EVERY])
+        errors.append(float(np.linalg.norm(load - wanted) / np.linalg.norm(wanted)))
+    return errors
+
+
+def _parameters(found: CurveFit, again: Sequence[FloatArray]) -> list[dict[str, Any]]:
+    """Each free parameter: value, bounds, 95 % interval from the fit, mean and 95 % of the refits' spread."""
+    statistics, rows = found.statistics, []
+    for i, (p, value) in enumerate(zip(found.free, found.values.tolist(), strict=True)):
+        at, half = float(statistics.unknowns[i]), float(statistics.half_width[i])
+        row = {"name": p.parameter.value, "unit": p.parameter.unit, "value": value, "bounds": [p.lower, p.upper]}
+        row |= {"start": p.parameter.of(found.start), "at_bound": not bool(statistics.inside[i])}
+        row["interval"] = None if row["at_bound"] else _ends(p.parameter, at, half)
+        unknowns = np.array([p.parameter.unknown(values[i]) for values in again])
+        middle, width = (float(unknowns.mean()), 1.96 * float(unknowns.std(ddof=1))) if len(again) > 2 else (0.0, 0.0)
+        row["spread"] = _ends(p.parameter, middle, width) if len(again) > 2 and not row["at_bound"] else None
+        rows.append(row)
+    return rows
+
+
+def _ends(parameter: Parameter, middle: float, half: float) -> list[float] | None:
+    """Both ends of an interval of the unknown, as values; None where it is wider than a factor of a million."""
+    return [parameter.value_at(middle - half), parameter.value_at(middle + half)] if half < 14.0 else None
+
+
+def _statistics(found: CurveFit) -> dict[str, Any]:
+    """Identifiability, null for what a bound holds."""
+    statistics = found.statistics
+    names = [p.parameter.value for p in found.free]
+    return {
+        "correlation": [[_number(value) for value in row] for row in statistics.correlation.tolist()],
+        "condition": _number(statistics.condition),
+        "weakest": [_number(value) for value in statistics.weakest.tolist()],
+        "indistinguishable": [[names[i], names[j]] for i, j in statistics.indistinguishable()],
+        "evaluations": found.evaluations,
+        "settled": found.settled,
+        "deflections_m": found.data.deflection.tolist(),
+    }
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

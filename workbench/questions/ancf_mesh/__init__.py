@@ -1,0 +1,1 @@
+"""Does the ANCF tire's load depend on its number of plates?"""

@@ -1,0 +1,1 @@
+"""How far does the load depend on the contact penalty?"""

@@ -1,0 +1,138 @@
+"""Question: how far the load depends on the contact penalty. Verified by tests/unit/test_workbench_contact.py."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from contracts.curves import StiffnessCurve, read_curve
+from contracts.errors import InputError
+from contracts.records import Check
+from workbench.execution.task import Task
+from workbench.questions.contact.checks import AUGMENTED, penalty_check, penetration_check
+from workbench.questions.fe.graph import INNER_STIFFNESS, fe_inputs, fe_task, without_fields
+from workbench.questions.model_curves import CURVE
+from workbench.questions.question import Question
+from workbench.questions.wheel.graph import mesh_task
+from workbench.study.model import Study
+from workbench.study.orientation import degrees
+
+__all__ = ["CONTACT", "ContactRun", "PenaltyStudy"]
+
+_FACTORS = ("0.1", "1", "10")
+_NO_LIMIT = 1e6
+"""Load [N] that ends no run."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactRun:
+    """One way to keep the wheel out of the ground: factor on the study's penalty, or the augmented Lagrangian."""
+
+    name: str
+    stiffness: float
+    curve: StiffnessCurve
+
+    @property
+    def load(self) -> float:
+        """Load at the last point [N]; InputError if no point converged."""
+        self._need_a_point()
+        return float(self.curve.load[-1])
+
+    def largest(self, column: str) -> float:
+        """Largest value of a column along the curve; InputError if no point of it converged."""
+        self._need_a_point()
+        return float(self.curve.columns[column].max())
+
+    @property
+    def iterations(self) -> int:
+        """Newton iterations of the whole curve."""
+        return int(self.curve.columns["newton_iterations"].sum())
+
+    def _need_a_point(self) -> None:
+        if self.curve.unloaded:
+            raise InputError(f"run {self.name}", "no point", "converged", "see its message")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PenaltyStudy:
+    """Runs on one mesh at one orientation [deg] to one deflection [m]."""
+
+    orientation_deg: float
+    deflection: float
+    runs: tuple[ContactRun, ...]
+
+    def loads(self) -> dict[str, float]:
+        """Load [N] of each run; InputError unless all reached the deflection."""
+        for run in self.runs:
+            if run.curve.deflection[-1] < self.deflection - 1e-12:
+                raise InputError(f"run {run.name}", "partial", "must reach the deflection", "choose a smaller one")
+        return {run.name: run.load for run in self.runs}
+
+    def change(self, run: ContactRun) -> float:
+        """Load over that with the augmented Lagrangian, minus 1 [-]; InputError if one of them has no point."""
+        return run.load / self.runs[-1].load - 1.0
+
+
+def _applies(study: Study) -> bool:
+    return study.penalty_study is not None and study.fe.contact_stiffness is not None
+
+
+def _task_name(run: str) -> str:
+    return f"fe_penalty_{run}"
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    section, stiffness = study.penalty_study, study.fe.contact_stiffness
+    assert section is not None
+    assert stiffness is not None
+    mesh = mesh_task(study, "mesh_penalty", {"axial_size": 2.0 * study.mesh.axial_size})
+    end = round(section.deflection, 12)
+    inputs = fe_inputs(study, degrees(section.orientation), (0.5 * end, end))
+    inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
+    changes: dict[str, dict[str, Any]] = {f: _scaled(float(f), stiffness) for f in _FACTORS}
+    changes[AUGMENTED] = {"contact_stiffness": stiffness, "contact_method": AUGMENTED}
+    return [mesh, *(fe_task(_task_name(name), inputs | change, mesh.name) for name, change in changes.items())]
+
+
+def _scaled(factor: float, stiffness: float) -> dict[str, Any]:
+    """Both penalties of a run, on the ground and between the wheel's own parts."""
+    inner = factor * INNER_STIFFNESS
+    return {"contact_stiffness": factor * stiffness, "inner_contact_stiffness": inner, "contact_method": "penalty"}
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> PenaltyStudy:
+    section, stiffness = study.penalty_study, study.fe.contact_stiffness
+    assert section is not None
+    assert stiffness is not None
+    orientation, runs = degrees(section.orientation), []
+    for name in (*_FACTORS, AUGMENTED):
+        curve = read_curve(folders[_task_name(name)] / CURVE, model="fe", orientation_deg=orientation)
+        factor = 1.0 if name == AUGMENTED else float(name)
+        runs.append(ContactRun(name=name, stiffness=factor * stiffness, curve=curve))
+    return PenaltyStudy(orientation_deg=orientation, deflection=section.deflection, runs=tuple(runs))
+
+
+def _checks(study: Study, results: PenaltyStudy) -> Sequence[Check]:
+    where = f"{results.deflection * 1e3:g} mm, {results.orientation_deg:g} deg"
+    return [
+        penalty_check(results.loads, where),
+        penetration_check(lambda: results.runs[-1].largest("penetration_m"), where),
+    ]
+
+
+def _curves(study: Study, results: PenaltyStudy) -> list[StiffnessCurve]:
+    return [replace(run.curve, model=_task_name(run.name)) for run in results.runs]
+
+
+CONTACT = Question(
+    name="contact",
+    title="Contact",
+    group="Wheel",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    curves=_curves,
+    applies=_applies,
+)

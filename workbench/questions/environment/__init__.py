@@ -1,0 +1,1 @@
+"""How does temperature change stiffness and strength?"""

@@ -1,0 +1,106 @@
+"""Checks of the continuum model: mesh, solver, curve against the band.
+
+Verified by tests/unit/test_workbench_checks.py.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from contracts.records import Check, Role
+from workbench.questions.model_curves import ModelCurves, mean_curve
+from workbench.questions.models.metrics import largest_spread
+from workbench.study.model import Band
+from workbench.study.sections import ToleranceSection
+from workbench.verdict.rules import Claim, at_least, at_most, near, within
+
+__all__ = [
+    "band_checks",
+    "reach_check",
+    "spread_checks",
+]
+
+_SWEEP = "Samarini 2020, section 3.2 and Fig. 20: 160 to 250 N on a wheel; the room beyond is ours"
+_SPREAD_AT = (0.005, 0.020, 0.030)
+
+
+def band_checks(fe: ModelCurves, band: Band, tolerances: ToleranceSection) -> list[Check]:
+    """Average curve against the band: tangent near first contact, deflection at each of the band's loads.
+
+    The tangent is a gate for the wheel that the band describes, a finding for any other.
+    """
+    checks = [_tangent_check(fe, band, tolerances)]
+    for point in band.points:
+        name, title = f"fe.deflection_at_{point.load:g}N", f"Average FE curve: deflection at {point.load:g} N"
+        claim = _claim(name, title, "deflection", "m", "finding", band.source)
+        checks.append(within(claim, partial(fe.average.deflection_at, point.load), point.low, point.high))
+    return checks
+
+
+def _tangent_check(fe: ModelCurves, band: Band, tolerances: ToleranceSection) -> Check:
+    up_to, named = tolerances.initial_tangent_up_to, tolerances.initial_tangent_orientations
+    average, which = fe.average, "Average FE curve"
+    if named is not None and len(named) < len(fe.by_orientation):
+        chosen = {o: c for o, c in fe.by_orientation.items() if any(abs(math.degrees(n) - o) < 1e-6 for n in named)}
+        average = mean_curve(list(chosen.values()))
+        which = f"Average FE curve of {', '.join(f'{o:g}' for o in chosen)} degrees alone"
+    title = f"{which}: slope from first contact to {up_to * 1e3:g} mm"
+    claim = _claim("fe.initial_tangent", title, "initial tangent", "N/m", _role(tolerances), band.source)
+    return near(claim, lambda: average.initial_tangent(up_to), band.initial_tangent, tolerances.initial_tangent)
+
+
+def spread_checks(fe: ModelCurves, tolerances: ToleranceSection, up_to: float) -> list[Check]:
+    """How much the load varies around the wheel at those of three deflections that lie within ``up_to`` [m].
+
+    A single orientation of any but the reference's wheel is asked none.
+    """
+    curves = list(fe.by_orientation.values())
+    return [
+        at_most(
+            _claim(
+                f"fe.spread_{d * 1e3:g}mm",
+                f"FE: (largest - smallest) / mean load over the orientations at {d * 1e3:g} mm",
+                "spread",
+                "-",
+                "finding",
+                "the thesis says that stiffness varies around the wheel, not how much; the limit is ours",
+            ),
+            partial(_spread, curves, d),
+            tolerances.orientation_spread,
+        )
+        for d in _SPREAD_AT
+        if d <= up_to and (len(curves) > 1 or tolerances.reference_wheel)
+    ]
+
+
+def _spread(curves: list[StiffnessCurve], deflection: float) -> float:
+    if len(curves) < 2:
+        rule = "needs at least two to have a spread"
+        raise InputError("orientations", len(curves), rule, "add another to fe.orientations")
+    return largest_spread(curves, deflection)
+
+
+def reach_check(fe: ModelCurves, tol: ToleranceSection) -> Check:
+    """How far every orientation came: a gate for the wheel of the reference, a finding for any other."""
+
+    def reach() -> float:
+        ends = [
+            (c.deflection[-1] / tol.reach_deflection, c.load.max() / tol.reach_load) for c in fe.by_orientation.values()
+        ]
+        return float(min(max(pair) for pair in ends))
+
+    goal = f"{tol.reach_deflection * 1e3:g} mm or {tol.reach_load:g} N"
+    claim = _claim("fe.reach", f"FE: every orientation reaches {goal}", "part reached", "-", _role(tol), _SWEEP)
+    return at_least(claim, reach, 1.0)
+
+
+def _role(tolerances: ToleranceSection) -> Role:
+    """What the reference demands binds the reference's wheel only."""
+    return "gate" if tolerances.reference_wheel else "finding"
+
+
+def _claim(id: str, title: str, quantity: str, unit: str, role: Role, source: str) -> Claim:
+    return Claim(id=id, title=title, quantity=quantity, unit=unit, role=role, source=source)

@@ -1,0 +1,115 @@
+"""Figures of the continuum's curves, and what others draw beside them: uncertainty, reference band, users' curves.
+
+Verified by tests/end_to_end/test_report.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from workbench.charts.curves import DASHES, add_line, add_orientations
+from workbench.charts.interactive import Figure, empty_figure, figure_html
+from workbench.charts.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
+from workbench.questions.mesh_study.results import MeshStudy
+from workbench.questions.model_curves import ModelCurves, UserCurve
+from workbench.study.model import Band
+
+__all__ = ["add_band", "add_uncertainty", "add_users", "fe_figure", "stress_figure"]
+
+
+def fe_figure(fe: ModelCurves, study: MeshStudy | None, users: Sequence[UserCurve], band: Band | None) -> str:
+    """FE at each orientation, their average with the mesh uncertainty, the band if there is one."""
+    figure = empty_figure()
+    add_band(figure, band)
+    add_orientations(figure, fe.by_orientation, "FE")
+    add_uncertainty(figure, fe.average, study)
+    add_line(figure, fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
+    add_users(figure, users)
+    return figure_html(figure, "fe-curves")
+
+
+def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:
+    """Largest von Mises stress of each part against load at one orientation, with the yield strength."""
+    figure = empty_figure("load on the wheel [N]", "largest von Mises stress [MPa]")
+    parts = [p for p in strengths if f"max_von_mises_{p}_Pa" in curve.columns]
+    for i, part in enumerate(parts):
+        stress = curve.columns[f"max_von_mises_{part}_Pa"] * 1e-6
+        style = {"color": ORIENTATION_COLOURS[i % 6], "width": 2.5, "dash": DASHES[i % 6]}
+        figure.add_scatter(x=curve.load, y=stress, name=part.replace("_", " "), mode="lines", line=style)
+    for strength in sorted({strengths[p] for p in parts}):
+        figure.add_hline(
+            y=strength * 1e-6,
+            line={"color": INK, "width": 1, "dash": "dash"},
+            annotation={"text": f"yield strength {strength * 1e-6:.0f} MPa", "font": {"size": 12}},
+            annotation_position="top left",
+        )
+    return figure_html(figure, "stress-curves")
+
+
+def add_uncertainty(figure: Figure, average: StiffnessCurve, study: MeshStudy | None) -> None:
+    """The average's numerical uncertainty as a grey band; nothing if no mesh study gives one."""
+    if study is None:
+        return
+    try:
+        low, high = study.band(average)
+    except InputError:
+        return
+    d = average.deflection * 1e3
+    figure.add_scatter(
+        x=np.concatenate([d, d[::-1]]),
+        y=np.concatenate([high, low[::-1]]),
+        fill="toself",
+        fillcolor="rgba(26, 26, 26, 0.22)",
+        line={"width": 0},
+        name="numerical uncertainty of the FE average",
+        hoverinfo="skip",
+    )
+
+
+def add_band(figure: Figure, band: Band | None) -> None:
+    """The band as it is known: a slope near the origin and one interval of deflection at each load."""
+    if band is None:
+        return
+    end = 8.0
+    slope = band.initial_tangent * 1e-3
+    figure.add_scatter(
+        x=[0.0, end],
+        y=[0.0, slope * end],
+        mode="lines",
+        line={"color": "#009e73", "width": 7},
+        opacity=0.35,
+        name=f"inferred slope {slope:g} N/mm",
+        hoverinfo="skip",
+    )
+    loads = [p.load for p in band.points]
+    figure.add_scatter(
+        x=[500.0 * (p.low + p.high) for p in band.points],
+        y=loads,
+        mode="markers",
+        marker={"color": "#009e73", "symbol": "line-ns-open", "size": 14},
+        error_x={"type": "data", "array": [500.0 * (p.high - p.low) for p in band.points], "color": "#009e73",
+                 "thickness": 4, "width": 9},
+        name="inferred band",
+        hovertemplate="%{x:.1f} mm",
+    )  # fmt: skip
+    for p in band.points:
+        figure.add_shape(type="rect", x0=1e3 * p.low, x1=1e3 * p.high, y0=p.load - 5.0, y1=p.load + 5.0,
+                         fillcolor=BAND, line={"width": 0}, layer="below")  # fmt: skip
+
+
+def add_users(figure: Figure, users: Sequence[UserCurve]) -> None:
+    """Curves that the user dropped in."""
+    for i, user in enumerate(users):
+        figure.add_scatter(
+            x=user.curve.deflection * 1e3,
+            y=user.curve.load,
+            name=user.label,
+            mode="markers+lines",
+            marker={"symbol": "star", "size": 8},
+            line={"color": ("#cc79a7", "#56b4e9", "#f0e442")[i % 3], "width": 1.5},
+            hovertemplate="%{y:.1f} N",
+        )

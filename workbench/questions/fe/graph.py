@@ -1,0 +1,94 @@
+"""Tasks of the continuum model, which many questions share.
+
+Verified by tests/unit/test_workbench_graph.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from contracts.materials import Material
+from workbench.execution.task import Task
+from workbench.study.model import Study
+from workbench.study.orientation import degrees, orientation_name
+from workbench.study.wheel_design import wheel_design
+
+__all__ = [
+    "HUB_PARTS",
+    "INNER_STIFFNESS",
+    "curve_deflections",
+    "fe_curve_tasks",
+    "fe_inputs",
+    "fe_task",
+    "material_inputs",
+    "without_fields",
+]
+
+
+HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
+"""Parts within the springs' welds on the hub, outside to inside."""
+INNER_STIFFNESS = 1e11
+"""Penalty stiffness between the wheel's own parts [N/m^3]."""
+
+
+def material_inputs(materials: Mapping[str, Material]) -> dict[str, dict[str, float]]:
+    """Numbers of the material of each part, without its name and where they come from."""
+    words = ("name", "source", "temperature_data")
+    return {
+        part: {name: value for name, value in asdict(material).items() if name not in words}
+        for part, material in materials.items()
+    }
+
+
+def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]) -> dict[str, Any]:
+    """Inputs of ``workbench.questions.fe.task:solve_orientation`` as the study has them."""
+    fe = study.fe
+    return {
+        "orientation_deg": orientation_deg,
+        "deflections": list(deflections),
+        "max_load": fe.max_load,
+        "snapshot_loads": list(fe.snapshot_loads),
+        "keep_points": fe.keep_points,
+        "material_law": fe.material_law,
+        "contact_stiffness": fe.contact_stiffness,
+        "contact_method": fe.contact_method,
+        "friction": fe.friction,
+        "obstacle": fe.obstacle.model_dump(mode="json"),
+        "camber_deg": degrees(fe.camber),
+        "inner_contact": fe.inner_contact,
+        "inner_contact_stiffness": INNER_STIFFNESS,
+        "relative_tolerance": fe.relative_tolerance,
+        "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
+        "materials": material_inputs(wheel_design(study).materials),
+    }
+
+
+def without_fields(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """The same run, its curve alone."""
+    return {**inputs, "snapshot_loads": [], "keep_points": False}
+
+
+def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh") -> Task:
+    """One orientation solved on the mesh of the task ``mesh``."""
+    function = "workbench.questions.fe.task:solve_orientation"
+    long = {"resumable": True, "shared": True}
+    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), **long)
+
+
+def curve_deflections(study: Study) -> list[float]:
+    """Deflections [m] of the points of every FE curve."""
+    fe = study.fe
+    grid = np.linspace(0.0, fe.max_deflection, fe.points + 1)[1:].round(12).tolist()
+    more = [] if study.mesh_study is None else np.round(study.mesh_study.deflections, 12).tolist()
+    return sorted({*grid, *more})
+
+
+def fe_curve_tasks(study: Study, orientations_deg: Sequence[float] = ()) -> list[Task]:
+    """A curve at each orientation [deg]; none means those of the study."""
+    points = curve_deflections(study)
+    wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
+    return [fe_task(orientation_name("fe", o), fe_inputs(study, o, points)) for o in wanted]

@@ -1,0 +1,82 @@
+"""Question: how does the continuum wheel carry load, orientation by orientation, and does it meet the reference?
+
+Verified by tests/unit/test_workbench_checks.py and tests/end_to_end/test_report.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from contracts.curves import StiffnessCurve
+from contracts.records import Check
+from workbench.execution.task import Task
+from workbench.questions.fe.checks import band_checks, reach_check, spread_checks
+from workbench.questions.fe.graph import fe_curve_tasks
+from workbench.questions.fe.limits import circumferential_tangent_check, overlap_checks
+from workbench.questions.fe.results import ContinuumCurves, read_continuum
+from workbench.questions.question import Question
+from workbench.questions.strength.yielding import yield_strengths
+from workbench.questions.wheel.graph import MESH, MESH_WHOLE
+from workbench.study.full import rotational_period
+from workbench.study.model import Study
+from workbench.study.orientation import degrees
+from workbench.study.wheel_design import wheel_design
+
+__all__ = ["FE"]
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    curves = fe_curve_tasks(study)
+    pictures = Task(
+        name="pictures",
+        function="workbench.questions.wheel.pictures:draw",
+        inputs={
+            "orientation_deg": degrees(study.fe.orientations[0]),
+            "yield_strength": min(material.yield_strength for material in wheel_design(study).materials.values()),
+        },
+        needs=(MESH_WHOLE, MESH, curves[0].name),
+        cost=10.0,
+    )
+    return [*curves, pictures]
+
+
+def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
+    tolerances, fe = study.tolerances, results.fe
+    checks = [] if study.reference is None else band_checks(fe, study.reference, tolerances)
+    checks += [reach_check(fe, tolerances)] if tolerances.asks_for_reach else []
+    checks += spread_checks(fe, tolerances, study.judged_deflection)
+    checks += overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.judged_load)
+    if study.reference is not None:
+        checks.append(circumferential_tangent_check(fe, study.reference, tolerances, rotational_period(study)))
+    return checks
+
+
+def _curves(study: Study, results: ContinuumCurves) -> Sequence[StiffnessCurve]:
+    return results.curves
+
+
+def _figures(study: Study, results: ContinuumCurves) -> Mapping[str, str]:
+    from workbench.charts.packing import picture_link
+    from workbench.questions.fe.figures import fe_figure, stress_figure
+    from workbench.questions.wheel.scene import stress_scene
+
+    first, *_ = [*results.fe.loaded.values(), results.fe.average]
+    strengths = yield_strengths(study)
+    deformed = "" if results.picture is None else picture_link(results.picture)
+    return {
+        "fe": fe_figure(results.fe, results.mesh_study, results.users, study.reference),
+        "stress": stress_figure(first, strengths),
+        "stress_scene": stress_scene(results.mesh_folder, results.solved, min(strengths.values()), deformed),
+    }
+
+
+FE = Question(
+    name="fe",
+    title="Finite elements",
+    group="Wheel",
+    tasks=_tasks,
+    read=read_continuum,
+    checks=_checks,
+    figures=_figures,
+    curves=_curves,
+)

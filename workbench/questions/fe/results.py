@@ -1,0 +1,69 @@
+"""The continuum's curves with what belongs to them. Verified by tests/unit/test_workbench_checks.py."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from contracts.curves import StiffnessCurve, read_curve
+from workbench.questions.mesh_study.question import mesh_study_of
+from workbench.questions.mesh_study.results import MeshStudy
+from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves
+from workbench.questions.wheel.graph import MESH
+from workbench.study.model import Study
+from workbench.study.orientation import degrees, orientation_name
+
+__all__ = ["ContinuumCurves", "read_continuum", "user_curves"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContinuumCurves:
+    """Curves of the continuum model.
+
+    Attributes
+    ----------
+    fe : at each orientation, and their average
+    mesh_study : three meshes, and the numerical uncertainty they give every curve; None where the study has none
+    users : the user's own curves
+    mesh_folder, solved : where the mesh lies, and the fields of each orientation [deg]
+    picture : still of the deformed wheel; None if no orientation came to its load
+    """
+
+    fe: ModelCurves
+    mesh_study: MeshStudy | None
+    users: tuple[UserCurve, ...]
+    mesh_folder: Path
+    solved: Mapping[float, Path]
+    picture: Path | None
+
+    @property
+    def curves(self) -> list[StiffnessCurve]:
+        """All, with their numerical uncertainty where it is known."""
+        found = [*self.fe.by_orientation.values(), self.fe.average]
+        return found if self.mesh_study is None else [self.mesh_study.stated(curve) for curve in found]
+
+
+def read_continuum(study: Study, folders: Mapping[str, Path]) -> ContinuumCurves:
+    """The curves from the folders of their tasks."""
+    fe = model_curves("fe", folders)
+    return ContinuumCurves(
+        fe=fe,
+        mesh_study=mesh_study_of(study, folders),
+        users=user_curves(study, folders["metrics"]),
+        mesh_folder=folders[MESH],
+        solved={o: folders[orientation_name("fe", o)] for o in fe.by_orientation},
+        picture=next(iter(sorted(folders["pictures"].glob("deformed_*N.png"))), None),
+    )
+
+
+def user_curves(study: Study, folder: Path) -> tuple[UserCurve, ...]:
+    """The user's curves, in SI as the task ``metrics`` wrote them into ``folder``."""
+    return tuple(
+        UserCurve(
+            label=section.label,
+            curve=replace(read_curve(folder / f"user_{i}.csv", model=section.label), source=section.source),
+            orientation_deg=None if section.orientation is None else degrees(section.orientation),
+        )
+        for i, section in enumerate(study.compare.curves)
+    )

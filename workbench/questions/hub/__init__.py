@@ -1,0 +1,1 @@
+"""What do elastic hubs, cone and impact springs add to the curve, one part after another?"""

@@ -1,0 +1,1 @@
+"""How well does the mesh know the load?"""

@@ -1,0 +1,109 @@
+"""Question: how far the mesh decides the load. Three meshes, grid convergence index, uncertainty of every FE curve.
+
+Verified by tests/unit/test_workbench_mesh_study.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from contracts.curves import StiffnessCurve
+from contracts.records import Check
+from workbench.execution.task import Task
+from workbench.questions.fe.graph import fe_inputs, fe_task, without_fields
+from workbench.questions.mesh_study.results import MeshStudy, mesh_run_name, read_mesh_study
+from workbench.questions.question import Question
+from workbench.questions.wheel.graph import mesh_task
+from workbench.study.model import Study, stated
+from workbench.study.orientation import degrees
+from workbench.verdict.rules import Claim, at_most
+
+__all__ = ["MESH_STUDY", "mesh_study_inputs", "mesh_study_of", "mesh_study_runs", "read_mesh_study"]
+
+_NO_LIMIT = 1e6
+"""Load [N] that ends no run: every mesh is solved at every deflection."""
+
+
+def _tasks(study: Study) -> Sequence[Task]:
+    """A mesh and a run for each factor but that of the curves, whose run is the curve itself."""
+    tasks = []
+    section = stated(study.mesh_study, "mesh_study")
+    for factor in section.factors:
+        if factor != study.mesh.factor:
+            mesh = mesh_task(study, f"mesh_x{factor:g}", factor=factor)
+            inputs = fe_inputs(study, degrees(section.orientation), section.deflections)
+            inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
+            tasks += [mesh, fe_task(f"fe_x{factor:g}", inputs, mesh.name)]
+    return tasks
+
+
+def mesh_study_inputs(study: Study) -> dict[str, Any]:
+    """What `read_mesh_study` needs to know of a study, as JSON values."""
+    section = stated(study.mesh_study, "mesh_study")
+    return {
+        "orientation_deg": degrees(section.orientation),
+        "deflections": list(section.deflections),
+        "factors": list(section.factors),
+        "curves_factor": study.mesh.factor,
+    }
+
+
+def mesh_study_runs(study: Study) -> tuple[str, ...]:
+    """Names of the tasks whose results `read_mesh_study` reads."""
+    inputs = mesh_study_inputs(study)
+    return tuple(
+        mesh_run_name(factor, inputs["curves_factor"], inputs["orientation_deg"]) for factor in inputs["factors"]
+    )
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> MeshStudy:
+    return read_mesh_study(**mesh_study_inputs(study), folders=folders)
+
+
+def mesh_study_of(study: Study, folders: Mapping[str, Path]) -> MeshStudy | None:
+    """The mesh study of a study's results, from which other questions take the uncertainty; None where it has none."""
+    return None if study.mesh_study is None else _read(study, folders)
+
+
+def _checks(study: Study, results: MeshStudy) -> Sequence[Check]:
+    places = ", ".join(f"{d * 1e3:g}" for d in results.deflections)
+    where = f"at {places} mm, {results.orientation_deg:g} deg"
+    claim = Claim(
+        id="fe.mesh_uncertainty",
+        title=f"FE: largest grid convergence index of the load on the mesh of the curves, {where}",
+        quantity="grid convergence index",
+        unit="-",
+        role="gate",
+        source="Celik et al. 2008, J. Fluids Eng. 130, 078001 (ASME V&V 20); the limit is the project's own",
+    )
+    return [
+        at_most(claim, lambda: max(results.index(d) for d in results.deflections), study.tolerances.mesh_uncertainty)
+    ]
+
+
+def _curves(study: Study, results: MeshStudy) -> list[StiffnessCurve]:
+    """Those of the other meshes."""
+    runs = [run for run in results.runs if run.factor != results.curves_factor]
+    return [replace(run.curve, model=f"fe_x{run.factor:g}") for run in runs]
+
+
+def _figures(study: Study, results: MeshStudy) -> Mapping[str, str]:
+    from workbench.questions.mesh_study.figures import mesh_study_figure
+
+    return {"mesh_study": mesh_study_figure(results)}
+
+
+MESH_STUDY = Question(
+    name="mesh_study",
+    title="Mesh uncertainty",
+    group="Wheel",
+    tasks=_tasks,
+    read=_read,
+    checks=_checks,
+    figures=_figures,
+    curves=_curves,
+    applies=lambda study: study.mesh_study is not None,
+)

@@ -1,0 +1,81 @@
+"""The models and the user's curves beside the continuum, pair by pair.
+
+Verified by tests/unit/test_workbench_agreement.py and tests/end_to_end/test_report.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from contracts.curves import StiffnessCurve
+from workbench.execution.result_files import read_result
+from workbench.questions.fe.results import ContinuumCurves, read_continuum
+from workbench.questions.model_curves import ModelCurves, model_curves
+from workbench.questions.models.agreement import Agreement, agreements
+from workbench.questions.models.curves import brush_curve
+from workbench.questions.models.metrics import CurveMetrics
+from workbench.study.model import Study
+
+__all__ = ["ComparedModels", "ComparedRow", "read_models"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComparedRow:
+    """A line of the table: readable name of the pair, distances, what is made of them."""
+
+    name: str
+    metrics: CurveMetrics
+    agreement: Agreement
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComparedModels:
+    """Everything that is held against the continuum.
+
+    Attributes
+    ----------
+    continuum : its curves and their uncertainty
+    ancf, brush : curves of the study's tires, None where it has none
+    metrics : distances between curves by pair
+    limit : relative L2 difference up to which two models agree [-]
+    """
+
+    continuum: ContinuumCurves
+    ancf: ModelCurves | None
+    brush: StiffnessCurve | None
+    metrics: Mapping[str, CurveMetrics]
+    limit: float
+
+    @property
+    def agreements(self) -> Mapping[str, Agreement]:
+        """Each pair judged against the limit and the numerical uncertainty."""
+        return agreements(self.metrics, self.continuum.fe, self.continuum.mesh_study, self.limit)
+
+    @property
+    def rows(self) -> list[ComparedRow]:
+        """The table."""
+        judged = self.agreements
+        return [ComparedRow(name=self._name(k), metrics=m, agreement=judged[k]) for k, m in self.metrics.items()]
+
+    def _name(self, pair: str) -> str:
+        fe, users = self.continuum.fe, self.continuum.users
+        names = {"ancf_average": "ANCF average, FE average", "brush": "brush line, FE average"}
+        names |= {f"user_{i}": f"FE, {user.label}" for i, user in enumerate(users)}
+        orientation = pair.removeprefix("ancf_phi")
+        curve = fe.average if pair in names else fe.by_orientation[float(orientation)]
+        name = names.get(pair) or f"ANCF {orientation}°, FE {orientation}°"
+        return name + (" (partial)" if curve.partial else "")
+
+
+def read_models(study: Study, folders: Mapping[str, Path]) -> ComparedModels:
+    """All pairs from the folders of their tasks."""
+    found = read_result(folders["metrics"])
+    return ComparedModels(
+        continuum=read_continuum(study, folders),
+        ancf=None if study.ancf is None else model_curves("ancf", folders),
+        brush=None if study.brush is None else brush_curve(study, folders["brush"]),
+        metrics={pair: CurveMetrics(**numbers) for pair, numbers in found.items()},
+        limit=study.tolerances.model_agreement,
+    )

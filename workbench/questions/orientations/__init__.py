@@ -1,0 +1,1 @@
+"""How does the load vary around the wheel?"""

@@ -1,0 +1,79 @@
+"""A question that the report answers, with everything it takes: tasks, results, checks, figures, section.
+
+Verified by tests/unit/test_workbench_questions.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from contracts.curves import StiffnessCurve
+from contracts.records import Check
+from contracts.series import TimeSeries
+from workbench.execution.task import Task
+from workbench.study.model import Study
+
+__all__ = ["Group", "Question", "no_tasks"]
+
+Group = Literal["Result", "Wheel", "ANCF tire", "Rover", "Solvers"]
+"""Headings of the report's contents, in their order."""
+
+
+def no_tasks(study: Study) -> Sequence[Task]:
+    """A question answered from the results of others."""
+    return ()
+
+
+def _always(study: Study) -> bool:
+    return True
+
+
+def _no_checks(study: Study, results: Any) -> Sequence[Check]:
+    return ()
+
+
+def _no_figures(study: Study, results: Any) -> Mapping[str, str]:
+    return {}
+
+
+def _no_curves(study: Study, results: Any) -> Sequence[StiffnessCurve]:
+    return ()
+
+
+def _no_series(study: Study, results: Any) -> Sequence[TimeSeries]:
+    return ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Question:
+    """One question of the report.
+
+    Attributes
+    ----------
+    name : identifier, and the folder beside this module that holds everything about it: ``section.html.j2``, which sees
+        the results as ``results``, and ``statements.toml``, the words of its checks
+    title : what the page's navigation calls it
+    group : heading of the contents it stands under
+    read : study, result folder of every task of the report by name -> the results, a frozen record
+    tasks : study -> tasks; those they need may be any question's
+    checks : study, results -> checks; the page shows them in this question's section
+    figures : study, results -> HTML of each figure by name; the section sees them as ``figures``
+    curves : study, results -> curves to publish as CSV
+    series : study, results -> time series to publish as CSV; the section links them by ``series_link(name)`` of the
+        macros
+    applies : False leaves the question out of this study's graph and report
+    """
+
+    name: str
+    title: str
+    group: Group
+    read: Callable[[Study, Mapping[str, Path]], Any]
+    tasks: Callable[[Study], Sequence[Task]] = no_tasks
+    checks: Callable[[Study, Any], Sequence[Check]] = _no_checks
+    figures: Callable[[Study, Any], Mapping[str, str]] = _no_figures
+    curves: Callable[[Study, Any], Sequence[StiffnessCurve]] = _no_curves
+    series: Callable[[Study, Any], Sequence[TimeSeries]] = _no_series
+    applies: Callable[[Study], bool] = _always

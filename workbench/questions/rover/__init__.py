@@ -1,0 +1,1 @@
+"""How does the rover on brush tires go through the thesis' scenarios?"""

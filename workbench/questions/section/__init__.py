@@ -1,0 +1,1 @@
+"""Does the planar section model follow the solid one?"""

@@ -1,0 +1,44 @@
+"""Task of the planar section model: mesh and solve one orientation, which takes seconds.
+
+Verified by tests/end_to_end/test_section.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from contracts.curves import write_curve
+from geometry.planar import build_planar_mesh
+from reference_fe.wheel.section import solve_section
+from workbench.execution.result_files import FAILURE, write_result
+from workbench.questions.fe.task import converged_part, load_case
+from workbench.study.wheel_design import design_from
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
+
+__all__ = ["solve_orientation"]
+
+
+def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """Solve one orientation: ``curve.csv`` and ``result.json`` (increments, timings, why the curve is partial)."""
+    design = design_from(inputs["wheel"])
+    mesh = build_planar_mesh(design, **inputs["options"])
+
+    def report(deflection: float, load: float) -> None:
+        progress(max(deflection / inputs["deflections"][-1], load / inputs["max_load"]))
+
+    result, failure = converged_part(lambda: solve_section(mesh, design, load_case(inputs), report))
+    write_curve(result.curve, out / "curve.csv")
+    numbers = {
+        "dofs": result.dofs,
+        "solve_s": result.wall_s,
+        "cells": len(mesh.cells),
+        "increments": [asdict(record) for record in result.increments],
+        FAILURE: failure,
+    }
+    write_result(out, numbers)
+    return result.dofs

@@ -1,0 +1,1 @@
+"""At which load does a part begin to yield?"""

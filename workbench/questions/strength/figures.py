@@ -1,0 +1,33 @@
+"""Figures of the question on strength. Verified by tests/end_to_end/test_report.py."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from workbench.charts.interactive import empty_figure, figure_html
+from workbench.charts.palette import INK, ORIENTATION_COLOURS
+from workbench.questions.strength.yielding import StrengthResults, utilisation
+
+__all__ = ["strength_figures"]
+
+
+def strength_figures(results: StrengthResults) -> dict[str, str]:
+    """Utilisation of the most stressed part at each orientation, and of each part at its worst orientation."""
+    around = empty_figure("load on the wheel [N]", "largest stress / yield strength")
+    for i, (orientation, curve) in enumerate(results.curves.items()):
+        most = np.max(list(utilisation(curve, results.yield_strength).values()), axis=0)
+        line = {"color": ORIENTATION_COLOURS[i % 6], "width": 2.0}
+        around.add_scatter(x=curve.load, y=most, name=f"{orientation:g}°", mode="lines+markers", line=line)
+    parts = empty_figure("load on the wheel [N]", "largest stress / yield strength")
+    for i, (part, (orientation, _)) in enumerate(results.by_part.items()):
+        curve = results.curves[orientation]
+        name = f"{part.replace('_', ' ')}, {orientation:g}°"
+        line = {"color": ORIENTATION_COLOURS[i % 6], "width": 2.5}
+        used = utilisation(curve, results.yield_strength)[part]
+        parts.add_scatter(x=curve.load, y=used, name=name, mode="lines", line=line)
+    for figure in (around, parts):
+        figure.add_hline(y=1.0, line={"color": INK, "width": 1, "dash": "dash"}, annotation={"text": "yield"})
+    return {
+        "yield_by_orientation": figure_html(around, "yield-by-orientation"),
+        "yield_by_part": figure_html(parts, "yield-by-part"),
+    }

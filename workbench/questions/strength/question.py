@@ -1,0 +1,76 @@
+"""Question of the report: largest stress against yield along every curve, and the load at first yield.
+
+Verified by tests/unit/test_workbench_yielding.py and tests/end_to_end/test_report.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from contracts.errors import InputError
+from contracts.records import Check
+from workbench.questions.model_curves import model_curves
+from workbench.questions.question import Question
+from workbench.questions.strength.checks import yield_check
+from workbench.questions.strength.yielding import (
+    StrengthResults,
+    first_yield,
+    smallest_yield_load,
+    utilisation,
+    yield_strengths,
+)
+from workbench.study.model import LARGEST_WHEEL_LOAD, Study
+from workbench.verdict.rules import Claim, at_least
+
+__all__ = ["STRENGTH"]
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
+    fe = model_curves("fe", folders)
+    curves = fe.loaded
+    stressed = {
+        part: s for part, s in yield_strengths(study).items() if any(utilisation(c, {part: s}) for c in curves.values())
+    }
+    by_part = {}
+    for part, value in stressed.items():
+        found = {o: first_yield(curve, {part: value}) for o, curve in curves.items()}
+        weakest = min(found, key=lambda o: (found[o].part is None, found[o].load))
+        by_part[part] = (weakest, found[weakest])
+    return StrengthResults(
+        fe=fe,
+        yield_strength=stressed,
+        by_orientation={o: first_yield(curve, stressed) for o, curve in curves.items()},
+        by_part=by_part,
+    )
+
+
+def _checks(study: Study, results: StrengthResults) -> list[Check]:
+    up_to = study.judged_load
+    which = "fe.max_load" if up_to < LARGEST_WHEEL_LOAD else "the upper wheel load of the thesis' sweep"
+    claim = Claim(
+        id="fe.first_yield_load",
+        title="FE: smallest load of any orientation at which a part begins to yield (or where the curve ends)",
+        quantity="load",
+        unit="N",
+        role="finding",
+        source=f"yield strengths of the study's materials; {up_to:g} N is {which}",
+    )
+
+    def smallest() -> float:
+        if results.missing:
+            raise InputError("curve", f"{results.missing[0]:g} deg", "is missing", "see its run's message")
+        return smallest_yield_load(list(results.by_orientation.values()), up_to)
+
+    return [yield_check(results.fe, yield_strengths(study), up_to), at_least(claim, smallest, up_to)]
+
+
+def _figures(study: Study, results: StrengthResults) -> dict[str, str]:
+    from workbench.questions.strength.figures import strength_figures
+
+    return strength_figures(results)
+
+
+STRENGTH: Question = Question(
+    name="strength", title="Strength", group="Wheel", read=_read, checks=_checks, figures=_figures
+)

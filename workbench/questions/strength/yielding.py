@@ -1,0 +1,152 @@
+"""Stress against yield along a curve: utilisation of each part, peak stress at a load, load at first yield.
+
+Verified by tests/unit/test_workbench_yielding.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from workbench.questions.model_curves import ModelCurves
+from workbench.study.model import Study
+from workbench.study.wheel_design import part_materials
+
+__all__ = [
+    "FirstYield",
+    "PeakStress",
+    "StrengthResults",
+    "first_yield",
+    "peak_stresses",
+    "smallest_yield_load",
+    "utilisation",
+    "yield_strengths",
+]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FirstYield:
+    """Where stress first reaches yield on a curve.
+
+    Attributes
+    ----------
+    load, deflection : where it happens [N, m]; the curve's end if it does not
+    part : the part that yields; None if none does
+    """
+
+    load: float
+    deflection: float
+    part: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PeakStress:
+    """Largest von Mises stress in a part at a load.
+
+    Attributes
+    ----------
+    load, deflection : where on the curve [N, m]
+    part : name of the part
+    used : largest von Mises stress over yield strength [-]
+    strength : yield strength [Pa]
+    """
+
+    load: float
+    deflection: float
+    part: str
+    used: float
+    strength: float
+
+    @property
+    def stress(self) -> float:
+        """Largest von Mises stress [Pa]."""
+        return self.used * self.strength
+
+
+def peak_stresses(curve: StiffnessCurve, yield_strength: Mapping[str, float], load: float) -> list[PeakStress]:
+    """Peak stress of each part that has a stress column, at a load [N], interpolated linearly between increments.
+
+    Raises
+    ------
+    InputError
+        If the curve does not reach the load.
+    """
+    d, at = curve.deflection, curve.deflection_at(load)
+    return [
+        PeakStress(
+            load=load, deflection=at, part=part, used=float(np.interp(at, d, used)), strength=yield_strength[part]
+        )
+        for part, used in utilisation(curve, yield_strength).items()
+    ]
+
+
+def utilisation(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> dict[str, NDArray[np.float64]]:
+    """Largest von Mises stress over yield strength at each point of the curve, by part that has a stress column [-]."""
+    columns = {part: f"max_von_mises_{part}_Pa" for part in yield_strength}
+    return {part: curve.columns[c] / yield_strength[part] for part, c in columns.items() if c in curve.columns}
+
+
+def first_yield(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> FirstYield:
+    """First point at which any part's stress reaches its yield strength, interpolated linearly between increments."""
+    found = FirstYield(load=float(curve.load.max()), deflection=float(curve.deflection[-1]), part=None)
+    for part, used in utilisation(curve, yield_strength).items():
+        above = np.flatnonzero(used >= 1.0)
+        if not len(above):
+            continue
+        i = int(above[0])
+        fraction = 1.0 if i == 0 else (1.0 - used[i - 1]) / (used[i] - used[i - 1])
+        deflection, load = (
+            float(y[max(i - 1, 0)] + fraction * (y[i] - y[max(i - 1, 0)])) for y in (curve.deflection, curve.load)
+        )
+        if found.part is None or deflection < found.deflection:
+            found = FirstYield(load=load, deflection=deflection, part=part)
+    return found
+
+
+def smallest_yield_load(found: Sequence[FirstYield], needed: float) -> float:
+    """Smallest load at first yield [N]; where nothing yields, the curve's largest load counts.
+
+    Raises
+    ------
+    InputError
+        If a curve ends below the load ``needed`` [N] without yielding, and none yields below it: then it is not known.
+    """
+    load = min(y.load for y in found if y.part is not None) if any(y.part for y in found) else float("inf")
+    end = min((y.load for y in found if y.part is None), default=float("inf"))
+    if load >= needed > end:
+        rule = f"ends before {needed:g} N without yielding"
+        raise InputError("curve", f"{end:.4g} N", rule, "raise fe.max_deflection or fe.max_load")
+    return min(load, end)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StrengthResults:
+    """FE curves, yield strengths by part that is stressed [Pa], first yield by orientation [deg] and by part.
+
+    Orientations of which no point converged are ``missing`` [deg], and have no first yield.
+    """
+
+    fe: ModelCurves
+    yield_strength: Mapping[str, float]
+    by_orientation: Mapping[float, FirstYield]
+    by_part: Mapping[str, tuple[float, FirstYield]]
+
+    @property
+    def curves(self) -> Mapping[float, StiffnessCurve]:
+        """Those with a point behind first contact, by orientation [deg]."""
+        return self.fe.loaded
+
+    @property
+    def missing(self) -> tuple[float, ...]:
+        """Orientations [deg] of which no point converged."""
+        return tuple(self.fe.missing)
+
+
+def yield_strengths(study: Study) -> dict[str, float]:
+    """Yield strength [Pa] of each part of the mesh."""
+    return {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}

@@ -1,0 +1,1 @@
+"""What changes as parameters of the study do? (``workbench sweep``)"""

@@ -1,0 +1,158 @@
+"""What became of each point of a parameter study: its curves, and the numbers read from them.
+
+Verified by tests/unit/test_workbench_sweep.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from contracts.curves import StiffnessCurve, read_curve
+from contracts.errors import InputError
+from workbench.execution.result_files import early_ends
+from workbench.execution.store import Entry
+from workbench.questions.model_curves import CURVE, mean_curve
+from workbench.questions.models.metrics import compare_curves
+from workbench.questions.sweep.graph import SweepGraph, SweepRun
+from workbench.study.curve_file import read_measured_curve
+from workbench.study.model import Study
+from workbench.study.sweep import SweepSection
+
+__all__ = ["Outcome", "Reference", "measured", "outcomes", "references"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """One model at one point.
+
+    Attributes
+    ----------
+    run : point, model and tasks
+    by_orientation : curve of each orientation; none where a task failed
+    curve : their mean, the curve itself where there is one orientation only; None where a task failed
+    note : why there is no curve, or why it ends early
+    wall_s : of all its tasks [s], those it shares with other points included
+    """
+
+    run: SweepRun
+    by_orientation: tuple[StiffnessCurve, ...] = ()
+    curve: StiffnessCurve | None = None
+    note: str = ""
+    wall_s: float | None = None
+
+    @property
+    def state(self) -> str:
+        """``"whole"``, ``"partial"``: the curve ends before its target, or ``"failed"``."""
+        return "failed" if self.curve is None else "partial" if self.curve.partial else "whole"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reference:
+    """The curve that others are held against, and what it is called."""
+
+    label: str
+    curve: StiffnessCurve
+
+
+def outcomes(graph: SweepGraph, entries: Mapping[str, Entry], failures: Mapping[str, str]) -> list[Outcome]:
+    """What became of every run of the graph, by the results and the failures of its tasks."""
+    return [_outcome(run, entries, failures) for run in graph.runs]
+
+
+def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str, str]) -> Outcome:
+    missing = [name for name in run.tasks if name not in entries]
+    if missing:
+        told = dict.fromkeys(failures[name] for name in missing if name in failures)
+        return Outcome(run=run, note="; ".join(told))
+    folders = {name: entries[task].path for name, task in run.curves.items()}
+    curves = []
+    for name, folder in folders.items():
+        _, _, orientation = name.partition("_phi")
+        curves.append(
+            read_curve(folder / CURVE, model=run.model, orientation_deg=float(orientation) if orientation else None)
+        )
+    return Outcome(
+        run=run,
+        by_orientation=tuple(curves),
+        curve=curves[0] if len(curves) == 1 else mean_curve(curves),
+        note="; ".join(_reach(curves) + list(early_ends(folders).values())),
+        wall_s=sum(entries[name].wall_s for name in run.tasks),
+    )
+
+
+def _reach(curves: Sequence[StiffnessCurve]) -> list[str]:
+    """How far those came that end early."""
+    return [
+        "converged nowhere" if c.unloaded else f"ends at {1e3 * c.deflection[-1]:.3g} mm and {c.load[-1]:.4g} N"
+        for c in curves
+        if c.partial
+    ]
+
+
+def references(study: Study, folder: Path, found: Sequence[Outcome]) -> dict[str, Reference]:
+    """What each model is held against: the study's first own curve, else the model's curve of the study as it is.
+
+    ``folder`` is where the study's files lie. A model without either has none.
+    """
+    models = dict.fromkeys(outcome.run.model for outcome in found)
+    if study.compare.curves:
+        section = study.compare.curves[0]
+        own = Reference(label=section.label, curve=read_measured_curve(Path(section.file)).curve)
+        return dict.fromkeys(models, own)
+    label = "the study as it is"
+    base = {o.run.model: o.curve for o in found if o.run.point.number == 0}
+    return {m: Reference(label=label, curve=c) for m, c in base.items() if c is not None and not c.unloaded}
+
+
+def measured(
+    outcome: Outcome, section: SweepSection, up_to: float, reference: Reference | None
+) -> dict[str, float | str | None]:
+    """Numbers of one outcome by name, with units in the names; None where the curve does not reach.
+
+    Parameters
+    ----------
+    outcome : one model at one point
+    section : deflections [m] and loads [N] at which the curve is read
+    up_to : range of the initial tangent [m]
+    reference : what the curve is held against over the range both have, up to the largest of the section's loads
+    """
+    curve = outcome.curve if outcome.curve is not None and not outcome.curve.unloaded else None
+    found: dict[str, float | str | None] = {
+        "initial_tangent_N_per_m": _or_none(curve, lambda c: c.initial_tangent(up_to))
+    }
+    for d in section.deflections:
+        found[f"load_at_{1e3 * d:g}mm_N"] = _or_none(curve, lambda c, d=d: float(c.load_at(d)))  # type: ignore[misc]
+    for load in section.loads:
+        found[f"deflection_at_{load:g}N_m"] = _or_none(curve, lambda c, load=load: c.deflection_at(load))  # type: ignore[misc]
+    for load in section.loads:
+        found[f"max_von_mises_at_{load:g}N_Pa"] = _largest_stress(outcome.by_orientation, load)
+    metrics = None
+    if reference is not None:
+        metrics = _or_none(curve, lambda c: compare_curves(c, reference.curve, max(section.loads)))
+    found["relative_l2"] = None if metrics is None else metrics.relative_l2
+    found["iso_rating"] = None if metrics is None else metrics.iso_rating
+    found["held_against"] = None if metrics is None or reference is None else reference.label
+    return found
+
+
+def _or_none[T](curve: StiffnessCurve | None, read: Callable[[StiffnessCurve], T]) -> T | None:
+    try:
+        return None if curve is None else read(curve)
+    except InputError:  # beyond the curve's end
+        return None
+
+
+def _largest_stress(curves: Sequence[StiffnessCurve], load: float) -> float | None:
+    """Largest von Mises stress [Pa] of all parts and orientations where the load [N] is reached; None if one is not."""
+    found = []
+    for curve in curves:
+        stresses = [values for name, values in curve.columns.items() if name.startswith("max_von_mises_")]
+        deflection = _or_none(curve, lambda c: c.deflection_at(load))
+        if not stresses or deflection is None:
+            return None
+        found.append(max(float(np.interp(deflection, curve.deflection, values)) for values in stresses))
+    return max(found, default=None)

@@ -1,0 +1,108 @@
+"""A parameter study as one table: a row for each point and model, its values, its numbers; CSV and Parquet.
+
+Verified by tests/unit/test_workbench_sweep.py.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from contracts.text import for_cell
+from workbench.questions.sweep.graph import SweepGraph
+from workbench.questions.sweep.results import Outcome, Reference, measured
+from workbench.study.key_units import unit_of
+from workbench.study.model import Study
+from workbench.study.quantities import number_and_unit
+from workbench.study.sweep import SweepRange, SweepSection, Value
+
+__all__ = ["Cell", "SweepTable", "sweep_table"]
+
+type Cell = float | int | str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepTable:
+    """Names of the columns with their units, the rows, and which columns are what was varied and what was found.
+
+    ``labels`` are what was varied in the same order, as written at an axis: ``"strip thickness [mm]"``.
+    """
+
+    names: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    inputs: tuple[str, ...]
+    labels: tuple[str, ...]
+    outputs: tuple[str, ...]
+
+    def column(self, name: str) -> tuple[Cell, ...]:
+        """Cells of one column."""
+        place = self.names.index(name)
+        return tuple(row[place] for row in self.rows)
+
+    def csv(self) -> str:
+        """The table as text; numbers to their last digit, an empty cell where there is none."""
+        stream = io.StringIO()
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(map(for_cell, self.names))
+        writer.writerows([[_written(cell) for cell in row] for row in self.rows])
+        return stream.getvalue()
+
+
+def _written(cell: Cell) -> float | int | str:
+    return "" if cell is None else for_cell(cell) if isinstance(cell, str) else cell
+
+
+def sweep_table(
+    study: Study, graph: SweepGraph, found: Sequence[Outcome], against: Mapping[str, Reference]
+) -> SweepTable:
+    """One row for each outcome; ``against`` is what each model is held against."""
+    section = study.sweep
+    assert section is not None
+    columns = {key: _column(section, key) for key in section.parameters}
+    inputs = tuple(name for name, _, _ in columns.values())
+    rows, outputs = [], tuple[str, ...]()
+    for outcome in found:
+        values = outcome.run.point.values
+        told = [convert(values[key]) if key in values else None for key, (_, _, convert) in columns.items()]
+        numbers = measured(outcome, section, study.tolerances.initial_tangent_up_to, against.get(outcome.run.model))
+        outputs = tuple(numbers)
+        keys = " ".join(graph.keys[task] for task in outcome.run.curves.values())
+        first = (outcome.run.point.number, outcome.run.model, *told, outcome.state)
+        rows.append((*first, *numbers.values(), outcome.wall_s, keys, outcome.note or None))
+    names = ("point", "model", *inputs, "state", *outputs, "wall_time_s", "task_key", "note")
+    labels = tuple(label for _, label, _ in columns.values())
+    return SweepTable(names=names, rows=tuple(rows), inputs=inputs, labels=labels, outputs=outputs)
+
+
+def _column(section: SweepSection, key: str) -> tuple[str, str, Callable[[Value], Cell]]:
+    """Header and label of one parameter, and what a value becomes: a number in the unit it was written in, or text."""
+    values = section.parameters[key]
+    given = (values.low, values.high) if isinstance(values, SweepRange) else values
+    numbers = [number_and_unit(value) for value in given]
+    words = key.replace("_", " ")
+    if None in numbers:
+        return key, words, _as_text
+    unit = next((number[1] for number in numbers if number), "") or unit_of(key) or ""
+    header = f"{key}_{_in_a_name(unit)}" if unit else key
+    whole = all(isinstance(value, int) for value in given) and not unit
+    return header, f"{words} [{unit or '-'}]", _as_whole_number if whole else _as_number
+
+
+def _as_text(value: Value) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _as_number(value: Value) -> float | None:
+    found = number_and_unit(value)
+    return None if found is None else found[0]
+
+
+def _as_whole_number(value: Value) -> float | int | None:
+    return value if isinstance(value, int) else _as_number(value)
+
+
+def _in_a_name(unit: str) -> str:
+    """``"N/mm^2"`` -> ``"N_per_mm2"``."""
+    return unit.replace("**", "").replace("^", "").replace("/", "_per_").replace("*", "_").replace(" ", "_")

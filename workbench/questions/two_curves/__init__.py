@@ -1,0 +1,1 @@
+"""How far are two curves from each other? (``workbench compare``)"""

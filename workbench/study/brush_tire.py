@@ -1,0 +1,20 @@
+"""The brush tire as inputs of a task, and back. Verified by tests/unit/test_workbench_tasks.py."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+
+from rover_dynamics.tires.brush_tire import BrushTireParameters
+
+__all__ = ["brush_from", "brush_values"]
+
+
+def brush_values(parameters: BrushTireParameters) -> dict[str, float]:
+    """A brush tire as inputs of a task: its numbers, without where they come from, on which no result depends."""
+    return {name: value for name, value in asdict(parameters).items() if name != "source"}
+
+
+def brush_from(values: Mapping[str, float]) -> BrushTireParameters:
+    """The brush tire of a task's inputs, see `brush_values`."""
+    return BrushTireParameters(**values, source="the study")

@@ -1,1 +1,0 @@
-"""What workers run: one function a task, importing what it needs."""

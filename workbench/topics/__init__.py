@@ -1,1 +1,0 @@
-"""Questions of the report, each with its tasks, checks, figures and section."""

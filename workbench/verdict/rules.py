@@ -1,0 +1,105 @@
+"""How a number becomes a check: one function per kind of rule. Verified by tests/unit/test_workbench_checks.py."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from contracts.errors import InputError
+from contracts.records import Check, Role, Status
+from workbench.verdict.number_format import PERCENT_QUANTITIES, displayed
+from workbench.verdict.statements import statement_of
+
+__all__ = ["Claim", "at_least", "at_most", "near", "stated", "within"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Claim:
+    """What a check says, before its number is known: see ``contracts.records.Check`` for the fields."""
+
+    id: str
+    title: str
+    quantity: str
+    unit: str
+    role: Role
+    source: str
+
+
+type Number = Callable[[], float]
+"""Computes the value; an InputError (curve too short) makes the check's status ``error``."""
+
+
+def near(claim: Claim, number: Number, reference: float, tolerance: float) -> Check:
+    """|value - reference| <= tolerance |reference|."""
+    value = _evaluate(number)
+    good = value is not None and abs(value - reference) <= tolerance * abs(reference)
+    return _check(claim, value, reference, f"{100.0 * tolerance:g} %", good)
+
+
+def within(claim: Claim, number: Number, low: float, high: float) -> Check:
+    """low <= value <= high."""
+    value = _evaluate(number)
+    return _check(claim, value, (low, high), "inside the band", value is not None and low <= value <= high)
+
+
+def at_most(claim: Claim, number: Number, limit: float) -> Check:
+    """value <= limit."""
+    value = _evaluate(number)
+    return _check(claim, value, limit, f"at most {_shown(limit, claim)}", value is not None and value <= limit)
+
+
+def at_least(claim: Claim, number: Number, limit: float) -> Check:
+    """value >= limit."""
+    value = _evaluate(number)
+    return _check(claim, value, limit, f"at least {_shown(limit, claim)}", value is not None and value >= limit)
+
+
+def _evaluate(number: Number) -> float | None:
+    try:
+        value = float(number())
+    except InputError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _check(
+    claim: Claim, value: float | None, reference: float | tuple[float, float], tolerance: str, good: bool
+) -> Check:
+    status: Status = "error" if value is None else "pass" if good else "fail"
+    return stated(claim, value, reference, tolerance, status)
+
+
+def stated(
+    claim: Claim,
+    value: float | None,
+    reference: float | tuple[float, float] | None,
+    tolerance: str,
+    status: Status,
+) -> Check:
+    """The check with the words of its family; InputError if it has none."""
+    words = statement_of(claim.id, claim.quantity, claim.title)
+    return Check(
+        id=claim.id,
+        title=claim.title,
+        quantity=claim.quantity,
+        unit=claim.unit,
+        value=value,
+        reference=reference,
+        tolerance=tolerance,
+        status=status,
+        role=claim.role,
+        source=f"{claim.source}; {words.paper}" if words.paper else claim.source,
+        claim=words.claim,
+        why=words.why,
+        theory=words.theory,
+        tests=words.tests,
+    )
+
+
+def _shown(limit: float, claim: Claim) -> str:
+    """The limit as in a sentence: percent for quantities that are fractions of a load, plain exponents."""
+    if claim.unit == "-":
+        text = f"{100.0 * limit:g} %" if claim.quantity in PERCENT_QUANTITIES else f"{limit:g}"
+        return text.replace("e-0", "e-")
+    return displayed(limit, claim.unit, claim.quantity)
