@@ -49,10 +49,12 @@ class InputError(WorkbenchError, ValueError):
     value : the value as given, with its unit, e.g. ``"-0.6 mm"``; empty for what is missing
     rule : the rule it breaks, e.g. ``"must be greater than zero"``
     hint : what to try, e.g. ``"give a strip thickness such as 0.6 mm"``
+    key : attribute of the judged object that the value is, e.g. ``"tire.thickness"``, by which a reader of files finds
+        the place; empty where there is none
     """
 
-    def __init__(self, what: str, value: object, rule: str, hint: str) -> None:
-        self.what, self.value, self.rule, self.hint = what, str(value), rule, hint
+    def __init__(self, what: str, value: object, rule: str, hint: str, *, key: str = "") -> None:
+        self.what, self.value, self.rule, self.hint, self.key = what, str(value), rule, hint, key
         super().__init__(f"{_named(what, self.value)}: {rule}; {hint}")
 
 

@@ -57,7 +57,11 @@ class Material:
         ):
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(
-                    f"{self.name}: {what}", f"{value:g} {unit}", "must be finite and > 0", "check the unit"
+                    f"{self.name}: {what}",
+                    f"{value:g} {unit}",
+                    "must be finite and > 0",
+                    "check the unit",
+                    key=what.replace(" ", "_"),
                 )
         if not -1.0 < self.poisson_ratio < 0.5:
             raise InputError(
@@ -65,6 +69,7 @@ class Material:
                 f"{self.poisson_ratio:g}",
                 "must lie in (-1, 0.5)",
                 "metals have about 0.3",
+                key="poisson_ratio",
             )
 
     def at(self, temperature: float) -> Material:

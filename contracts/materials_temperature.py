@@ -162,5 +162,5 @@ def temperature_data(name: str) -> TemperatureData:
     """Data of a metal by name; InputError for one we do not have."""
     if name not in TEMPERATURE_DATA:
         hint = f"use one of {', '.join(TEMPERATURE_DATA)}"
-        raise InputError("temperature data", name, "is not known", hint)
+        raise InputError("temperature data", name, "is not known", hint, key="temperature_data")
     return TEMPERATURE_DATA[name]

@@ -27,13 +27,14 @@ _MOST_PIECES = 2048
 _WELD_STEP = math.radians(1.0)
 
 
-def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float]) -> None:
+def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float], key: str = "") -> None:
     """Raise InputError if a strip crosses one of its rings, bends sharper than its thickness allows or crosses itself.
 
     Parameters
     ----------
     springs : the set
     gap : (hub, rim): radii [m] of the surfaces between which the springs lie
+    key : where the set stands in its wheel
     """
     leg = spring_leg(springs, gap, 0.0, leg_sides(springs)[0])
     half, what = 0.5 * springs.thickness, f"{springs.name} shape"
@@ -41,29 +42,42 @@ def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float]) -> None
     if radius.min() < gap[0] + half - 1e-7 or radius.max() > gap[1] - half + 1e-7:
         text = f"centreline at radius {radius.min() * 1e3:.4g}..{radius.max() * 1e3:.4g} mm"
         rule = f"crosses the hub or the rim, whose surfaces lie at {gap[0] * 1e3:.4g} and {gap[1] * 1e3:.4g} mm"
-        raise InputError(what, text, rule, "move the spline's points into the gap")
+        raise InputError(what, text, rule, "move the spline's points into the gap", key=f"{key}.shape")
     step = leg.length / (len(leg.points) - 1)
     bend = 2.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(np.diff(leg.normals, axis=0), axis=1), 0.0, 1.0)) / step
     if bend.max() * half >= 1.0:
         text = f"smallest bend radius {1e3 / bend.max():.4g} mm"
-        raise InputError(what, text, f"must exceed half the thickness, {half * 1e3:.4g} mm", "smooth the spline")
+        raise InputError(
+            what, text, f"must exceed half the thickness, {half * 1e3:.4g} mm", "smooth the spline", key=f"{key}.shape"
+        )
     if _overlaps_itself(leg, springs.thickness):
-        raise InputError(what, springs.shape, "the strip overlaps itself", "move the spline's points apart")
+        raise InputError(
+            what, springs.shape, "the strip overlaps itself", "move the spline's points apart", key=f"{key}.shape"
+        )
 
 
-def require_clear_sets(sets: Sequence[SpringSet], gap: tuple[float, float]) -> None:
-    """Raise InputError if springs of one set overlap, or those of two sets that share (or touch) an axial band."""
+def require_clear_sets(sets: Sequence[SpringSet], gap: tuple[float, float], keys: Sequence[str]) -> None:
+    """Raise InputError if springs of one set overlap, or those of two sets that share (or touch) an axial band.
+
+    ``keys`` say where the sets stand in their wheel.
+    """
     strips = [_strips(springs, gap) for springs in sets]
     for i, (first, own) in enumerate(zip(sets, strips, strict=True)):
         if _any_within(own[:1], own[1:], first.thickness):
             rule = "springs of the set overlap each other"
-            raise InputError(f"{first.name} count", first.count, rule, "use fewer springs, or an arc instead of a hoop")
+            raise InputError(
+                f"{first.name} count",
+                first.count,
+                rule,
+                "use fewer springs, or an arc instead of a hoop",
+                key=f"{keys[i]}.count",
+            )
         for second, others in zip(sets[i + 1 :], strips[i + 1 :], strict=True):
             thickness = 0.5 * (first.thickness + second.thickness)
             if _share_band(first, second) and _any_within(own, others, thickness):
                 rule = "their springs overlap or cross in a shared or touching axial band"
                 hint = "turn one set (phase) or separate their bands"
-                raise InputError("spring sets", f"{first.name} and {second.name}", rule, hint)
+                raise InputError("spring sets", f"{first.name} and {second.name}", rule, hint, key="spring_sets")
 
 
 def _share_band(a: SpringSet, b: SpringSet) -> bool:

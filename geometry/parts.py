@@ -40,12 +40,14 @@ class Tire:
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_positive_length("tire outer radius", self.outer_radius)
-        require_positive_length("tire width", self.width)
-        require_positive_length("tire thickness", self.thickness)
+        require_positive_length("tire outer radius", self.outer_radius, key="outer_radius")
+        require_positive_length("tire width", self.width, key="width")
+        require_positive_length("tire thickness", self.thickness, key="thickness")
         if self.thickness >= self.outer_radius:
             rule = f"must be smaller than the outer radius {self.outer_radius * 1e3:g} mm"
-            raise InputError("tire thickness", f"{self.thickness * 1e3:g} mm", rule, "give a strip such as 0.6 mm")
+            raise InputError(
+                "tire thickness", f"{self.thickness * 1e3:g} mm", rule, "give a strip such as 0.6 mm", key="thickness"
+            )
 
     @property
     def inner_radius(self) -> float:
@@ -73,10 +75,10 @@ class Grousers:
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_count("grouser count", self.count)
-        require_positive_length("grouser height", self.height)
-        require_positive_length("grouser thickness", self.thickness)
-        require_finite("grouser phase", self.phase, "rad")
+        require_count("grouser count", self.count, key="count")
+        require_positive_length("grouser height", self.height, key="height")
+        require_positive_length("grouser thickness", self.thickness, key="thickness")
+        require_finite("grouser phase", self.phase, "rad", key="phase")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,21 +117,31 @@ class SpringSet:
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_name("spring set name", self.name)
-        require_count(f"{self.name} count", self.count)
-        require_finite(f"{self.name} phase", self.phase, "rad")
-        require_positive_length(f"{self.name} thickness", self.thickness)
-        require_positive_length(f"{self.name} weld length", self.weld_length)
-        require_bands(f"{self.name} band", self.bands)
+        require_name("spring set name", self.name, key="name")
+        require_count(f"{self.name} count", self.count, key="count")
+        require_finite(f"{self.name} phase", self.phase, "rad", key="phase")
+        require_positive_length(f"{self.name} thickness", self.thickness, key="thickness")
+        require_positive_length(f"{self.name} weld length", self.weld_length, key="weld_length")
+        require_bands(f"{self.name} band", self.bands, key="bands")
         if self.shape not in ("arc", "hoop", "spline"):
-            raise InputError(f"{self.name} shape", self.shape, "is not known", "give arc, hoop or spline")
+            raise InputError(f"{self.name} shape", self.shape, "is not known", "give arc, hoop or spline", key="shape")
         if self.direction not in (-1, 1):
-            raise InputError(f"{self.name} direction", self.direction, "must be 1 or -1", "1 leaves towards larger phi")
+            raise InputError(
+                f"{self.name} direction",
+                self.direction,
+                "must be 1 or -1",
+                "1 leaves towards larger phi",
+                key="direction",
+            )
         if (self.shape == "spline") != bool(self.points):
             rule = "points belong to the shape spline, and only to it"
-            raise InputError(f"{self.name} points", self.points, rule, "give points such as ((0.5, 0.5),) for a spline")
+            raise InputError(
+                f"{self.name} points", self.points, rule, "give points such as ((0.5, 0.5),) for a spline", key="points"
+            )
         if not all(math.isfinite(v) for point in self.points for v in point):
-            raise InputError(f"{self.name} points", self.points, "must be finite", "give (fraction, radians) pairs")
+            raise InputError(
+                f"{self.name} points", self.points, "must be finite", "give (fraction, radians) pairs", key="points"
+            )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,12 +162,14 @@ class HubRing:
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_positive_length("hub outer radius", self.outer_radius)
-        require_positive_length("hub thickness", self.thickness)
-        require_positive_length("hub width", self.width)
+        require_positive_length("hub outer radius", self.outer_radius, key="outer_radius")
+        require_positive_length("hub thickness", self.thickness, key="thickness")
+        require_positive_length("hub width", self.width, key="width")
         if self.thickness >= self.outer_radius:
             rule = f"must be smaller than the hub's outer radius {self.outer_radius * 1e3:g} mm"
-            raise InputError("hub thickness", f"{self.thickness * 1e3:g} mm", rule, "give a ring such as 2 mm")
+            raise InputError(
+                "hub thickness", f"{self.thickness * 1e3:g} mm", rule, "give a ring such as 2 mm", key="thickness"
+            )
 
     @property
     def inner_radius(self) -> float:
@@ -181,9 +195,9 @@ class Cone:
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_positive_length("cone thickness", self.thickness)
-        require_positive_length("cone outer position", self.outer_position)
-        require_positive_length("cone inner position", self.inner_position)
+        require_positive_length("cone thickness", self.thickness, key="thickness")
+        require_positive_length("cone outer position", self.outer_position, key="outer_position")
+        require_positive_length("cone inner position", self.inner_position, key="inner_position")
 
     def axial_width(self, outer_radius: float, inner_radius: float) -> float:
         """Axial extent [m] of a joint: thickness / cos(angle between the shell and the radius)."""

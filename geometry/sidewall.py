@@ -57,17 +57,21 @@ class SidewallSprings:
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_name("sidewall springs name", self.name)
-        require_count(f"{self.name} count", self.count)
-        require_finite(f"{self.name} phase", self.phase, "rad")
+        require_name("sidewall springs name", self.name, key="name")
+        require_count(f"{self.name} count", self.count, key="count")
+        require_finite(f"{self.name} phase", self.phase, "rad", key="phase")
         for key in ("width", "thickness", "curl_radius", "arc_radius", "weld_length", "clamp_length"):
-            require_positive_length(f"{self.name} {key.replace('_', ' ')}", getattr(self, key))
+            require_positive_length(f"{self.name} {key.replace('_', ' ')}", getattr(self, key), key=key)
         if min(self.curl_radius, self.arc_radius) <= 0.5 * self.thickness:
             rule = f"must exceed half the thickness, {0.5e3 * self.thickness:g} mm"
-            raise InputError(f"{self.name} curl radius", f"{self.curl_radius * 1e3:g} mm", rule, "widen the curl")
+            raise InputError(
+                f"{self.name} curl radius", f"{self.curl_radius * 1e3:g} mm", rule, "widen the curl", key="curl_radius"
+            )
         if not 0.0 < self.sweep <= 1.25 * math.pi:
             rule = "must be greater than 0 and at most 225 deg"
-            raise InputError(f"{self.name} sweep", f"{math.degrees(self.sweep):g} deg", rule, "180 deg is a semicircle")
+            raise InputError(
+                f"{self.name} sweep", f"{math.degrees(self.sweep):g} deg", rule, "180 deg is a semicircle", key="sweep"
+            )
 
     @property
     def free_length(self) -> float:

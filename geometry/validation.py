@@ -46,17 +46,20 @@ def validate_wheel(design: _Parts) -> None:
     tire, hub = design.tire, design.outer_hub
     if design.grousers is not None:
         _check_grousers(design.grousers, tire.outer_radius)
-    _check_nested("outer hub radius", hub.outer_radius, "tire's inner radius", tire.inner_radius)
+    _check_nested(
+        "outer hub radius", "outer_hub.outer_radius", hub.outer_radius, "tire's inner radius", tire.inner_radius
+    )
     half_width = 0.5 * min(tire.width, hub.width)
-    for springs in design.spring_sets:
-        _check_springs(springs, (hub.outer_radius, tire.inner_radius), half_width)
-    require_clear_sets(design.spring_sets, (hub.outer_radius, tire.inner_radius))
+    keys = [f"spring_sets[{i}]" for i in range(len(design.spring_sets))]
+    for springs, key in zip(design.spring_sets, keys, strict=True):
+        _check_springs(springs, (hub.outer_radius, tire.inner_radius), half_width, key)
+    require_clear_sets(design.spring_sets, (hub.outer_radius, tire.inner_radius), keys)
     if design.sidewall_springs is not None:
         _check_sidewall(design.sidewall_springs, design)
     if design.inner_hub is None:
         if design.cone is not None or design.impact_springs is not None:
             rule = "cone and impact springs need an inner hub"
-            raise InputError("inner hub", "none", rule, "give an inner hub or leave both out")
+            raise InputError("inner hub", "none", rule, "give an inner hub or leave both out", key="inner_hub")
     else:
         _check_inner_hub(design, design.inner_hub)
 
@@ -65,12 +68,15 @@ def _check_names(design: _Parts) -> None:
     sidewall = [design.sidewall_springs.name] if design.sidewall_springs else []
     names = [springs.name for springs in design.spring_sets] + sidewall
     if not names:
-        raise InputError("spring sets", "none", "the rim needs springs", "give a SpringSet or SidewallSprings")
-    for name in names:
+        raise InputError(
+            "spring sets", "none", "the rim needs springs", "give a SpringSet or SidewallSprings", key="spring_sets"
+        )
+    places = [f"spring_sets[{i}].name" for i in range(len(design.spring_sets))] + ["sidewall_springs.name"]
+    for name, place in zip(names, places, strict=False):
         if name in RESERVED_NAMES:
-            raise InputError("spring set name", name, "is the name of another part", "choose another name")
+            raise InputError("spring set name", name, "is the name of another part", "choose another name", key=place)
         if names.count(name) > 1:
-            raise InputError("spring set name", name, "is used twice", "give each spring set its own name")
+            raise InputError("spring set name", name, "is used twice", "give each spring set its own name", key=place)
     if design.impact_springs is not None and design.impact_springs.name != "impact_springs":
         rule = "the set between the hubs is called impact_springs"
         raise InputError("impact spring set name", design.impact_springs.name, rule, "set name='impact_springs'")
@@ -81,43 +87,79 @@ def _check_grousers(grousers: Grousers, radius: float) -> None:
     if grousers.thickness >= spacing:
         text = f"{grousers.thickness * 1e3:g} mm"
         rule = f"{grousers.count} grousers overlap: their feet are {spacing * 1e3:.4g} mm apart"
-        raise InputError("grouser thickness", text, rule, "use fewer or thinner grousers")
+        raise InputError("grouser thickness", text, rule, "use fewer or thinner grousers", key="grousers.thickness")
 
 
-def _check_nested(what: str, inner: float, other: str, outer: float) -> None:
+def _check_nested(what: str, key: str, inner: float, other: str, outer: float) -> None:
     if inner >= outer:
         rule = f"must be smaller than the {other}, {outer * 1e3:g} mm"
-        raise InputError(what, f"{inner * 1e3:g} mm", rule, "use a smaller hub or a larger wheel")
+        raise InputError(what, f"{inner * 1e3:g} mm", rule, "use a smaller hub or a larger wheel", key=key)
 
 
-def _check_springs(springs: SpringSet, gap: tuple[float, float], half_width: float) -> None:
+def _check_springs(springs: SpringSet, gap: tuple[float, float], half_width: float, key: str) -> None:
     hub, rim = gap
     if 2.0 * springs.thickness >= rim - hub:
         rule = f"strip and two welds do not fit the gap of {(rim - hub) * 1e3:.4g} mm between the rings"
-        raise InputError(f"{springs.name} thickness", f"{springs.thickness * 1e3:g} mm", rule, "use a thinner strip")
+        raise InputError(
+            f"{springs.name} thickness",
+            f"{springs.thickness * 1e3:g} mm",
+            rule,
+            "use a thinner strip",
+            key=f"{key}.thickness",
+        )
     for y0, y1 in springs.bands:
         if y0 < -half_width - 1e-12 or y1 > half_width + 1e-12:
             rule = f"leaves the rings it joins, which reach from {-half_width * 1e3:g} to {half_width * 1e3:g} mm"
-            raise InputError(f"{springs.name} band", f"{y0 * 1e3:g}..{y1 * 1e3:g} mm", rule, "move the band inwards")
+            raise InputError(
+                f"{springs.name} band",
+                f"{y0 * 1e3:g}..{y1 * 1e3:g} mm",
+                rule,
+                "move the band inwards",
+                key=f"{key}.bands",
+            )
     if weld_angle(springs, rim) >= 2.0 * math.pi / springs.count:
         spacing = 2.0 * math.pi * rim / springs.count
         rule = f"must be smaller than the spacing of the welds, {spacing * 1e3:.4g} mm"
-        raise InputError(f"{springs.name} weld length", f"{springs.weld_length * 1e3:g} mm", rule, "shorten the weld")
-    require_clear_of_rings(springs, gap)
+        raise InputError(
+            f"{springs.name} weld length",
+            f"{springs.weld_length * 1e3:g} mm",
+            rule,
+            "shorten the weld",
+            key=f"{key}.weld_length",
+        )
+    require_clear_of_rings(springs, gap, key)
 
 
 def _check_sidewall(springs: SidewallSprings, design: _Parts) -> None:
     rim, hub = design.tire.inner_radius, design.outer_hub.outer_radius
     if design.spring_sets or design.inner_hub is not None:
         rule = "cannot be combined with springs in the wheel's plane or an inner hub"
-        raise InputError("sidewall springs", springs.name, rule, "leave the other springs and the inner hub out")
+        raise InputError(
+            "sidewall springs",
+            springs.name,
+            rule,
+            "leave the other springs and the inner hub out",
+            key="sidewall_springs",
+        )
     if springs.weld_length > 0.5 * design.tire.width + 1e-12:
         rule = f"must not exceed half the tire's width, {0.5e3 * design.tire.width:g} mm"
-        raise InputError(f"{springs.name} weld length", f"{springs.weld_length * 1e3:g} mm", rule, "shorten the weld")
+        raise InputError(
+            f"{springs.name} weld length",
+            f"{springs.weld_length * 1e3:g} mm",
+            rule,
+            "shorten the weld",
+            key="sidewall_springs.weld_length",
+        )
     if springs.width >= 2.0 * rim or 2.0 * weld_half_angle(springs, rim) >= 2.0 * math.pi / springs.count:
         spacing = 2.0e3 * math.pi * rim / springs.count
         rule = f"must be smaller than the spacing of the strips on the rim, {spacing:.4g} mm"
-        raise InputError(f"{springs.name} width", f"{springs.width * 1e3:g} mm", rule, "use narrower or fewer strips")
+        raise InputError(
+            f"{springs.name} width",
+            f"{springs.width * 1e3:g} mm",
+            rule,
+            "use narrower or fewer strips",
+            key="sidewall_springs.width",
+        )
     centre = rim - 0.5 * springs.thickness - 2.0 * springs.curl_radius - springs.arc_radius
     lowest = centre + springs.arc_radius * math.cos(springs.sweep)
     clamp = lowest - springs.clamp_length * math.sin(springs.sweep)
@@ -125,43 +167,71 @@ def _check_sidewall(springs: SidewallSprings, design: _Parts) -> None:
     if min(lowest, clamp) < max(hub - 1e-9, 0.0):
         text = f"strip down to radius {min(lowest, clamp) * 1e3:.4g} mm"
         rule = f"must stay outside the outer hub, radius {hub * 1e3:.4g} mm"
-        raise InputError(f"{springs.name} arc radius", text, rule, "use a smaller arc, curl, sweep or hub")
+        raise InputError(
+            f"{springs.name} arc radius",
+            text,
+            rule,
+            "use a smaller arc, curl, sweep or hub",
+            key="sidewall_springs.arc_radius",
+        )
     if lowest < room:
         rule = f"neighbours overlap at the hub: they need a radius of {room * 1e3:.4g} mm"
-        raise InputError(f"{springs.name} width", f"{springs.width * 1e3:g} mm", rule, "use narrower or fewer strips")
+        raise InputError(
+            f"{springs.name} width",
+            f"{springs.width * 1e3:g} mm",
+            rule,
+            "use narrower or fewer strips",
+            key="sidewall_springs.width",
+        )
 
 
 def _check_inner_hub(design: _Parts, inner: HubRing) -> None:
     bore = design.outer_hub.inner_radius
-    _check_nested("inner hub radius", inner.outer_radius, "outer hub's bore", bore)
+    _check_nested("inner hub radius", "inner_hub.outer_radius", inner.outer_radius, "outer hub's bore", bore)
     if design.cone is None and design.impact_springs is None:
         rule = "nothing joins it to the outer hub"
-        raise InputError("inner hub", f"{inner.outer_radius * 1e3:g} mm", rule, "give a cone, or leave the hub out")
+        raise InputError(
+            "inner hub", f"{inner.outer_radius * 1e3:g} mm", rule, "give a cone, or leave the hub out", key="inner_hub"
+        )
     half_width = 0.5 * min(inner.width, design.outer_hub.width)
     if design.impact_springs is not None:
-        _check_springs(design.impact_springs, (inner.outer_radius, bore), half_width)
-        require_clear_sets((design.impact_springs,), (inner.outer_radius, bore))
+        _check_springs(design.impact_springs, (inner.outer_radius, bore), half_width, "impact_springs")
+        require_clear_sets((design.impact_springs,), (inner.outer_radius, bore), ["impact_springs"])
     if design.cone is not None:
         _check_cone(design, design.cone, inner)
 
 
 def _check_cone(design: _Parts, cone: Cone, inner: HubRing) -> None:
     half = 0.5 * cone.axial_width(design.outer_hub.inner_radius, inner.outer_radius)
-    for what, at, width in (
-        ("cone outer position", cone.outer_position, design.outer_hub.width),
-        ("cone inner position", cone.inner_position, inner.width),
+    for name, at, width in (
+        ("outer_position", cone.outer_position, design.outer_hub.width),
+        ("inner_position", cone.inner_position, inner.width),
     ):
+        if 2.0 * half > 0.5 * width + 1e-12:
+            rule = (
+                f"its joint takes {2e3 * half:.4g} mm along the axle, where a side of the hub has {500.0 * width:g} mm"
+            )
+            raise InputError(
+                "cone thickness", f"{cone.thickness * 1e3:g} mm", rule, "use a thinner shell", key="cone.thickness"
+            )
         if at - half < -1e-12 or at + half > 0.5 * width + 1e-12:
             rule = f"its joint of {2e3 * half:.4g} mm must lie in 0..{500.0 * width:g} mm"
-            raise InputError(what, f"{at * 1e3:g} mm", rule, "move the cone along the axle")
+            what = f"cone {name.replace('_', ' ')}"
+            raise InputError(what, f"{at * 1e3:g} mm", rule, "move the cone along the axle", key=f"cone.{name}")
     if 0.0 < abs(cone.outer_position - cone.inner_position) < 2.0 * half:
         text = f"{cone.outer_position * 1e3:g} and {cone.inner_position * 1e3:g} mm"
         rule = f"its two joints of {2e3 * half:.4g} mm overlap along the axle"
-        raise InputError("cone positions", text, rule, "make them equal (a disc) or move them apart")
+        raise InputError("cone positions", text, rule, "make them equal (a disc) or move them apart", key="cone")
     if design.impact_springs is not None:
         low = min(cone.outer_position, cone.inner_position) - half
         high = max(cone.outer_position, cone.inner_position) + half
         for y0, y1 in design.impact_springs.bands:
             if (y0 <= high and y1 >= low) or (y0 <= -low and y1 >= -high):
                 rule = f"meets the cone, which takes up {low * 1e3:.4g}..{high * 1e3:.4g} mm on either side"
-                raise InputError("impact_springs band", f"{y0 * 1e3:g}..{y1 * 1e3:g} mm", rule, "narrow the band")
+                raise InputError(
+                    "impact_springs band",
+                    f"{y0 * 1e3:g}..{y1 * 1e3:g} mm",
+                    rule,
+                    "narrow the band",
+                    key="impact_springs.bands",
+                )

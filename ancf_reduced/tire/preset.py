@@ -70,30 +70,51 @@ class TirePreset:
             value, unit = getattr(self, name), "N/m" if name == "contact_stiffness" else "m"
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(
-                    name.replace("_", " "), f"{value:g} {unit}", "must be finite and > 0", "check the unit"
+                    name.replace("_", " "), f"{value:g} {unit}", "must be finite and > 0", "check the unit", key=name
                 )
         if self.datum_radius is not None and not self.hub_radius < self.datum_radius < math.inf:
             rule = f"must be finite and above the hub's, {1e3 * self.hub_radius:g} mm"
-            raise InputError("datum radius", f"{1e3 * self.datum_radius:g} mm", rule, "leave it out")
+            raise InputError(
+                "datum radius", f"{1e3 * self.datum_radius:g} mm", rule, "leave it out", key="datum_radius"
+            )
         if self.hub_radius >= self.rim_radius - 0.5 * self.rim_thickness:
             limit = 1e3 * (self.rim_radius - 0.5 * self.rim_thickness)
             rule = f"must be below the rim's inner radius, {limit:g} mm"
-            raise InputError("hub radius", f"{1e3 * self.hub_radius:g} mm", rule, "give a smaller hub")
+            raise InputError(
+                "hub radius", f"{1e3 * self.hub_radius:g} mm", rule, "give a smaller hub", key="hub_radius"
+            )
         if self.spokes < 1 or self.circumferential_plates < 3 or self.circumferential_plates % self.spokes:
             raise InputError(
                 "circumferential plates",
                 f"{self.circumferential_plates} with {self.spokes} spokes",
                 "must be 3 or more and a multiple of the spokes",
                 "give 4, 8, 12, ... plates for 4 spokes",
+                key="circumferential_plates",
             )
         if not math.isfinite(self.phase):
-            raise InputError("phase", f"{self.phase} rad", "must be finite", "give an angle such as 0.52 rad")
+            raise InputError(
+                "phase", f"{self.phase} rad", "must be finite", "give an angle such as 0.52 rad", key="phase"
+            )
         if self.plates_per_spoke < 1:
-            raise InputError("plates per spoke", self.plates_per_spoke, "must be 1 or more", "give 1 as the thesis")
+            raise InputError(
+                "plates per spoke",
+                self.plates_per_spoke,
+                "must be 1 or more",
+                "give 1 as the thesis",
+                key="plates_per_spoke",
+            )
         if len(self.contact_points) != 2 or min(self.contact_points) < 2:
-            raise InputError("contact points", self.contact_points, "needs two counts of 2 or more", "give (10, 10)")
+            raise InputError(
+                "contact points",
+                self.contact_points,
+                "needs two counts of 2 or more",
+                "give (10, 10)",
+                key="contact_points",
+            )
         if self.contact_layout not in ("edges", "centres"):
-            raise InputError("contact layout", self.contact_layout, "must be edges or centres", "use edges")
+            raise InputError(
+                "contact layout", self.contact_layout, "must be edges or centres", "use edges", key="contact_layout"
+            )
 
     @property
     def zero_radius(self) -> float:

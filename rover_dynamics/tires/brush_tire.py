@@ -63,23 +63,31 @@ class BrushTireParameters:
     source: str
 
     def __post_init__(self) -> None:
-        for what, value, unit in (
-            ("brush radial stiffness", self.radial_stiffness, "N/m"),
-            ("brush longitudinal slip stiffness", self.longitudinal_slip_stiffness, "N"),
-            ("brush cornering stiffness", self.cornering_stiffness, "N/rad"),
-            ("brush smallest friction", self.friction_min, "-"),
+        for what, key, unit in (
+            ("brush radial stiffness", "radial_stiffness", "N/m"),
+            ("brush longitudinal slip stiffness", "longitudinal_slip_stiffness", "N"),
+            ("brush cornering stiffness", "cornering_stiffness", "N/rad"),
+            ("brush smallest friction", "friction_min", "-"),
         ):
+            value = getattr(self, key)
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(what, f"{value:g} {unit}", "must be finite and > 0", "Table II of the thesis has one")
-        for what, value, unit in (
-            ("brush radial damping", self.radial_damping, "N s/m"),
-            ("brush rolling resistance", self.rolling_resistance, "-"),
+                raise InputError(
+                    what, f"{value:g} {unit}", "must be finite and > 0", "Table II of the thesis has one", key=key
+                )
+        for what, key, unit in (
+            ("brush radial damping", "radial_damping", "N s/m"),
+            ("brush rolling resistance", "rolling_resistance", "-"),
         ):
+            value = getattr(self, key)
             if not (math.isfinite(value) and value >= 0.0):
-                raise InputError(what, f"{value:g} {unit}", "must be finite and >= 0", "give 0 to leave it out")
+                raise InputError(
+                    what, f"{value:g} {unit}", "must be finite and >= 0", "give 0 to leave it out", key=key
+                )
         if not (math.isfinite(self.friction_max) and self.friction_max >= self.friction_min):
             rule = f"must be finite and not below the smallest friction ({self.friction_min:g})"
-            raise InputError("brush largest friction", f"{self.friction_max:g}", rule, "exchange the two values")
+            raise InputError(
+                "brush largest friction", f"{self.friction_max:g}", rule, "exchange the two values", key="friction_max"
+            )
 
 
 THESIS_BRUSH = BrushTireParameters(

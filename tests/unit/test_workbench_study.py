@@ -228,6 +228,26 @@ def test_bad_study_names_file_key_value_and_rule(tmp_path: Path, old: str, new: 
         assert text in message, message
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "key"),
+    [
+        (r"friction_max = \S+", "friction_max = 0.3", "brush.friction_max = "),
+        (r"friction_min = \S+", "friction_min = 0.9", "brush.friction_max = "),
+        (r'thickness = "1\.5 mm"', 'thickness = "30 mm"', "wheel.cone.thickness = "),
+        (r'outer_position = "36 mm"', 'outer_position = "59.9 mm"', "wheel.cone.outer_position = "),
+        (r'outer_radius = "20 mm"', 'outer_radius = "49 mm"', "wheel.inner_hub.outer_radius = "),
+        (r'bands = \[\["-15 mm", "15 mm"\]\]', 'bands = [["-70 mm", "15 mm"]]', "wheel.impact_springs.bands = "),
+        (r'hub_radius = "[^"]*"', 'hub_radius = "130 mm"', "ancf.hub_radius = "),
+    ],
+)
+def test_a_rule_of_several_numbers_blames_the_key_the_library_names(
+    tmp_path: Path, old: str, new: str, key: str
+) -> None:
+    with pytest.raises(StudyError) as caught:
+        read_study(_write(tmp_path, old, new))
+    assert f": {key}" in str(caught.value)
+
+
 SPLINE = """shape = "spline"
 points = [[0.5, "70 deg"], [RADIUS, "100 deg"]]
 """

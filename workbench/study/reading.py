@@ -89,7 +89,7 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         if study.brush is not None:
             brush_parameters(study)
     except SectionInputError as error:
-        key = _key_of(error, table)
+        key = _key_of(error)
         raise StudyError(path, key, error.value, f"{error.what} {error.rule}", error.hint) from error
     for broken in broken_rules(study):
         raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
@@ -158,46 +158,10 @@ def _lower_first(text: str) -> str:
     return text[:1].lower() + text[1:]
 
 
-def _key_of(error: SectionInputError, table: Mapping[str, Any]) -> str:
-    """Best key for a rule broken inside a section: the field whose words the error's ``what`` names."""
-    what = error.what.replace("_", " ")
-    best, longest = error.section, 0
-    for key, name in _leaves(error.section, table):
-        words = name.replace("_", " ")
-        if len(words) > longest and re.search(rf"\b{re.escape(words)}\b", what):
-            best, longest = key, len(words)
-    return best
-
-
-def _leaves(section: str, table: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """(key, words that name it) for each field below a section; a part's fields are named with the part."""
-    content: Any = table
-    for part in re.findall(r"[^.\[\]]+", section):
-        content = content[int(part)] if isinstance(content, list) else content.get(part, {})
-        if not isinstance(content, dict | list):
-            break
-    if not isinstance(content, dict):  # a name with a dot in it
-        return []
-    leaves: list[tuple[str, str]] = []
-    for field, value in content.items():
-        leaves += _named(f"{section}.{field}", field, value)
-    return leaves
-
-
-def _named(key: str, name: str, value: Any) -> list[tuple[str, str]]:
-    if isinstance(value, dict):
-        inner = [item for field, v in value.items() for item in _field_names(key, name, field, v)]
-        return [(key, name), *inner]
-    if isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
-        sets = [_named(f"{key}[{i}]", str(v.get("name", name)), v) for i, v in enumerate(value)]
-        return [(key, "spring sets"), *(item for items in sets for item in items)]
-    return [(key, singular) for singular in {name, name.removesuffix("s")}]
-
-
-def _field_names(key: str, part: str, field: str, value: Any) -> list[tuple[str, str]]:
-    """Ways geometry names a field of a part: ``outer hub radius`` is ``outer_hub.outer_radius``."""
-    names = {f"{part} {field}", f"{part} {field.removesuffix('s')}", f"{part} {field.removeprefix('outer_')}"}
-    return [(f"{key}.{field}", name) for name in sorted(names)]
+def _key_of(error: SectionInputError) -> str:
+    """Key of the study file that breaks a rule: the attribute that the library names, within the error's section."""
+    own = error.key.replace("spring_sets", "springs").replace("cornering_stiffness", "cornering_stiffness_per_degree")
+    return f"{error.section}.{own}" if own else error.section
 
 
 def _with_whole_paths(study: Study, folder: Path) -> Study:

@@ -24,7 +24,7 @@ class SectionInputError(InputError):
     """An InputError and the study section it came from, so that the message can name file and key."""
 
     def __init__(self, section: str, error: InputError) -> None:
-        super().__init__(error.what, error.value, error.rule, error.hint)
+        super().__init__(error.what, error.value, error.rule, error.hint, key=error.key)
         self.section = section
 
 
@@ -109,6 +109,7 @@ class _WheelParts:
         material = values.pop("material")
         if material not in self.known:
             rule = f"is not in [materials], which has {', '.join(self.known) or 'none'}"
-            error = InputError("material", material, rule, f"add [materials.{material}] or correct the name")
+            hint = f"add [materials.{material}] or correct the name"
+            error = InputError("material", material, rule, hint, key="material")
             raise SectionInputError(f"wheel.{key}", error)
         return in_section(f"wheel.{key}", lambda: kind(**values, **more, material=self.known[material]))
