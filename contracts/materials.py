@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
+from typing import Annotated
 
+from contracts.declared import In, PositiveDensity, PositivePressure, require_declared
 from contracts.errors import InputError
 from contracts.materials_temperature import REFERENCE_TEMPERATURE, temperature_data
 
@@ -36,41 +37,19 @@ class Material:
     """
 
     name: str
-    young_modulus: float
-    poisson_ratio: float
-    density: float
-    yield_strength: float
+    young_modulus: PositivePressure
+    poisson_ratio: Annotated[float, In("", above=-1.0, below=0.5)]
+    density: PositiveDensity
+    yield_strength: PositivePressure
     source: str
     temperature_data: str | None = None
-    temperature: float = REFERENCE_TEMPERATURE
-    thermal_strain: float = 0.0
+    temperature: Annotated[float, In("K", above=0.0)] = REFERENCE_TEMPERATURE
+    thermal_strain: Annotated[float, In("", above=-1.0)] = 0.0
 
     def __post_init__(self) -> None:
         if self.temperature_data is not None:
             temperature_data(self.temperature_data)
-        for what, value, unit in (
-            ("young modulus", self.young_modulus, "Pa"),
-            ("density", self.density, "kg/m^3"),
-            ("yield strength", self.yield_strength, "Pa"),
-            ("temperature", self.temperature, "K"),
-            ("thermal stretch", self.thermal_stretch, ""),
-        ):
-            if not (math.isfinite(value) and value > 0.0):
-                raise InputError(
-                    f"{self.name}: {what}",
-                    f"{value:g} {unit}",
-                    "must be finite and > 0",
-                    "check the unit",
-                    key=what.replace(" ", "_"),
-                )
-        if not -1.0 < self.poisson_ratio < 0.5:
-            raise InputError(
-                f"{self.name}: poisson ratio",
-                f"{self.poisson_ratio:g}",
-                "must lie in (-1, 0.5)",
-                "metals have about 0.3",
-                key="poisson_ratio",
-            )
+        require_declared(self, f"{self.name}:")
 
     def at(self, temperature: float) -> Material:
         """The material at another temperature [K], from its values at 20 C and its temperature data.

@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
+from contracts.declared import Angle, Count, In, Number, PositiveLength, require_declared
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V, Material
-from geometry.rules import require_bands, require_count, require_finite, require_name, require_positive_length
+from geometry.rules import require_bands, require_name
 
 __all__ = ["Bands", "Cone", "Grousers", "HubRing", "SpringSet", "SpringShape", "Tire"]
 
-Bands = tuple[tuple[float, float], ...]
+Bands = tuple[tuple[Annotated[float, In("m")], Annotated[float, In("m")]], ...]
 """Axial bands ``((y0, y1), ...)`` [m], y0 < y1."""
 
 SpringShape = Literal["arc", "hoop", "spline"]
@@ -34,15 +35,13 @@ class Tire:
     material : elastic material
     """
 
-    outer_radius: float
-    width: float
-    thickness: float
+    outer_radius: PositiveLength
+    width: PositiveLength
+    thickness: PositiveLength
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_positive_length("tire outer radius", self.outer_radius, key="outer_radius")
-        require_positive_length("tire width", self.width, key="width")
-        require_positive_length("tire thickness", self.thickness, key="thickness")
+        require_declared(self, "tire")
         if self.thickness >= self.outer_radius:
             rule = f"must be smaller than the outer radius {self.outer_radius * 1e3:g} mm"
             raise InputError(
@@ -68,17 +67,14 @@ class Grousers:
     material : elastic material
     """
 
-    count: int
-    height: float
-    thickness: float
-    phase: float = 0.0
+    count: Count
+    height: PositiveLength
+    thickness: PositiveLength
+    phase: Angle = 0.0
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_count("grouser count", self.count, key="count")
-        require_positive_length("grouser height", self.height, key="height")
-        require_positive_length("grouser thickness", self.thickness, key="thickness")
-        require_finite("grouser phase", self.phase, "rad", key="phase")
+        require_declared(self, "grouser")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,23 +102,20 @@ class SpringSet:
     """
 
     name: str
-    count: int
+    count: Count
     bands: Bands
-    thickness: float
+    thickness: PositiveLength
     shape: SpringShape
-    weld_length: float
-    phase: float = 0.0
-    direction: int = 1
-    points: tuple[tuple[float, float], ...] = ()
+    weld_length: PositiveLength
+    phase: Angle = 0.0
+    direction: Literal[-1, 1] = 1
+    points: tuple[tuple[Number, Angle], ...] = ()
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
         require_name("spring set name", self.name, key="name")
-        require_count(f"{self.name} count", self.count, key="count")
-        require_finite(f"{self.name} phase", self.phase, "rad", key="phase")
-        require_positive_length(f"{self.name} thickness", self.thickness, key="thickness")
-        require_positive_length(f"{self.name} weld length", self.weld_length, key="weld_length")
         require_bands(f"{self.name} band", self.bands, key="bands")
+        require_declared(self, self.name)
         if self.shape not in ("arc", "hoop", "spline"):
             raise InputError(f"{self.name} shape", self.shape, "is not known", "give arc, hoop or spline", key="shape")
         if self.direction not in (-1, 1):
@@ -138,10 +131,6 @@ class SpringSet:
             raise InputError(
                 f"{self.name} points", self.points, rule, "give points such as ((0.5, 0.5),) for a spline", key="points"
             )
-        if not all(math.isfinite(v) for point in self.points for v in point):
-            raise InputError(
-                f"{self.name} points", self.points, "must be finite", "give (fraction, radians) pairs", key="points"
-            )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -156,15 +145,13 @@ class HubRing:
     material : elastic material
     """
 
-    outer_radius: float
-    thickness: float
-    width: float
+    outer_radius: PositiveLength
+    thickness: PositiveLength
+    width: PositiveLength
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_positive_length("hub outer radius", self.outer_radius, key="outer_radius")
-        require_positive_length("hub thickness", self.thickness, key="thickness")
-        require_positive_length("hub width", self.width, key="width")
+        require_declared(self, "hub")
         if self.thickness >= self.outer_radius:
             rule = f"must be smaller than the hub's outer radius {self.outer_radius * 1e3:g} mm"
             raise InputError(
@@ -189,15 +176,13 @@ class Cone:
     material : elastic material
     """
 
-    thickness: float
-    outer_position: float
-    inner_position: float
+    thickness: PositiveLength
+    outer_position: PositiveLength
+    inner_position: PositiveLength
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
-        require_positive_length("cone thickness", self.thickness, key="thickness")
-        require_positive_length("cone outer position", self.outer_position, key="outer_position")
-        require_positive_length("cone inner position", self.inner_position, key="inner_position")
+        require_declared(self, "cone")
 
     def axial_width(self, outer_radius: float, inner_radius: float) -> float:
         """Axial extent [m] of a joint: thickness / cos(angle between the shell and the radius)."""

@@ -11,13 +11,7 @@ from itertools import pairwise
 
 from contracts.errors import InputError
 
-__all__ = ["require_bands", "require_count", "require_finite", "require_name", "require_positive_length"]
-
-
-def require_finite(what: str, value: float, unit: str, key: str = "") -> None:
-    """Raise InputError unless ``value`` [unit] is a finite number."""
-    if not math.isfinite(value):
-        raise InputError(what, f"{value} {unit}", "must be a finite number", "check its unit", key=key)
+__all__ = ["require_bands", "require_count", "require_name", "require_positive_length"]
 
 
 def require_positive_length(what: str, value: float, key: str = "") -> None:

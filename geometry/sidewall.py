@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.declared import Angle, Count, PositiveLength, require_declared
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V, Material
-from geometry.rules import require_count, require_finite, require_name, require_positive_length
+from geometry.rules import require_name
 
 __all__ = ["Profile", "SidewallSprings", "sidewall_profile", "weld_half_angle"]
 
@@ -45,23 +46,20 @@ class SidewallSprings:
     """
 
     name: str
-    count: int
-    width: float
-    thickness: float
-    curl_radius: float
-    arc_radius: float
-    sweep: float
-    weld_length: float
-    clamp_length: float
-    phase: float = 0.0
+    count: Count
+    width: PositiveLength
+    thickness: PositiveLength
+    curl_radius: PositiveLength
+    arc_radius: PositiveLength
+    sweep: Angle
+    weld_length: PositiveLength
+    clamp_length: PositiveLength
+    phase: Angle = 0.0
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
         require_name("sidewall springs name", self.name, key="name")
-        require_count(f"{self.name} count", self.count, key="count")
-        require_finite(f"{self.name} phase", self.phase, "rad", key="phase")
-        for key in ("width", "thickness", "curl_radius", "arc_radius", "weld_length", "clamp_length"):
-            require_positive_length(f"{self.name} {key.replace('_', ' ')}", getattr(self, key), key=key)
+        require_declared(self, self.name)
         if min(self.curl_radius, self.arc_radius) <= 0.5 * self.thickness:
             rule = f"must exceed half the thickness, {0.5e3 * self.thickness:g} mm"
             raise InputError(

@@ -2,7 +2,7 @@
 
     python docs/hooks/study_keys.py        writes the page's tables anew, in half a minute
 
-Meaning and default stand where a key is declared (`workbench/study`), ranges in `workbench/data/ranges.toml`; what a
+Meaning and default stand where a key is declared (`workbench/study`, or the library that has it), ranges in `workbench/data/ranges.toml`; what a
 key changes is found by moving it. Verified by tests/unit/test_workbench_key_effects.py.
 """
 
@@ -156,12 +156,12 @@ def changed(study: Study, base: Mapping[str, Given], key: Key, value: Any, annot
 
 
 def declared(kind: type[BaseModel]) -> dict[str, str]:
-    """Field -> the text below its declaration, its own class's or an ancestor's."""
-    found = {}
+    """Field -> the text below its declaration, its own class's or an ancestor's, or what the library says of it."""
+    found = {name: field.description for name, field in kind.model_fields.items() if field.description}
     for owner in reversed(kind.__mro__):
         if not (issubclass(owner, BaseModel) and owner.__module__.startswith("workbench.")):
             continue
-        (body,) = ast.parse(inspect.getsource(owner)).body
+        (body,) = ast.parse(inspect.getsource(owner)).body  # of a class that reads a library's: as it is written
         assert isinstance(body, ast.ClassDef)
         for one, text in zip(body.body, body.body[1:], strict=False):
             if isinstance(one, ast.AnnAssign) and isinstance(one.target, ast.Name) and isinstance(text, ast.Expr):

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
+from contracts.declared import In, PositiveStiffness, require_declared
 from contracts.errors import InputError
 
 __all__ = [
@@ -53,40 +55,21 @@ class BrushTireParameters:
     Verified by tests/unit/test_brush_tire.py.
     """
 
-    radial_stiffness: float
-    radial_damping: float
-    longitudinal_slip_stiffness: float
-    cornering_stiffness: float
-    friction_min: float
-    friction_max: float
-    rolling_resistance: float
+    radial_stiffness: PositiveStiffness
+    radial_damping: Annotated[float, In("N*s/m", least=0.0)]
+    longitudinal_slip_stiffness: Annotated[float, In("N", above=0.0)]
+    cornering_stiffness: Annotated[float, In("N/rad", above=0.0)]
+    friction_min: Annotated[float, In("", above=0.0)]
+    friction_max: Annotated[float, In("", above=0.0)]
+    rolling_resistance: Annotated[float, In("", least=0.0)]
     source: str
 
     def __post_init__(self) -> None:
-        for what, key, unit in (
-            ("brush radial stiffness", "radial_stiffness", "N/m"),
-            ("brush longitudinal slip stiffness", "longitudinal_slip_stiffness", "N"),
-            ("brush cornering stiffness", "cornering_stiffness", "N/rad"),
-            ("brush smallest friction", "friction_min", "-"),
-        ):
-            value = getattr(self, key)
-            if not (math.isfinite(value) and value > 0.0):
-                raise InputError(
-                    what, f"{value:g} {unit}", "must be finite and > 0", "Table II of the thesis has one", key=key
-                )
-        for what, key, unit in (
-            ("brush radial damping", "radial_damping", "N s/m"),
-            ("brush rolling resistance", "rolling_resistance", "-"),
-        ):
-            value = getattr(self, key)
-            if not (math.isfinite(value) and value >= 0.0):
-                raise InputError(
-                    what, f"{value:g} {unit}", "must be finite and >= 0", "give 0 to leave it out", key=key
-                )
-        if not (math.isfinite(self.friction_max) and self.friction_max >= self.friction_min):
-            rule = f"must be finite and not below the smallest friction ({self.friction_min:g})"
+        require_declared(self, "brush")
+        if self.friction_max < self.friction_min:
+            rule = f"must not be below friction_min, {self.friction_min:g}"
             raise InputError(
-                "brush largest friction", f"{self.friction_max:g}", rule, "exchange the two values", key="friction_max"
+                "brush friction max", f"{self.friction_max:g}", rule, "exchange the two values", key="friction_max"
             )
 
 

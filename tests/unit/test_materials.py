@@ -39,7 +39,7 @@ def test_shipped_materials_are_the_data_sheet_and_name_it(material: Material, E_
 @pytest.mark.parametrize(
     ("name", "value", "text"),
     [
-        ("young_modulus", 0.0, "young modulus = 0 Pa: must be finite and > 0"),
+        ("young_modulus", 0.0, "young modulus = 0 Pa: must be finite and greater than zero"),
         ("young_modulus", -1.0e9, "young modulus = -1e\\+09 Pa"),
         ("young_modulus", math.nan, "young modulus = nan Pa"),
         ("density", math.inf, "density = inf kg/m\\^3"),

@@ -13,6 +13,7 @@ from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction, o
 from rover_dynamics.rover.scenarios.scenario import Scenario
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_brush, rover_on_ancf
+from workbench.study.wheel_design import wheel_design
 
 __all__ = ["TIRES", "check_tire", "on_tires"]
 
@@ -64,7 +65,7 @@ def on_tires(scenario: Scenario, name: str, study: Study | None, design: RoverDe
 
 def _check_wheel(study: Study, design: RoverDesign) -> None:
     """The rover must stand on the study's wheel: places of its joints and its own wheels are those of one size."""
-    radius = study.wheel.tire.outer_radius
+    radius = wheel_design(study).tire.outer_radius
     if abs(radius - design.wheel_radius) > 1e-9:
         rule = f"is not that of the rover's wheels, {1e3 * design.wheel_radius:g} mm"
         hint = "give --rover FILE, a rover with such wheels, or a study of the rover's wheel"

@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 
 from contracts.errors import InputError
 from workbench.study.model import Study
+from workbench.study.wheel_design import wheel_design
 
 __all__ = ["Calibration", "Trial", "calibrate", "scaled_study", "strip_thicknesses"]
 
@@ -101,7 +102,8 @@ def _factor(section: Tangent, target: float, guess: float) -> float:
 
 def strip_thicknesses(study: Study, factor: float = 1.0) -> dict[str, float]:
     """Thickness of the rim and of each spring set [m], scaled, to a tenth of a micrometre."""
-    strips = {"tire": study.wheel.tire.thickness} | {s.name: s.thickness for s in study.wheel.springs}
+    design = wheel_design(study)
+    strips = {"tire": design.tire.thickness} | {s.name: s.thickness for s in design.spring_sets}
     return {name: round(factor * thickness, 7) for name, thickness in strips.items()}
 
 

@@ -8,10 +8,11 @@ from __future__ import annotations
 import math
 
 from contracts.errors import InputError
+from geometry.parts import SpringSet
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
 from workbench.study.rover import RoverSection
-from workbench.study.wheel import ImpactSpringsSection
+from workbench.study.wheel_design import wheel_design
 
 __all__ = ["full_study", "is_mirrored", "rotational_period"]
 
@@ -30,16 +31,18 @@ def is_mirrored(study: Study) -> bool:
     return two_sided and all(_is_whole(2.0 * phase * count / 360.0) for count, phase in _patterns(study))
 
 
-def _springs(study: Study) -> list[ImpactSpringsSection]:
+def _springs(study: Study) -> list[SpringSet]:
     """Sets of springs that bear on the load: those on a rigid hub do not."""
-    impact = study.wheel.impact_springs
-    return [*study.wheel.springs, *([impact] if impact is not None and study.fe.hub == "elastic" else [])]
+    design = wheel_design(study)
+    impact = design.impact_springs
+    return [*design.spring_sets, *([impact] if impact is not None and study.fe.hub == "elastic" else [])]
 
 
 def _patterns(study: Study) -> list[tuple[int, float]]:
     """(count, phase [deg]) of everything that repeats around the axle and bears on the load."""
     patterns = [(springs.count, degrees(springs.phase)) for springs in _springs(study)]
-    others = (study.wheel.grousers, study.wheel.sidewall_springs)
+    design = wheel_design(study)
+    others = (design.grousers, design.sidewall_springs)
     return patterns + [(part.count, degrees(part.phase)) for part in others if part is not None]
 
 

@@ -16,7 +16,7 @@ from workbench.study.ancf_tire import tire_values
 from workbench.study.brush_tire import brush_values
 from workbench.study.fit import FittedTireSection
 from workbench.study.model import Study, stated
-from workbench.study.wheel_design import in_section
+from workbench.study.wheel_design import in_section, wheel_design
 
 if TYPE_CHECKING:
     from ancf_reduced.plates.mesh import PlateMesh
@@ -111,7 +111,7 @@ def _of_thesis_size(study: Study) -> bool:
     """What a study does not state is the thesis' as far as it can be: its tires fit wheels of its size."""
     from ancf_reduced.tire.preset import thesis_preset
 
-    return bool(np.isclose(study.wheel.tire.outer_radius, thesis_preset().outer_radius))
+    return bool(np.isclose(wheel_design(study).tire.outer_radius, thesis_preset().outer_radius))
 
 
 def on_tire_of_thesis(study: Study) -> bool:

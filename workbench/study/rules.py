@@ -13,7 +13,7 @@ from functools import cache
 from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
 from workbench.study.model import Study
-from workbench.study.model_parameters import fit_start
+from workbench.study.model_parameters import ancf_preset, fit_start
 from workbench.study.wheel_design import SectionInputError, materials, wheel_design
 
 __all__ = ["BrokenRule", "broken_rules"]
@@ -41,14 +41,13 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
                 hint=f"use {', '.join(parts)}",
             )
     yield from _of_the_curves(study)
-    tire, ancf = study.wheel.tire, study.ancf
+    design = wheel_design(study)
     yield from _lonely(study)
     yield from _of_the_sweep(study)
-    yield from _room(
-        "fe", study.fe.max_deflection, tire.outer_radius - tire.thickness - study.wheel.outer_hub.outer_radius
-    )
-    if ancf is not None:
-        yield from _room("ancf", ancf.max_deflection, (ancf.datum_radius or ancf.outer_radius) - ancf.hub_radius)
+    yield from _room("fe", study.fe.max_deflection, design.tire.inner_radius - design.outer_hub.outer_radius)
+    if study.ancf is not None:
+        preset = ancf_preset(study)
+        yield from _room("ancf", study.ancf.max_deflection, preset.zero_radius - preset.hub_radius)
     yield from _environment(study)
     yield from _of_the_fit(study)
 
@@ -74,7 +73,7 @@ def _rover_radius() -> float:
 
 def _lonely(study: Study) -> Iterator[BrokenRule]:
     """A section that asks for what another has: the fit for tire and uncertainty, the rover for a wheel of its size."""
-    radius, wanted = study.wheel.tire.outer_radius, _rover_radius()
+    radius, wanted = wheel_design(study).tire.outer_radius, _rover_radius()
     if study.rover is not None and abs(radius - wanted) > 1e-9:
         rule = f"is for a wheel of radius {1e3 * wanted:g} mm, the study's has {1e3 * radius:g} mm"
         yield BrokenRule(key="rover", value="a table", rule=rule, hint="remove [rover]: the rover cannot stand on it")

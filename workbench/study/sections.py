@@ -20,8 +20,11 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
+from ancf_reduced.tire.preset import TirePreset
+from rover_dynamics.tires.brush_tire import BrushTireParameters
 from workbench.study.contact import ObstacleSection, PlaneSection
-from workbench.study.quantities import Angle, Bedding, Density, Force, Length, Number, Pressure, Stiffness, Viscosity
+from workbench.study.declared import reads
+from workbench.study.quantities import Angle, Bedding, Force, Length, Number
 from workbench.study.section import Positive, Section, in_key
 
 __all__ = [
@@ -56,7 +59,6 @@ Orientations = Annotated[
 ]
 Drop = Annotated[Length, Positive]
 Factor = Annotated[Number, Field(ge=1.0, le=6.0)]
-GaussPoints = Annotated[StrictInt, Field(ge=1, le=10)]
 
 
 class MeshSection(Section):
@@ -133,43 +135,12 @@ class VerificationSection(Section):
     """Whether the benchmarks are run."""
 
 
+@reads(TirePreset)
 class AncfSection(Section):
     """The thesis' ANCF tire: dimensions [m], material, contact grid, orientations [rad], deflections [m]."""
 
-    outer_radius: Annotated[Length, Positive]
-    """Nominal, of the outer face [m]."""
-    datum_radius: Annotated[Length, Positive] | None = None
-    """From which deflection counts [m]; the outer radius without it."""
-    hub_radius: Annotated[Length, Positive]
-    """Where spokes begin [m]."""
-    width: Annotated[Length, Positive]
-    """Along the axle [m]."""
-    rim_thickness: Annotated[Length, Positive]
-    """Of rim plates [m]."""
-    spoke_thickness: Annotated[Length, Positive]
-    """Of spoke plates [m]."""
-    circumferential_plates: Annotated[StrictInt, Field(ge=3, le=96)]
-    """Plates around the rim; a multiple of the spokes."""
-    spokes: Annotated[StrictInt, Field(ge=1, le=96)]
-    """Evenly spaced."""
     phase: Angle = 0.0
     """Of the first spoke, from the lowest point towards the front [rad]."""
-    plates_per_spoke: Annotated[StrictInt, Field(ge=1, le=32)] = 1
-    """Plates along a spoke."""
-    young_modulus: Annotated[Pressure, Positive]
-    """Of the plates [Pa]."""
-    poisson_ratio: Annotated[Number, Field(gt=-1.0, lt=0.5)]
-    """Of the plates [-]."""
-    density: Annotated[Density, Positive]
-    """Of the plates [kg/m^3]."""
-    contact_stiffness: Annotated[Stiffness, Positive]
-    """Of each contact point [N/m]."""
-    contact_points: tuple[Annotated[StrictInt, Field(ge=2, le=100)], Annotated[StrictInt, Field(ge=2, le=100)]]
-    """Of each rim plate: around the wheel, along the axle."""
-    contact_layout: Literal["edges", "centres"] = "edges"
-    """Points on the plate's edges too, or at the centres of equal cells."""
-    quadrature: tuple[GaussPoints, GaussPoints, GaussPoints] = (5, 5, 3)
-    """Gauss points of a plate: along, across, through."""
     orientations: Orientations
     """As of [fe] [rad]; a curve each."""
     max_deflection: Drop
@@ -189,25 +160,12 @@ class AncfSection(Section):
         return self
 
 
+@reads(BrushTireParameters, "cornering_stiffness")
 class BrushSection(Section):
     """The brush-type tire of Table II; slip stiffnesses read as N and N/rad."""
 
-    radial_stiffness: Annotated[Stiffness, Positive]
-    """Load over deflection [N/m]."""
-    radial_damping: Annotated[Viscosity, NotNegative]
-    """Load over rate of deflection [N s/m]."""
-    longitudinal_slip_stiffness: Annotated[Force, Positive]
-    """Force per slip ratio at zero slip [N]."""
     cornering_stiffness_per_degree: Annotated[Force, Positive]
     """Lateral force per degree of slip angle at zero slip [N]."""
-    friction_min: Annotated[Number, Positive]
-    """Coefficient at full slip [-]."""
-    friction_max: Annotated[Number, Positive]
-    """Coefficient at no slip [-]."""
-    rolling_resistance: Annotated[Number, NotNegative]
-    """Moment over load and loaded radius [-]."""
-    source: Annotated[str, Field(min_length=1)]
-    """Where the numbers come from."""
 
 
 class CurveSection(Section):

@@ -62,7 +62,7 @@ class AncfMeshStudy:
 
 def _orientations(study: Study) -> list[float]:
     """On a spoke, and half-way between two."""
-    return [0.0, 180.0 / stated(study.ancf, "ancf").spokes]
+    return [0.0, 180.0 / ancf_preset(study).spokes]
 
 
 def _deflections(study: Study) -> tuple[float, ...]:

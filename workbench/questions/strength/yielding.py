@@ -15,7 +15,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves
 from workbench.study.model import Study
-from workbench.study.wheel_design import part_materials
+from workbench.study.wheel_design import wheel_design
 
 __all__ = [
     "FirstYield",
@@ -149,4 +149,4 @@ class StrengthResults:
 
 def yield_strengths(study: Study) -> dict[str, float]:
     """Yield strength [Pa] of each part of the mesh."""
-    return {part: study.materials[name].yield_strength for part, name in part_materials(study).items()}
+    return {part: material.yield_strength for part, material in wheel_design(study).materials.items()}
