@@ -2,8 +2,9 @@
 
     python docs/hooks/study_keys.py        writes the page's tables anew, in half a minute
 
-Meaning and default stand where a key is declared (`workbench/study`, or the library that has it), ranges in `workbench/data/ranges.toml`; what a
-key changes is found by moving it. Verified by tests/unit/test_workbench_key_effects.py.
+Meaning and default stand where a key is declared (`workbench/study`, or the library whose parameter it is), ranges in
+`workbench/data/ranges.toml`; what a key changes is found by moving it. Verified by
+tests/unit/test_workbench_key_effects.py.
 """
 
 from __future__ import annotations
