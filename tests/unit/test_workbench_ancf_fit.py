@@ -165,7 +165,7 @@ def test_curves_too_short_for_the_range_leave_the_reason(folders: Mapping[str, P
 def test_curves_half_a_period_apart_are_compared() -> None:
     """8 % apart everywhere; one of them alone says nothing."""
     ends = {0.0: LINE, 60.0: replace(LINE, orientation_deg=60.0, load=1.08 * LINE.load)}
-    fe = ModelCurves(model="fe", by_orientation=ends, average=LINE, numbers={})
+    fe = ModelCurves(model="fe", by_orientation=ends, average=LINE, runs={})
     fits = AncfFits(own=None, fitted=(), kept="", fe=fe, period=120.0)
     assert fits.half_period == pytest.approx(0.08 / 1.04)
     assert replace(fits, period=90.0).half_period is None

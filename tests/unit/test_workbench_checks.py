@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -11,13 +10,14 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
+from contracts.errors import IncrementRecord
 from contracts.records import Check
 from geometry.measures import MeshQuality
 from workbench.questions.ancf.checks import ancf_checks, preset_error
 from workbench.questions.ancf.preset_table import preset_table
 from workbench.questions.fe.checks import band_checks, reach_check, spread_checks
 from workbench.questions.mesh_study.results import MeshRun
-from workbench.questions.model_curves import ModelCurves, UserCurve
+from workbench.questions.model_curves import ModelCurves, RunNumbers, UserCurve
 from workbench.questions.models.checks import agreement_checks, user_checks
 from workbench.questions.models.metrics import CurveMetrics
 from workbench.questions.numerics.checks import solver_checks
@@ -46,10 +46,10 @@ def _fe_curve(orientation: float, slope: float, **columns: float) -> StiffnessCu
 
 def _fe(slopes: tuple[float, ...] = (8600.0, 8000.0), residual: float = 1e-9, **columns: float) -> ModelCurves:
     curves = {float(i): _fe_curve(float(i), slope, **columns) for i, slope in enumerate(slopes)}
-    record = {"converged": True, "residuals": [1.0, residual], "target": 0.01, "step": 0.01}
-    failed = {"converged": False, "residuals": [1.0, 0.5], "target": 0.02, "step": 0.01}
-    numbers: Mapping[float, Mapping[str, Any]] = {o: {"increments": [failed, record]} for o in curves}
-    return ModelCurves(model="fe", by_orientation=curves, average=average_curve(list(curves.values())), numbers=numbers)
+    record = IncrementRecord(target=0.01, step=0.01, converged=True, residuals=(1.0, residual))
+    failed = IncrementRecord(target=0.02, step=0.01, converged=False, residuals=(1.0, 0.5))
+    runs = dict.fromkeys(curves, RunNumbers(increments=(failed, record)))
+    return ModelCurves(model="fe", by_orientation=curves, average=average_curve(list(curves.values())), runs=runs)
 
 
 def _by_id(checks: list[Check]) -> dict[str, Check]:
@@ -84,9 +84,9 @@ def test_the_slope_may_be_that_of_some_orientations() -> None:
 
 
 def _fine(residual: float, imbalance: float) -> MeshRun:
-    records = [{"converged": True, "residuals": [1.0, residual], "target": 0.02, "step": 0.01}]
+    record = IncrementRecord(target=0.02, step=0.01, converged=True, residuals=(1.0, residual))
     curve = _fe_curve(0.0, 8700.0, force_imbalance=imbalance)
-    return MeshRun(factor=2.0, curve=curve, numbers={"increments": records})
+    return MeshRun(factor=2.0, curve=curve, numbers=RunNumbers(increments=(record,)))
 
 
 @pytest.mark.parametrize(
@@ -174,8 +174,8 @@ def _ancf(scale: float = 1.0, mass: float = 4.426) -> ModelCurves:
         for i, o in enumerate((0.0, 45.0))
     }
     average = average_curve(list(curves.values()))
-    numbers = {o: {"flexible_mass_kg": mass} for o in curves}
-    return ModelCurves(model="ancf", by_orientation=curves, average=average, numbers=numbers)
+    runs = dict.fromkeys(curves, RunNumbers(flexible_mass=mass))
+    return ModelCurves(model="ancf", by_orientation=curves, average=average, runs=runs)
 
 
 def test_ancf_preset_is_held_against_its_table() -> None:
@@ -195,7 +195,7 @@ def test_ancf_preset_without_its_orientations_cannot_be_evaluated() -> None:
         model="ancf",
         by_orientation={0.0: ancf.by_orientation[0.0]},
         average=ancf.by_orientation[0.0],
-        numbers=ancf.numbers,
+        runs=ancf.runs,
     )
     assert _by_id(ancf_checks(one, TOLERANCES))["ancf.preset_phi045"].status == "error"
 

@@ -29,7 +29,7 @@ def model(slopes: dict[float, float], gap: float = 1e-3, end: float = 0.04) -> M
         )
         for angle, slope in slopes.items()
     }
-    return ModelCurves(model="fe", by_orientation=curves, average=average_curve(list(curves.values())), numbers={})
+    return ModelCurves(model="fe", by_orientation=curves, average=average_curve(list(curves.values())), runs={})
 
 
 def test_end_points_of_the_range_count_half() -> None:

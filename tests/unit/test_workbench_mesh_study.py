@@ -12,6 +12,7 @@ from contracts.errors import InputError
 from workbench.execution.task import task_keys
 from workbench.questions.mesh_study.question import MESH_STUDY
 from workbench.questions.mesh_study.results import MeshRun, MeshStudy, sorted_runs
+from workbench.questions.model_curves import RunNumbers
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
@@ -29,7 +30,7 @@ def _study(errors: Sequence[float] = (0.01, 0.02, 0.03), factor: float = 1.0) ->
     runs = []
     for k in (1, 2, 4):
         loads = [f * (1.0 + e / k**2) for f, e in zip(EXACT, errors, strict=True)]
-        runs.append(MeshRun(factor=float(k), curve=_curve(D, loads), numbers={"cells": 100 * k**2, "dofs": 1}))
+        runs.append(MeshRun(factor=float(k), curve=_curve(D, loads), numbers=RunNumbers(cells=100 * k**2, dofs=1)))
     return MeshStudy(orientation_deg=15.0, deflections=D, runs=sorted_runs(runs), curves_factor=factor)
 
 

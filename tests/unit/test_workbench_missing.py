@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve, read_curve, write_curve
-from workbench.execution.result_files import FAILURE
+from contracts.errors import IncrementRecord
 from workbench.questions.fe.checks import spread_checks
-from workbench.questions.model_curves import ModelCurves, mean_curve
+from workbench.questions.model_curves import ModelCurves, RunNumbers, mean_curve
 from workbench.questions.models.checks import agreement_checks
 from workbench.questions.numerics.checks import solver_checks
 from workbench.questions.numerics.energy import energy_check
@@ -38,16 +37,16 @@ def _unloaded(orientation: float, model: str = "fe") -> StiffnessCurve:
 
 
 def _model(*curves: StiffnessCurve) -> ModelCurves:
-    def numbers(curve: StiffnessCurve) -> dict[str, Any]:
-        record = {"converged": not curve.unloaded, "residuals": [1.0, 1e-9]}
-        return {"increments": [record], FAILURE: REASON if curve.unloaded else None}
+    def run(curve: StiffnessCurve) -> RunNumbers:
+        record = IncrementRecord(target=0.0, step=0.0, converged=not curve.unloaded, residuals=(1.0, 1e-9))
+        return RunNumbers(increments=(record,), failure=REASON if curve.unloaded else None)
 
     by_orientation = {float(c.orientation_deg or 0.0): c for c in curves}
     return ModelCurves(
         model=curves[0].model,
         by_orientation=by_orientation,
         average=mean_curve(curves),
-        numbers={o: numbers(c) for o, c in by_orientation.items()},
+        runs={o: run(c) for o, c in by_orientation.items()},
     )
 
 

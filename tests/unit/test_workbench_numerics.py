@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve
-from workbench.questions.model_curves import ModelCurves
+from contracts.errors import IncrementRecord
+from workbench.questions.model_curves import ModelCurves, RunNumbers
 from workbench.questions.numerics.results import Numerics
 from workbench.questions.wheel.results import WheelMeshes
 
 D = np.linspace(0.0, 0.02, 5)
-INCREMENTS: list[dict[str, Any]] = [
-    {"converged": True, "residuals": [1.0, 1e-4, 3e-9]},
-    {"converged": False, "residuals": [1.0, 2.0]},
-    {"converged": True, "residuals": [0.5, 1e-9]},
-]
+INCREMENTS = (
+    IncrementRecord(target=0.01, step=0.01, converged=True, residuals=(1.0, 1e-4, 3e-9)),
+    IncrementRecord(target=0.02, step=0.01, converged=False, residuals=(1.0, 2.0)),
+    IncrementRecord(target=0.015, step=0.005, converged=True, residuals=(0.5, 1e-9)),
+)
 
 
-def _numerics(points: int, increments: list[dict[str, Any]]) -> Numerics:
+def _numerics(points: int, increments: tuple[IncrementRecord, ...]) -> Numerics:
     imbalance = {"force_imbalance": np.linspace(0.0, -2e-9, points), "moment_imbalance": np.full(points, 1e-10)}
     curve = StiffnessCurve(
         model="fe",
@@ -30,9 +31,9 @@ def _numerics(points: int, increments: list[dict[str, Any]]) -> Numerics:
         columns=imbalance,
         partial=points < len(D),
     )
-    numbers = {15.0: {"increments": increments, "dofs": 12, "solve_s": 0.5}}
+    run = RunNumbers(dofs=12, solve_s=0.5, increments=increments)
     return Numerics(
-        fe=ModelCurves(model="fe", by_orientation={15.0: curve}, average=curve, numbers=numbers),
+        fe=ModelCurves(model="fe", by_orientation={15.0: curve}, average=curve, runs={15.0: run}),
         others=(),
         meshes=cast(WheelMeshes, None),  # no row needs them
         early_ends={},

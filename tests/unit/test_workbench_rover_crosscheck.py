@@ -13,6 +13,7 @@ import pytest
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.mesh_study.results import MeshRun, MeshStudy
+from workbench.questions.model_curves import RunNumbers
 from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK, SWEEP
 from workbench.questions.rover_crosscheck.results import (
     CrossCheck,
@@ -53,7 +54,9 @@ def tire(name: str, spokes: int, factor: float = 1.0, wave: float = 0.05) -> Sto
 
 def results(factor: float = 1.0) -> CrossCheck:
     runs = [
-        MeshRun(factor=x, curve=curve(0.0, 8000.0 * (1.0 + 1e-4 * i * i)), numbers={"cells": 1000 * 4 ** (2 - i)})
+        MeshRun(
+            factor=x, curve=curve(0.0, 8000.0 * (1.0 + 1e-4 * i * i)), numbers=RunNumbers(cells=1000 * 4 ** (2 - i))
+        )
         for i, x in enumerate((2.0, 1.5, 1.0))
     ]
     return CrossCheck(

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
-from contracts.errors import InputError
+from contracts.errors import IncrementRecord, InputError
 from workbench.execution.task import task_keys
-from workbench.questions.model_curves import ModelCurves
+from workbench.questions.model_curves import ModelCurves, RunNumbers
 from workbench.questions.registry import questions_of
 from workbench.questions.section.checks import largest_difference, section_checks
 from workbench.questions.section.question import SectionRuns
@@ -27,7 +27,7 @@ def curves(model: str, factor: float) -> ModelCurves:
         o: StiffnessCurve(model=model, orientation_deg=o, deflection=D, load=factor * (8e3 + 10.0 * o) * D)
         for o in (0.0, 22.5)
     }
-    return ModelCurves(model=model, by_orientation=found, average=average_curve(list(found.values())), numbers={})
+    return ModelCurves(model=model, by_orientation=found, average=average_curve(list(found.values())), runs={})
 
 
 @pytest.fixture(scope="module")
@@ -60,8 +60,9 @@ def test_an_orientation_the_solid_model_lacks_is_not_evaluated() -> None:
 
 
 def test_a_row_without_common_points_has_no_difference() -> None:
-    records = {"dofs": 10, "solve_s": 1.0, "increments": [{"residuals": [1.0, 0.1, 0.01]}]}
-    section, fe = (replace(curves(m, 1.02), numbers=dict.fromkeys((0.0, 22.5), records)) for m in ("section", "fe"))
+    record = IncrementRecord(target=0.0, step=0.0, converged=True, residuals=(1.0, 0.1, 0.01))
+    run = RunNumbers(dofs=10, solve_s=1.0, increments=(record,))
+    section, fe = (replace(curves(m, 1.02), runs=dict.fromkeys((0.0, 22.5), run)) for m in ("section", "fe"))
     assert [row.iterations for row in SectionRuns(section=section, fe=fe).rows] == [2, 2]
     solid = fe.by_orientation[0.0]
     short = replace(section, by_orientation={0.0: replace(solid, deflection=D[:2] * 1e-3, load=solid.load[:2])})

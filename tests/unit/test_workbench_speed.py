@@ -14,8 +14,8 @@ import pytest
 from benchmarks.fe_wheel import CASES
 from benchmarks.output.run import Run
 from contracts.curves import StiffnessCurve, average_curve
-from contracts.errors import InputError
-from workbench.questions.model_curves import ModelCurves
+from contracts.errors import IncrementRecord, InputError
+from workbench.questions.model_curves import ModelCurves, RunNumbers
 from workbench.questions.speed.aim import Aim
 from workbench.questions.speed.ancf import CHRONO, ancf_aims
 from workbench.questions.speed.flexible import FASTER as FLEXIBLE_FASTER
@@ -110,11 +110,12 @@ def test_the_check_fails_where_a_curve_took_too_many_iterations() -> None:
 def test_cost_is_read_from_the_stored_numbers() -> None:
     D = np.linspace(0.0, 0.03, 4)
     curve = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=D, load=1e4 * D)
-    attempts = [{"converged": True, "residuals": [1.0, 1e-3, 1e-9]}, {"converged": False, "residuals": [1.0, 2.0]}]
-    numbers = {"dofs": 81, "solve_s": 2.5, "increments": attempts}
-    curves = ModelCurves(
-        model="fe", by_orientation={0.0: curve}, average=average_curve([curve]), numbers={0.0: numbers}
+    attempts = (
+        IncrementRecord(target=0.01, step=0.01, converged=True, residuals=(1.0, 1e-3, 1e-9)),
+        IncrementRecord(target=0.02, step=0.01, converged=False, residuals=(1.0, 2.0)),
     )
+    run = RunNumbers(dofs=81, solve_s=2.5, increments=attempts)
+    curves = ModelCurves(model="fe", by_orientation={0.0: curve}, average=average_curve([curve]), runs={0.0: run})
     (cost,) = _costs("fe", curves)
     wanted = CurveCost(model="fe", orientation=0.0, dofs=81, points=3, increments=1, iterations=3, solve_s=2.5)
     assert cost == wanted

@@ -5,27 +5,73 @@ Verified by tests/unit/test_workbench_missing.py and tests/unit/test_workbench_c
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from contracts.curves import StiffnessCurve, average_curve, read_curve
+from contracts.errors import IncrementRecord
 from workbench.execution.result_files import FAILURE, read_result
 
-__all__ = ["CURVE", "ModelCurves", "UserCurve", "mean_curve", "model_curves"]
+__all__ = ["CURVE", "ModelCurves", "RunNumbers", "UserCurve", "mean_curve", "model_curves", "read_run"]
 
 CURVE = "curve.csv"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class RunNumbers:
+    """How one curve was computed; what a model does not have keeps its default.
+
+    Attributes
+    ----------
+    dofs, cells : unknowns and cells of the mesh
+    solve_s : wall time [s]
+    increments : every attempt, converged or not
+    failure : why the run ended before its target; None if it did not
+    flexible_mass : of an ANCF tire's plates [kg]
+    """
+
+    dofs: int = 0
+    cells: int = 0
+    solve_s: float = 0.0
+    increments: tuple[IncrementRecord, ...] = ()
+    failure: str | None = None
+    flexible_mass: float = math.nan
+
+    @property
+    def converged(self) -> tuple[IncrementRecord, ...]:
+        """Attempts that met their tolerance."""
+        return tuple(one for one in self.increments if one.converged)
+
+    @property
+    def iterations(self) -> int:
+        """Of all attempts."""
+        return sum(len(one.residuals) - 1 for one in self.increments)
+
+
+def read_run(folder: Path) -> RunNumbers:
+    """Numbers of the run whose task filled a folder."""
+    found = read_result(folder)
+    rows = [row | {"residuals": tuple(row["residuals"])} for row in found.get("increments", ())]
+    return RunNumbers(
+        dofs=found.get("dofs", 0),
+        cells=found.get("cells", 0),
+        solve_s=found.get("solve_s", 0.0),
+        increments=tuple(IncrementRecord(**row) for row in rows),
+        failure=found.get(FAILURE),
+        flexible_mass=found.get("flexible_mass_kg", math.nan),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ModelCurves:
-    """Curves of one model: one per orientation, by orientation [deg], and the average of those that carry load."""
+    """Curves of one model by orientation [deg], the average of those that carry load, and how each was computed."""
 
     model: str
     by_orientation: Mapping[float, StiffnessCurve]
     average: StiffnessCurve
-    numbers: Mapping[float, Mapping[str, Any]]
+    runs: Mapping[float, RunNumbers]
 
     @property
     def loaded(self) -> dict[float, StiffnessCurve]:
@@ -35,7 +81,7 @@ class ModelCurves:
     @property
     def missing(self) -> dict[float, str]:
         """Orientation [deg] -> why no point of its curve converged."""
-        return {o: str(self.numbers[o].get(FAILURE)) for o, curve in self.by_orientation.items() if curve.unloaded}
+        return {o: str(self.runs[o].failure) for o, curve in self.by_orientation.items() if curve.unloaded}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,13 +100,13 @@ def model_curves(model: str, folders: Mapping[str, Path]) -> ModelCurves:
         if name.startswith(f"{model}_phi"):
             orientation = float(name.removeprefix(f"{model}_phi"))
             curve = read_curve(folder / CURVE, model=model, orientation_deg=orientation)
-            found[orientation] = (curve, read_result(folder))
+            found[orientation] = (curve, read_run(folder))
     ordered = dict(sorted(found.items()))
     return ModelCurves(
         model=model,
         by_orientation={o: curve for o, (curve, _) in ordered.items()},
         average=mean_curve([curve for curve, _ in ordered.values()]),
-        numbers={o: numbers for o, (_, numbers) in ordered.items()},
+        runs={o: run for o, (_, run) in ordered.items()},
     )
 
 

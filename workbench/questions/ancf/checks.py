@@ -67,10 +67,10 @@ def ancf_checks(ancf: ModelCurves, tolerances: ToleranceSection) -> list[Check]:
         role="gate",
         source="Samarini 2020, Table I",
     )
-    first = next(iter(ancf.numbers.values()))
+    first = next(iter(ancf.runs.values()))
     return [
         *checks,
-        near(mass, lambda: float(first["flexible_mass_kg"]), _THESIS_WHEEL_MASS, tolerances.flexible_mass),
+        near(mass, lambda: first.flexible_mass, _THESIS_WHEEL_MASS, tolerances.flexible_mass),
     ]
 
 

@@ -9,16 +9,14 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
-from workbench.execution.result_files import read_result
 from workbench.questions.mesh_study.grid_convergence import GridConvergence, grid_convergence
-from workbench.questions.model_curves import CURVE
+from workbench.questions.model_curves import CURVE, RunNumbers, read_run
 from workbench.study.orientation import orientation_name
 
 __all__ = ["METHOD_ORDER", "MeshRow", "MeshRun", "MeshStudy", "sorted_runs"]
@@ -36,12 +34,12 @@ class MeshRun:
     ----------
     factor : refinement factor of the mesh [-]
     curve : its curve, solved at the study's deflections
-    numbers : the run's numbers, among them ``cells`` and ``dofs``
+    numbers : how it was computed
     """
 
     factor: float
     curve: StiffnessCurve
-    numbers: Mapping[str, Any]
+    numbers: RunNumbers
 
     @property
     def size(self) -> float:
@@ -49,7 +47,7 @@ class MeshRun:
 
         Strips have the same number of elements through their thickness on every mesh.
         """
-        return 1.0 / math.sqrt(float(self.numbers["cells"]))
+        return 1.0 / math.sqrt(float(self.numbers.cells))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -167,7 +165,7 @@ def read_mesh_study(
     for factor in factors:
         folder = folders[mesh_run_name(factor, curves_factor, orientation_deg)]
         curve = read_curve(folder / CURVE, model="fe", orientation_deg=orientation_deg)
-        runs.append(MeshRun(factor=factor, curve=curve, numbers=read_result(folder)))
+        runs.append(MeshRun(factor=factor, curve=curve, numbers=read_run(folder)))
     return MeshStudy(
         orientation_deg=orientation_deg,
         deflections=tuple(deflections),

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.mesh_study.results import MeshRun
-from workbench.questions.model_curves import ModelCurves
+from workbench.questions.model_curves import ModelCurves, RunNumbers
 from workbench.study.sections import ToleranceSection
 from workbench.verdict.rules import Claim, at_most
 
@@ -26,7 +25,7 @@ _SUMS = "Euler's laws of motion at rest; the limit is ours"
 def solver_checks(fe: ModelCurves, others: Sequence[MeshRun], tol: ToleranceSection) -> list[Check]:
     """Residual and balance of every run, those of the mesh study included."""
     curves = [*fe.by_orientation.values(), *(run.curve for run in others)]
-    numbers = [*fe.numbers.values(), *(run.numbers for run in others)]
+    numbers = [*fe.runs.values(), *(run.numbers for run in others)]
     moments = "FE: largest imbalance of moments about the hub's centre over contact force times radius"
     residual = "FE: largest residual of any converged increment, relative to the nodal support and contact forces"
     return [
@@ -53,9 +52,9 @@ def _largest(curves: Sequence[StiffnessCurve], column: str) -> float:
     return max((float(np.abs(c.columns[column]).max()) for c in curves if not c.unloaded), default=math.nan)
 
 
-def largest_residual(runs: Sequence[Mapping[str, Any]]) -> float:
+def largest_residual(runs: Sequence[RunNumbers]) -> float:
     """Largest relative residual at the end of any converged increment of any run [-]."""
-    found = [float(r["residuals"][-1]) for n in runs for r in n["increments"] if r["converged"]]
+    found = [one.residuals[-1] for run in runs for one in run.converged]
     if not found:
         raise InputError("increments", 0, "converged", "see the runs' messages")
     return max(found)

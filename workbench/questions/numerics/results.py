@@ -60,22 +60,21 @@ class Numerics:
         return [self._row(orientation) for orientation in self.fe.by_orientation]
 
     def _row(self, orientation: float) -> SolverRow:
-        curve, numbers = self.fe.by_orientation[orientation], self.fe.numbers[orientation]
-        records = numbers["increments"]
+        curve, run = self.fe.by_orientation[orientation], self.fe.runs[orientation]
         return SolverRow(
             orientation=orientation,
-            increments=sum(r["converged"] for r in records),
-            cuts=sum(not r["converged"] for r in records),
-            iterations=int(sum(len(r["residuals"]) - 1 for r in records)),
+            increments=len(run.converged),
+            cuts=len(run.increments) - len(run.converged),
+            iterations=run.iterations,
             partial=curve.partial,
             missing=curve.unloaded,
-            residual=max((r["residuals"][-1] for r in records if r["converged"]), default=None),
+            residual=max((one.residuals[-1] for one in run.converged), default=None),
             imbalance=float(abs(curve.columns["force_imbalance"]).max()),
             moment_imbalance=float(abs(curve.columns["moment_imbalance"]).max()),
             deflection=float(curve.deflection[-1]),
             load=float(curve.load[-1]),
-            dofs=numbers["dofs"],
-            solve_s=numbers["solve_s"],
+            dofs=run.dofs,
+            solve_s=run.solve_s,
         )
 
 

@@ -48,15 +48,15 @@ class SectionRuns:
         return [self._row(orientation) for orientation in both]
 
     def _row(self, orientation: float) -> SectionRow:
-        ours, solid = self.section.numbers[orientation], self.fe.numbers[orientation]
+        ours, solid = self.section.runs[orientation], self.fe.runs[orientation]
         curves = self.section.by_orientation[orientation], self.fe.by_orientation[orientation]
         return SectionRow(
             orientation=orientation,
-            dofs=ours["dofs"],
-            solve_s=ours["solve_s"],
-            iterations=sum(len(record["residuals"]) - 1 for record in ours["increments"]),
-            solid_dofs=solid["dofs"],
-            solid_s=solid["solve_s"],
+            dofs=ours.dofs,
+            solve_s=ours.solve_s,
+            iterations=ours.iterations,
+            solid_dofs=solid.dofs,
+            solid_s=solid.solve_s,
             difference=_difference(*curves),
         )
 

@@ -11,7 +11,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from contracts.records import Check
 from workbench.questions.model_curves import ModelCurves, model_curves
@@ -136,16 +135,15 @@ def _costs(model: str, curves: ModelCurves) -> list[CurveCost]:
 
 
 def _cost(model: str, orientation: float, curves: ModelCurves) -> CurveCost:
-    numbers: Mapping[str, Any] = curves.numbers[orientation]
-    records = numbers["increments"]
+    run = curves.runs[orientation]
     return CurveCost(
         model=model,
         orientation=orientation,
-        dofs=numbers["dofs"],
+        dofs=run.dofs,
         points=int((curves.by_orientation[orientation].deflection > 0.0).sum()),
-        increments=sum(record["converged"] for record in records),
-        iterations=sum(len(record["residuals"]) - 1 for record in records),
-        solve_s=numbers["solve_s"],
+        increments=len(run.converged),
+        iterations=run.iterations,
+        solve_s=run.solve_s,
     )
 
 
