@@ -12,6 +12,7 @@ from workbench.questions.calibration import strip_thicknesses
 from workbench.study.reading import read_study
 
 
+@pytest.mark.long
 def test_calibrate_finds_a_thickness_the_solid_model_confirms(workspace: Path, tmp_path: Path) -> None:
     """From strips tuned for about 8 N/mm on the mean to 5 N/mm at one orientation: the solid model meets it to 1 %."""
     arguments = ("calibrate", "study.toml", "--target", "5 N/mm", "--out", tmp_path / "out", "--store", "store")

@@ -11,6 +11,7 @@ from tests.end_to_end.small_study import run, small_study_text
 from workbench.study.reading import read_study
 
 
+@pytest.mark.long
 def test_the_fitted_tire_lands_in_a_study(workspace: Path, tmp_path: Path) -> None:
     """One orientation to 6 mm: four spokes follow it within 3 %; the study written holds the tire found."""
     arguments = ("calibrate", "ancf", "study.toml", "--tire", "four_spokes", "--out", tmp_path / "out")

@@ -33,9 +33,11 @@ def test_closed_or_full(arguments: tuple[str, ...], streams: str, status: int, t
 
 
 CLOSED = [" ".join(some) for n in (1, 2, 3) for some in itertools.combinations(("<&-", ">&-", "2>&-"), n)]
+SHORT = ("2>&-", "<&- >&- 2>&-")
+"""Those of every run; the long one has them all."""
 
 
-@pytest.mark.parametrize("streams", CLOSED)
+@pytest.mark.parametrize("streams", [pytest.param(s, marks=() if s in SHORT else pytest.mark.long) for s in CLOSED])
 def test_a_command_that_computes(streams: str, tmp_path: Path) -> None:
     """Workers start, and no file that is opened later takes the place of a stream: what is written holds no message."""
     (tmp_path / "s.toml").write_text(small_study_text(), encoding="utf-8")
@@ -68,7 +70,9 @@ def test_a_worker_that_has_no_streams(tmp_path: Path) -> None:
     assert (tmp_path / "log").read_text(encoding="utf-8") == "printed\nwritten\n"
 
 
-@pytest.mark.parametrize("width", ["0", "-3", "wide", "²", "9" * 12])
+@pytest.mark.parametrize(
+    "width", ["0", *(pytest.param(w, marks=pytest.mark.long) for w in ("-3", "wide", "²", "9" * 12))]
+)
 @pytest.mark.parametrize("name", ["COLUMNS", "TERMINAL_WIDTH"])
 def test_a_width_that_no_terminal_has(name: str, width: str, tmp_path: Path) -> None:
     """An unknown width, as for Python's own `shutil.get_terminal_size`: everything is shown."""

@@ -52,6 +52,7 @@ def test_page(page: str, tmp_path: Path, environment: dict[str, str]) -> None:
     shutil.copytree(ROOT / "studies", tmp_path / "studies")
     for block in blocks_of((ROOT / page).read_text(encoding="utf-8")):
         if block.file:
+            (tmp_path / block.file).parent.mkdir(parents=True, exist_ok=True)
             (tmp_path / block.file).write_text(block.text, encoding="utf-8")
         for command in () if block.reason else block.commands:
             run = run_command(command, tmp_path, environment)

@@ -106,6 +106,12 @@ def outcome(arguments: list[str], capsys: pytest.CaptureFixture[str], case: obje
     return "read" if REACHED in message else "refused"
 
 
+@pytest.fixture(params=[3, pytest.param(1, marks=pytest.mark.long)], ids=["a third", "all"])
+def share(request: pytest.FixtureRequest) -> int:
+    """Every run tries one of so many cases, the long one each."""
+    return int(request.param)
+
+
 def fuzz(
     capsys: pytest.CaptureFixture[str], path: Path, arguments: list[str], damaged: Callable[[Random], bytes], count: int
 ) -> Counter[str]:
@@ -118,25 +124,27 @@ def fuzz(
 
 
 @pytest.mark.parametrize(("model", "count"), [("fe", 130), ("section", 100), ("ancf", 130), ("brush", 40)])
-def test_studies(tmp_path: Path, capsys: pytest.CaptureFixture[str], model: str, count: int) -> None:
+def test_studies(tmp_path: Path, capsys: pytest.CaptureFixture[str], model: str, count: int, share: int) -> None:
     text, path = small_study_text(), tmp_path / f"{model}.toml"
     arguments = ["stiffness", str(path), "--model", model, "--out", str(tmp_path / "o"), "--store", str(tmp_path / "s")]
-    found = fuzz(capsys, path, arguments, lambda source: mutated_toml(Random(f"{model}{source.random()}"), text), count)
+    found = fuzz(
+        capsys, path, arguments, lambda source: mutated_toml(Random(f"{model}{source.random()}"), text), count // share
+    )
     assert min(found["read"], found["refused"]) > 0
 
 
-def test_sweeps(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_sweeps(tmp_path: Path, capsys: pytest.CaptureFixture[str], share: int) -> None:
     text, path = (ROOT / "studies" / "strip_sweep.toml").read_text(encoding="utf-8"), tmp_path / "sweep.toml"
     arguments = ["sweep", str(path), "--out", str(tmp_path / "o"), "--store", str(tmp_path / "s")]
-    found = fuzz(capsys, path, arguments, lambda source: mutated_sweep(source, text), 60)
-    assert min(found["read"], found["refused"]) > 5
+    found = fuzz(capsys, path, arguments, lambda source: mutated_sweep(source, text), 60 // share)
+    assert min(found["read"], found["refused"]) > 5 // share
 
 
-def test_rovers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rovers(tmp_path: Path, capsys: pytest.CaptureFixture[str], share: int) -> None:
     text, path = EXOMARS_ROVER.read_text(encoding="utf-8"), tmp_path / "rover.toml"
     arguments = ["rover", "straight", "--rover", str(path), "--out", str(tmp_path / "o")]
-    found = fuzz(capsys, path, arguments, lambda source: mutated_toml(source, text), 500)
-    assert min(found["read"], found["refused"]) > 20
+    found = fuzz(capsys, path, arguments, lambda source: mutated_toml(source, text), 500 // share)
+    assert min(found["read"], found["refused"]) > 20 // share
 
 
 def _archive(**options: Any) -> bytes:
@@ -154,21 +162,21 @@ def _image(folder: Path) -> bytes:
 
 
 @pytest.mark.parametrize(("kind", "count"), [("npz", 200), ("tif", 100)])
-def test_terrains(tmp_path: Path, capsys: pytest.CaptureFixture[str], kind: str, count: int) -> None:
+def test_terrains(tmp_path: Path, capsys: pytest.CaptureFixture[str], kind: str, count: int, share: int) -> None:
     content, path = _archive() if kind == "npz" else _image(tmp_path), tmp_path / f"terrain.{kind}"
     arguments = ["rover", "straight", "--terrain", str(path), "--out", str(tmp_path / "o")]
-    found = fuzz(capsys, path, arguments, lambda source: mutated_bytes(source, content), count)
+    found = fuzz(capsys, path, arguments, lambda source: mutated_bytes(source, content), count // share)
     assert found["refused"] > 20
 
 
 @pytest.mark.parametrize(("text", "count"), [(SI_CURVE, 200), (CURVE, 200)], ids=["own format", "units"])
-def test_curves(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, count: int) -> None:
+def test_curves(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, count: int, share: int) -> None:
     path, sound = tmp_path / "curve.csv", tmp_path / "sound.csv"
     sound.write_text(SI_CURVE, encoding="utf-8")
     for arguments in (["compare", str(path), str(sound)], ["compare", str(sound), str(path), "--tolerance", "5 %"]):
         damaged = lambda source: mutated_table(source, text, HEADERS)  # noqa: E731
-        found = fuzz(capsys, path, arguments, damaged, count // 2)
-        assert min(found["read"], found["refused"]) > 5
+        found = fuzz(capsys, path, arguments, damaged, count // 2 // share)
+        assert min(found["read"], found["refused"]) > 5 // share
 
 
 cells = st.one_of(

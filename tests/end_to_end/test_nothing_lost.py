@@ -124,6 +124,7 @@ def test_a_store_that_cannot_be_written_is_read(folder: Path) -> None:
     _refused(_read_only(folder, *ancf), "store: cannot be written, and", "results are not in it; choose another")
 
 
+@pytest.mark.long
 def test_two_whole_reports_at_once_on_one_store_and_one_folder(
     workspace: Path, first_report: subprocess.CompletedProcess[str], tmp_path: Path
 ) -> None:

@@ -38,7 +38,9 @@ def path(rig: Rig, times: np.ndarray) -> np.ndarray:
     return rig.run(rig.start(tuple(start)), times)[:, :3]
 
 
-@pytest.mark.parametrize(("law", "tolerance"), [(SlipLaw.BRUSH, 1e-6), (SlipLaw.FIALA, 1e-3)])
+@pytest.mark.parametrize(
+    ("law", "tolerance"), [(SlipLaw.BRUSH, 1e-6), pytest.param(SlipLaw.FIALA, 1e-3, marks=pytest.mark.long)]
+)
 @pytest.mark.parametrize("heading", [0.0, np.pi, np.pi / 2, np.pi / 4], ids=["up", "down", "across", "aslant"])
 def test_a_standing_wheel_does_not_creep(heading: float, law: SlipLaw, tolerance: float) -> None:
     places = path(standing(heading, law, 0.757), np.array([0.0, 5.0, 65.0]))

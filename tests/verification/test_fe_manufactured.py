@@ -19,7 +19,7 @@ from reference_fe.verification.manufactured_solution import convergence, with_sh
 @pytest.mark.parametrize("law", list(MaterialLaw))
 @pytest.mark.parametrize(
     ("degree", "gauss_points"),
-    [(1, (2, 2, 2)), (2, (3, 3, 3)), (2, Discretisation().gauss_points)],
+    [(1, (2, 2, 2)), pytest.param(2, (3, 3, 3), marks=pytest.mark.long), (2, Discretisation().gauss_points)],
     ids=["degree 1", "degree 2", "degree 2, default rule"],
 )
 def test_orders_of_convergence(law: MaterialLaw, degree: int, gauss_points: tuple[int, int, int]) -> None:
@@ -28,6 +28,7 @@ def test_orders_of_convergence(law: MaterialLaw, degree: int, gauss_points: tupl
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_serendipity_elements_reach_the_same_orders() -> None:
     """20-node shape functions with 2 x 2 x 2 points; the geometry is curved but smoothly so."""
     law = MaterialLaw.NEO_HOOKEAN

@@ -43,6 +43,7 @@ def _assert_equal(found: dict[str, np.ndarray], expected: dict[str, np.ndarray])
         assert np.abs(found[name]).max() < 1e-6
 
 
+@pytest.mark.long
 def test_two_processes_yield_the_curve_of_one(one: dict[str, np.ndarray], tmp_path: Path) -> None:
     two = _solve(tmp_path, 2)
     _assert_equal(two, one)
