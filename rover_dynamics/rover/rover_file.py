@@ -56,7 +56,8 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
         leg_bodies=tuple(_leg_body(name, rover.table("leg_bodies").table(name)) for name in _LEG_BODIES),
     )
     rover.finished()
-    require_standing(str(path), design)
+    if path != EXOMARS_ROVER:  # it stands, a test says so; to ask costs a study half a second each time it is planned
+        require_standing(str(path), design)
     return replace(design, warnings=(*warnings, *strange_places(design)))
 
 

@@ -16,6 +16,12 @@ def test_the_rover_that_ships_weighs_320_kg() -> None:
     assert read_rover().mass == pytest.approx(320.0, abs=1e-9)
 
 
+def test_the_rover_that_ships_stands_as_any_other_must(tmp_path: Path) -> None:
+    """It is not asked each time it is read; as a user's file it is."""
+    (tmp_path / "rover.toml").write_text(SHIPPED, encoding="utf-8")
+    assert read_rover(tmp_path / "rover.toml") == read_rover()
+
+
 def test_mirrored_rows_stand_on_both_sides() -> None:
     design = read_rover()
     left, right = (next(body for body in design.bodies if body.name == f"pivot_{side}") for side in ("left", "right"))
