@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from pathlib import Path
 from typing import get_args
@@ -50,3 +51,37 @@ def test_questions_stand_in_the_order_of_their_groups() -> None:
 def test_tasks_of_questions_do_not_meet(study: Study) -> None:
     names = [task.name for question in QUESTIONS for task in question.tasks(study)]
     assert len(names) == len(set(names))
+
+
+ROOMS: dict[str, set[str]] = {
+    "study": set(),
+    "execution": set(),
+    "charts": set(),
+    "verdict": set(),
+    "questions": {"study", "execution", "charts", "verdict"},
+    "report": {"study", "execution", "charts", "verdict", "questions"},
+    "viewer": {"study", "charts", "questions", "report"},
+}
+"""Room -> those it may import, at any depth of the code; the command line and `api` stand on all of them."""
+
+
+def _arrows(package: Path) -> set[tuple[str, str]]:
+    found = set()
+    for room in ROOMS:
+        for path in (package / room).rglob("*.py"):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                named = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+                named += [one.name for one in node.names] if isinstance(node, ast.Import) else []
+                others = {name.split(".")[1] for name in named if name.startswith("workbench.")} - {room}
+                found |= {(room, other) for other in others}
+    return found
+
+
+def test_rooms_know_those_below_them_alone() -> None:
+    assert {(room, other) for room, other in _arrows(ROOT.parent) if other not in ROOMS[room]} == set()
+
+
+def test_negative_control_a_chart_that_knows_a_question_is_seen(tmp_path: Path) -> None:
+    (tmp_path / "charts").mkdir()
+    (tmp_path / "charts" / "a.py").write_text("def f():\n    from workbench.questions.fe import x\n", encoding="utf-8")
+    assert _arrows(tmp_path) == {("charts", "questions")}
