@@ -123,7 +123,7 @@ def _gmsh_permutation(cell: str, nodes: int) -> NDArray[np.int64]:
 
 
 def facet_tags_from_nodes(mesh: Mesh, facets: NDArray[np.int64], values: NDArray[np.int32]) -> MeshTags:
-    """Facet tags from facets given by their node numbers (gmsh order, input numbering)."""
+    """Facet tags from values (n,) of facets (n, n_nodes) given by their node numbers (gmsh order, input numbering)."""
     dim = mesh.topology.dim
     permutation = _gmsh_permutation(_FACET[dim], facets.shape[1])
     if COMM.rank > 0:
@@ -145,7 +145,7 @@ def facet_midpoints(mesh: Mesh, facets: NDArray[np.int32]) -> NDArray[np.float64
 
 
 def meshtags(mesh: Mesh, dim: int, entities: NDArray[np.int32], values: NDArray[np.int32]) -> MeshTags:
-    """Tags of entities of dimension ``dim``, sorted by entity."""
+    """Tags, values (n,), of entities (n,) of dimension ``dim`` in local numbers, sorted by entity."""
     order = np.argsort(entities)
     return dolfinx_mesh.meshtags(mesh, dim, entities[order], values[order])
 
@@ -204,7 +204,10 @@ def _compiler() -> Iterator[dict[str, Any]]:
 def create_matrix(
     form: Any, diagonal_blocks: NDArray[np.int32], couplings: Sequence[NDArray[np.int32]] = ()
 ) -> PETSc.Mat:
-    """Empty matrix for a bilinear form, with room for nodes that no integral reaches: diagonal, and coupled groups."""
+    """Empty matrix for a bilinear form, with room for nodes that no integral reaches: diagonal, and coupled groups.
+
+    diagonal_blocks, couplings : (n,) int, and (k,) int each, nodes in this process' numbers
+    """
     pattern = fem.create_sparsity_pattern(form)
     pattern.insert_diagonal(diagonal_blocks)
     for nodes in couplings:
@@ -232,7 +235,7 @@ def flush(matrix: PETSc.Mat) -> None:
 
 
 def add_block(matrix: Any, rows: NDArray[np.int32], block: NDArray[np.float64]) -> None:
-    """Add a dense block at rows and columns of a PETSc matrix, given by numbers local to this process."""
+    """Add a dense block (n, n) at rows and columns (n,) of a PETSc matrix, given by numbers local to this process."""
     add = PETSc.InsertMode.ADD
     matrix.setValuesLocal(rows, rows, block, add)
 
@@ -241,6 +244,8 @@ def cell_matrix(V: Any, groups: Sequence[NDArray[np.int32]], diagonal_blocks: ND
     """Empty DOLFINx CSR matrix that couples the nodes of each group, with room on the diagonal of further nodes.
 
     It is this process' own: rows and columns are all nodes the process knows, those of its neighbours included.
+
+    groups, diagonal_blocks : (k,) int each, and (n,) int, nodes in this process' numbers
     """
     index_map = V.dofmap.index_map
     nodes_here = dolfinx.common.IndexMap(MPI.COMM_SELF, index_map.size_local + index_map.num_ghosts)
@@ -267,7 +272,7 @@ def distributed_matrix(
 ) -> PETSc.Mat:
     """PETSc matrix over all processes with room for the sum of their own CSR matrices, see `distributed_values`.
 
-    further : rows and columns of further entries, in numbers over all processes
+    further : rows and columns (n,) of further entries, in numbers over all processes
     """
     index_map, block = V.dofmap.index_map, V.dofmap.index_map_bs
     here = index_map.size_local + index_map.num_ghosts
@@ -292,7 +297,10 @@ def distributed_matrix(
 
 
 def distributed_values(matrix: PETSc.Mat, values: NDArray[np.float64]) -> None:
-    """Set a matrix from `distributed_matrix` to the sum of all processes' values: CSR data, then further entries."""
+    """Set a matrix from `distributed_matrix` to the sum of all processes' values: CSR data, then further entries.
+
+    values : (nnz + n,) in the unit of the matrix, n further entries
+    """
     entries: Any = values  # the stubs know lists only
     replace: Any = PETSc.InsertMode.INSERT_VALUES
     if hasattr(matrix, "setValuesCOO"):

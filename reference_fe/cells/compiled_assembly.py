@@ -63,6 +63,7 @@ class CompiledCells:
     def prepare_matrix(self, supported: NDArray[np.int32], surfaces: SurfaceAssembly) -> None:
         """Lay out the matrix: pattern, place of each cell's blocks, entries that the supports fix.
 
+        supported : (n,) int, held unknowns this process knows, in its own numbers
         surfaces : couple further groups of nodes, with room for a full block each
         """
         groups = [*self._nodes, *surfaces.couplings()]
@@ -84,7 +85,10 @@ class CompiledCells:
             self._matrix = api.distributed_matrix(self._csr, self._V, far)
 
     def assemble(self, u: NDArray[np.float64], boundary: api.Expr, surfaces: SurfaceAssembly) -> None:
-        """Fill the matrix: the cells' tangent at u with the stored stress, plus a boundary form (or None), surfaces."""
+        """Fill the matrix [N/m]: cells' tangent at u with the stored stress, plus a boundary form (or None), surfaces.
+
+        u : (n_dofs,) [m], neighbours' nodes included
+        """
         self._csr.data[:] = 0.0
         if boundary is not None:
             api.fem.assemble_matrix(self._csr, boundary)

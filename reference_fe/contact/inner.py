@@ -121,7 +121,7 @@ class InnerContactTerm:
         """Nothing: both sides belong to the body."""
 
     def evaluate(self, u: Array, lag: float) -> SurfaceForces:
-        """Forces of the contact at u; no lag, as both sides stand still between two increments."""
+        """Forces at u (n_nodes * dim,) [m]; no lag, as both sides stand still between two increments."""
         x = self.reference_positions.copy()
         x[:, : self._dim] += u.reshape(-1, self._dim)
         batches = [side.blocks(x, self._dim) for side in self._sides]
@@ -142,7 +142,7 @@ class InnerContactTerm:
         return [mine] if self._comm.size == 1 else self._comm.allgather(mine)
 
     def resultant(self) -> Array:
-        """Zero: action is reaction."""
+        """Zero, (dim,) [N]: action is reaction."""
         return np.zeros(self._dim)
 
     def augment(self) -> bool:
@@ -193,7 +193,7 @@ class _TwoSides:
         return not _as_set(self.touching) <= self.known
 
     def note_near(self, x: Array) -> None:
-        """Take the pairs that touch or nearly do into the pattern."""
+        """Take the pairs that touch or nearly do at the positions x (n_nodes, 3) [m] into the pattern."""
         facet, _, _ = self._nearest(x, self.law.reach, 0.2)
         rows, points = np.nonzero(facet >= 0)
         self.known |= _as_set(np.column_stack([rows, facet[rows, points]])) | _as_set(self.touching)

@@ -85,13 +85,17 @@ class _Step:
         return np.where(self._free, self._balancing - self.force, 0.0)
 
     def change_of_stiffness(self) -> Callable[[Array], Array]:
-        """Contact stiffness here minus that in the factors, times a vector."""
+        """Contact stiffness here minus that in the factors [N/m], times a vector (n_own_dofs,)."""
         surfaces, first, free = self._problem.surfaces, self._first_stiffness, self._free
         here = surfaces.stiffness()
         return lambda x: np.where(free, surfaces.product(here, x) - surfaces.product(first, x), 0.0)
 
     def advance(self, direction: Array, left: Array) -> None:
-        """Add as much of a direction as the line search allows; ``left`` is what its linear solve left over."""
+        """Add as much of a direction as the line search allows.
+
+        direction : (n_own_dofs,) [m]
+        left : (n_own_dofs,) [N], what its linear solve left over of -r
+        """
         surfaces, residual, start, balancing = self._problem.surfaces, self.residual(), self._du, self._balancing
         body = -residual - left - surfaces.product(surfaces.stiffness(), direction)
         first, share = process_sums.global_dot(direction, residual), 1.0

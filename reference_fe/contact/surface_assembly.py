@@ -62,15 +62,15 @@ class SurfaceAssembly:
         return all(getattr(term, "symmetric", True) for term in self.terms)
 
     def couplings(self) -> list[NDArray[np.int32]]:
-        """Groups of nodes that a term may couple, in this process' numbers; without terms of the whole body."""
+        """Groups of nodes (k,) that a term may couple, in this process' numbers; without terms of the whole body."""
         return [group[group >= 0].astype(np.int32) for term in self._local_terms for group in term.couplings()]
 
     def whole_couplings(self) -> list[NDArray[np.int64]]:
-        """Groups of nodes that each term of the whole body may couple, in numbers over all processes."""
+        """Groups of nodes (m, k) that each term of the whole body may couple, in numbers over all processes."""
         return [term.couplings() for term in self._whole_terms]
 
     def set_control(self, control: float) -> None:
-        """Set every term's control parameter."""
+        """Set every term's control parameter: rise of an obstacle [m], load factor [-]."""
         for term in self.terms:
             term.set_control(control)
 
@@ -105,12 +105,15 @@ class SurfaceAssembly:
         return product
 
     def add_to_csr(self, indptr: NDArray[np.int32], indices: NDArray[np.int32], data: NDArray[np.float64]) -> None:
-        """Add the stiffness of the last evaluation to a CSR matrix that has room for it."""
+        """Add the stiffness of the last evaluation [N/m] to a CSR matrix that has room for it.
+
+        indptr, indices, data : (n_dofs + 1,), (nnz,), (nnz,), rows and columns of all unknowns this process knows
+        """
         for batch in self._batches:
             _add_blocks(batch.nodes, batch.stiffness, indptr, indices, data)
 
     def add_to_matrix(self, matrix: api.PETSc.Mat, supported: NDArray[np.int32]) -> None:
-        """Add the stiffness of the last evaluation to a PETSc matrix, not at supported unknowns.
+        """Add the stiffness of the last evaluation [N/m] to a PETSc matrix, not at the unknowns ``supported`` (n,).
 
         Raises
         ------

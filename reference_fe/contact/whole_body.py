@@ -66,7 +66,7 @@ class WholeBody:
         return whole[self._first : self._last].ravel()
 
     def own_product(self, batches: Sequence[SurfaceForces], x: Array) -> Array:
-        """Stiffness of the batches times values at all nodes (size * dim,), at this process' own unknowns."""
+        """Stiffness of the batches times values at all nodes (size * dim,) [m], at this process' own unknowns [N]."""
         whole, values = np.zeros((self._size, self._dim)), x.reshape(self._size, self._dim)
         for batch in batches:
             there = batch.nodes >= 0
@@ -75,9 +75,10 @@ class WholeBody:
         return whole[self._first : self._last].ravel()
 
     def lay_out(self, couplings: Sequence[Index], supported: NDArray[np.int32]) -> tuple[Index, Index]:
-        """Room for the full blocks of groups of nodes: row and column of each entry, over all processes.
+        """Room for the full blocks of groups of nodes: row and column of each entry, (nnz,) each, over all processes.
 
-        supported : held unknowns this process knows, in its own numbers
+        couplings : (m, k) int each, groups of nodes in numbers over all processes; -1 fills up short groups
+        supported : (n,) int, held unknowns this process knows, in its own numbers
         """
         pairs = [self._pairs(groups)[0] for groups in couplings]
         self._keys = np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *pairs]))

@@ -39,6 +39,8 @@ def elastic_fields(
 ) -> ElasticFields:
     """Fields of the named parts' materials; ``constraint`` says how a planar part is held across the plane.
 
+    It runs from 0, plane stress, to 1, plane strain [-], see `plane_state`; parts left out are in plane strain.
+
     Raises
     ------
     InputError

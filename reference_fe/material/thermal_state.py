@@ -33,11 +33,11 @@ def solve_thermal_state(
     """Solve for the displacement of a supported body whose parts have expanded, without loads or contact.
 
     Starts from the free expansion of the part with most cells, which is the answer if all expand alike. Residuals are
-    held against the force that would keep the body from expanding.
+    held against the force that would keep the body from expanding. ``transverse_constraint`` [-] is `StaticProblem`'s.
 
     Returns
     -------
-    problem : in its thermal state, ``problem.u`` counted from the shape at 20 C
+    problem : in its thermal state, ``problem.u`` [m] counted from the shape at 20 C
 
     Raises
     ------

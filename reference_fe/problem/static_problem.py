@@ -122,7 +122,7 @@ class StaticProblem:
 
     @property
     def own_supported(self) -> NDArray[np.int32]:
-        """Unknowns held by a support that belong to this process, ascending."""
+        """Unknowns held by a support that belong to this process, (n,) int, ascending."""
         return self.supported[self.supported < self.own_dofs]
 
     def set_control(self, control: float) -> None:

@@ -49,6 +49,8 @@ def solve_increments(
 ) -> Iterator[ConvergedState]:
     """Yield each converged state on the way through ``targets`` from an unloaded start; the caller may stop early.
 
+    Targets are values of the control parameter, ascending from above zero [m for a raised plane, - for a load factor].
+
     An increment that does not converge is halved from the last converged state; after a success the step doubles, up to
     the distance to the next target. Every attempt is appended to ``history``. With a ``checkpoint``, each converged
     state is kept when the caller asks for the next one, and a run that finds one goes on behind it: on one process with

@@ -52,8 +52,8 @@ def cantilever_path(
     Parameters
     ----------
     cells : along the strip
-    targets : load factors; those of the table if left out
-    thickness : of the strip; the load per area of its end stays
+    targets : load factors [-]; those of the table if left out
+    thickness : of the strip, in the benchmark's unit; the load per area of its end stays
     """
     targets = cantilever_table(load)[1:, 0].tolist() if targets is None else targets
     end = [LENGTH[load], 0.5 * WIDTH, 0.0]

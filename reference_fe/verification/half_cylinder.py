@@ -100,6 +100,8 @@ def half_cylinder(
 ) -> StaticProblem:
     """Quarter model: x0 the clamp, x1 the crown plane, y0 the middle of the width, y1 the free edge, z1 outside.
 
+    ``cells`` are around and across, ``thickness`` is the shell's [m].
+
     ``graded`` makes the cells at the clamp 0.15 times their mean length, and those at the free edge small as well.
     """
 

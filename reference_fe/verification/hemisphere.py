@@ -38,7 +38,10 @@ def hemisphere_path(
     *,
     thickness: float = THICKNESS,
 ) -> LoadPath:
-    """Outward and inward displacement of the loaded points; ``cells`` of a quarter around and along the meridian."""
+    """Outward and inward displacement of the loaded points; ``cells`` of a quarter around and along the meridian.
+
+    ``targets`` are load factors [-]; ``thickness`` and displacements are in the benchmark's unit.
+    """
     return load_path(_hemisphere(cells, discretisation, thickness), targets, _WATCHED)
 
 

@@ -85,7 +85,14 @@ def line_contact(
 def half_block(
     obstacle_radius: float, body_curvature: float, method: ContactMethod, cells: tuple[int, int] = CELLS
 ) -> StaticProblem:
-    """Half of a block in plane strain, with small cells at the contact, on a cylinder that rises from below."""
+    """Half of a block in plane strain, with small cells at the contact, on a cylinder that rises from below.
+
+    Parameters
+    ----------
+    obstacle_radius : of the cylinder [m]
+    body_curvature : of the block's face, > 0 if convex [1/m]
+    cells : along the contact and into the depth
+    """
 
     def graded(t: NDArray[np.float64]) -> NDArray[np.float64]:
         near, far = 4.0 * HALF_WIDTH * t, 2.0 * HALF_WIDTH * (SIZE / (2.0 * HALF_WIDTH)) ** (2.0 * t - 1.0)

@@ -42,7 +42,7 @@ class LoadPath:
 
 
 def load_path(problem: StaticProblem, targets: Sequence[float], watched: Sequence[Watched]) -> LoadPath:
-    """Solve through the targets and watch some points."""
+    """Solve through the load factors ``targets`` [-] and watch some points, all lengths in the benchmark's unit."""
     points, history = problem.domain.tagged.points, list[IncrementRecord]()
     nodes = [int(np.argmin(np.linalg.norm(points - np.asarray(point), axis=1))) for point, _ in watched]
     load, rows = [], []

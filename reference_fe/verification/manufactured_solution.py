@@ -72,7 +72,7 @@ def convergence(
 
 
 def with_shear_modulus(factor: float) -> Material:
-    """`RUBBER` with the same lambda and mu times a factor: a damaged material, as negative control."""
+    """`RUBBER` with the same lambda and mu times a factor [-]: a damaged material, as negative control."""
     lam, mu = RUBBER.lame_lambda, factor * RUBBER.lame_mu
     E, nu = mu * (3.0 * lam + 2.0 * mu) / (lam + mu), lam / (2.0 * (lam + mu))
     return replace(RUBBER, young_modulus=E, poisson_ratio=nu)
@@ -96,7 +96,7 @@ def body_force(law: MaterialLaw, X: Expr) -> Expr:
 
 
 def distorted(X: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The unit cube with its inside moved smoothly: the same map on every mesh."""
+    """Places (n, 3) [m] of points (n, 3) [-] of the unit cube, its inside moved smoothly: one map for all meshes."""
     bubble = 0.06 * np.prod(np.sin(np.pi * X), axis=1)
     return np.asarray(X + bubble[:, None] * np.array([1.0, -0.7, 0.5]))
 

@@ -82,7 +82,10 @@ def pressed_ring(
     thickness: float = THICKNESS,
     discretisation: Discretisation | None = None,
 ) -> PressedRing:
-    """Press the ring through ``compressions``; ``elements`` along a quarter, one across and through the thickness."""
+    """Press the ring through ``compressions``; ``elements`` along a quarter, one across and through the thickness.
+
+    ``compressions`` are of the diameter [-], ``thickness`` is the ring's [m].
+    """
     attempts = list[IncrementRecord]()
     problem = quarter_ring(elements, discretisation, thickness=thickness)
     states = [state for state in press(problem, compressions, attempts) if state.wanted]
@@ -107,7 +110,15 @@ def quarter_ring(
     stiffness: float = 1e9,
     method: ContactMethod = ContactMethod.PENALTY,
 ) -> StaticProblem:
-    """Quarter of the ring, symmetric at its lowest and foremost points, on a plane below it."""
+    """Quarter of the ring, symmetric at its lowest and foremost points, on a plane below it.
+
+    Parameters
+    ----------
+    elements : along the quarter
+    normal : unit normal of the plane, to the ring [-]
+    thickness : of the ring [m]
+    stiffness : penalty stiffness of the contact [N/m^3]
+    """
 
     def mapping(X: NDArray[np.float64]) -> NDArray[np.float64]:
         angle, r = 0.5 * np.pi * X[:, 0], RADIUS + thickness * (X[:, 2] - 0.5)
@@ -126,7 +137,10 @@ def quarter_ring(
 def press(
     problem: StaticProblem, compressions: Sequence[float], attempts: list[IncrementRecord] | None = None
 ) -> list[ConvergedState]:
-    """Raise the plane; the control parameter is compression times R. Every attempt is appended to ``attempts``."""
+    """Raise the plane; the control parameter [m] is compression times R. Every attempt is appended to ``attempts``.
+
+    ``compressions`` are of the diameter [-].
+    """
     solver = NewtonSolver(problem, NewtonSettings(maximum_iterations=40))
     return list(solve_increments(solver, [c * RADIUS for c in compressions], [] if attempts is None else attempts))
 

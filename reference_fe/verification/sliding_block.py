@@ -51,7 +51,13 @@ class DraggedBlock:
 
 
 def dragged_block(friction: float = FRICTION, direction_deg: float = 0.0) -> DraggedBlock:
-    """Foot at depth SINK from the start, top dragged to DRAG in steps that are accepted one by one."""
+    """Foot at depth SINK from the start, top dragged to DRAG in steps that are accepted one by one.
+
+    Parameters
+    ----------
+    friction : Coulomb coefficient [-]
+    direction_deg : direction of the drag, from +x about +z [deg]
+    """
     direction = np.array([np.cos(np.deg2rad(direction_deg)), np.sin(np.deg2rad(direction_deg))])
     contact = ObstacleContact(
         faces=("z0",), normal=(0.0, 0.0, 1.0), distance_at_touch=0.0, stiffness=PENALTY, friction=friction

@@ -33,7 +33,14 @@ def block_mesh(
     mapping: Callable[[NDArray[np.float64]], NDArray[np.float64]],
     order: int = 2,
 ) -> TaggedMesh:
-    """Block of cells over the unit cube, mapped by ``mapping``; faces ``x0 x1 y0 y1 z0 z1``, one part ``body``."""
+    """Block of cells over the unit cube, mapped by ``mapping``; faces ``x0 x1 y0 y1 z0 z1``, one part ``body``.
+
+    Parameters
+    ----------
+    counts : cells along the cube's three axes
+    mapping : from points (n, 3) [-] of the unit cube to their places (n, 3) [m]
+    order : 2 for 27 nodes a cell, else 8
+    """
     step = 2 if order == 2 else 1
     n = np.array(counts) * step + 1
     lattice = np.stack(np.meshgrid(*[np.arange(k) for k in n], indexing="ij"), axis=-1).reshape(-1, 3)

@@ -48,7 +48,7 @@ class FlexibleAccount:
     _force: FloatArray = field(default_factory=lambda: np.zeros(3))
 
     def watch(self, t: float, now: Instant) -> None:
-        """Add a row."""
+        """Add a row for the time t [s]."""
         system = self.system
         z, v = system.whole(now)
         tires, masses, g = system.tires.energies(z, v), system.tree.masses, system.gravity

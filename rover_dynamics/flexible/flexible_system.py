@@ -94,11 +94,17 @@ class FlexibleSystem:
         self._gauged = brush_result(len(self.wheels), pieces)
 
     def known(self, t: float) -> Known:
-        """What drives and efforts prescribe at a time."""
+        """What drives and efforts prescribe at t [s]."""
         return self.actions.known(t)
 
     def instant(self, joints: tuple[FloatArray, FloatArray, FloatArray], tires: tuple[FloatArray, ...]) -> Instant:
-        """Bodies and reference nodes for coordinates, velocities and accelerations of joints and free vectors."""
+        """Bodies and reference nodes for coordinates, velocities and accelerations of joints and free vectors.
+
+        Parameters
+        ----------
+        joints : q (n_q,) [rad, m, -], v (n_v,) [rad/s, m/s] and a (n_v,) [rad/s^2, m/s^2]
+        tires : free vectors (n_w, n_f, 3) [m, -], their rates [m/s, 1/s] and accelerations [m/s^2, 1/s^2]
+        """
         q, v, a = joints
         z, z_rate, z_acceleration = tires
         motion = tree_motion(self.tree, q, v)
@@ -117,7 +123,7 @@ class FlexibleSystem:
         )
 
     def at_rest(self, t: float) -> Instant:
-        """The start of the model with undeformed tires that move with their hubs, and consistent accelerations."""
+        """Start of the model at t [s] with undeformed tires that move with their hubs, and consistent accelerations."""
         q, v = self.actions.start(t)
         zero = np.zeros((len(self.wheels), len(self._M_f), 3))
         instant = self.instant((q, v, np.zeros_like(v)), (zero, zero, zero))
@@ -126,12 +132,22 @@ class FlexibleSystem:
         return self.accelerated(q, v, (z, z_rate), self.known(t))
 
     def at_rest_there(self, place: Instant, t: float) -> Instant:
-        """Another motion's coordinates at rest, with consistent accelerations; its vehicle may have weighed less."""
+        """Another motion's coordinates at rest, with consistent accelerations at t [s].
+
+        Its vehicle may have weighed less.
+        """
         tires = place.z, np.zeros_like(place.z)
         return self.accelerated(place.q, np.zeros_like(place.v), tires, self.known(t))
 
     def accelerated(self, q: FloatArray, v: FloatArray, tires: tuple[FloatArray, FloatArray], known: Known) -> Instant:
-        """The instant with the accelerations that its forces cause."""
+        """The instant with the accelerations that its forces cause.
+
+        Parameters
+        ----------
+        q, v : (n_q,), (n_v,) float, coordinates [rad, m, -] and velocities [rad/s, m/s] of the joints
+        tires : free vectors (n_w, n_f, 3) [m, -] and their rates [m/s, 1/s]
+        known : what is prescribed then
+        """
         z, z_rate = tires
         a = np.zeros_like(v)
         a[self.driven] = known.a
@@ -158,7 +174,16 @@ class FlexibleSystem:
         known: Known,
         step_of: tuple[float, Method],
     ) -> Instant:
-        """End of a generalised-alpha step with the method's accelerations of joints and tires."""
+        """End of a generalised-alpha step with the method's accelerations of joints and tires.
+
+        Parameters
+        ----------
+        before : where it starts
+        method_before, method_after : A (n_v,) [rad/s^2, m/s^2] and Z (n_w, n_f, 3) [m/s^2, 1/s^2] of its start and its
+            end; the end's A takes over the accelerations of the drives
+        known : what is prescribed at its end
+        step_of : length [s], method
+        """
         (A_n, Z_n), (A, Z), (dt, w) = method_before, method_after, step_of
         m, f, beta, gamma = w.alpha_m, w.alpha_f, w.beta, w.gamma
         a = ((1.0 - m) * A + m * A_n - f * before.a) / (1.0 - f)
@@ -205,7 +230,7 @@ class FlexibleSystem:
         return float(drives @ instant.v[self.driven] + known.tau @ instant.v)
 
     def row(self, instant: Instant, t: float) -> tuple[FloatArray, ...]:
-        """What a motion keeps of an instant."""
+        """A row of each array of `FlexibleMotion` at an instant, t [s]: positions to efforts, vectors, rates."""
         z, v = self.whole(instant)
         left = self.residual(instant, self.known(t))
         motion, wrench = instant.motion, hub_wrenches(instant.hub.z, left.hubs)

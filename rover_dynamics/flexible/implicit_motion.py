@@ -23,7 +23,7 @@ from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, FlexibleVehicle
 from rover_dynamics.flexible.motion_checkpoint import EVERY, MotionCheckpoint, motion_key
 from rover_dynamics.flexible.step_solver import StepEnd, StepSolver
-from rover_dynamics.multibody.generalised_alpha import Method, generalised_alpha, implicit_euler
+from rover_dynamics.multibody.generalised_alpha import Method, damped_newmark, generalised_alpha
 
 __all__ = ["drive_on_flexible_tires"]
 
@@ -51,7 +51,7 @@ def drive_on_flexible_tires(
     vehicle : its bodies start as its model says
     times : (n,) ascending [s]; each is the end of a step
     steps : how they are chosen
-    settles_until : up to this time [s] steps are those of the implicit Euler method, as long as Newton's method bears
+    settles_until : up to this time [s] steps are those of `damped_newmark`, as long as Newton's method bears
         them: the vehicle comes to rest without bouncing
     watch : called with time and state at each step's end; a ConvergenceError of it ends the motion
     start : bodies and tires begin in this state's place, at rest
@@ -85,7 +85,7 @@ class _Run:
     ) -> None:
         self.times, self.steps, self.watch = np.asarray(times, dtype=np.float64), steps, watch
         self.system, self.settles_until = FlexibleSystem(vehicle), settles_until
-        self.settling: Method = implicit_euler(NEWTON_SHARE * steps.tolerance, ITERATIONS)
+        self.settling: Method = damped_newmark(NEWTON_SHARE * steps.tolerance, ITERATIONS)
         self.moving: Method = generalised_alpha(steps.spectral_radius, NEWTON_SHARE * steps.tolerance, ITERATIONS)
         self.solver, self.checkpoint = StepSolver(self.system), checkpoint
         self.accepted = self.rejected = 0

@@ -41,11 +41,11 @@ class IndependentCoordinates:
         return self.packed(self.system.at_rest(0.0))
 
     def packed(self, instant: Instant) -> FloatArray:
-        """y of an instant, e.g. of one that has settled."""
+        """y (N,) of an instant, e.g. of one that has settled."""
         return np.concatenate([instant.q, instant.v, instant.z.ravel(), instant.z_rate.ravel()])
 
     def instant(self, t: float, y: FloatArray) -> Instant:
-        """Everything at a time, accelerations included."""
+        """Everything at t [s] and y (N,), accelerations included."""
         q, v, z, z_rate = self._parts(t, y)
         return self.system.accelerated(q, v, (z, z_rate), self.system.known(t))
 

@@ -59,7 +59,10 @@ class MotionCheckpoint:
 
 
 def motion_key(vehicle: FlexibleVehicle, times: NDArray[np.float64], steps: EvenSteps, settles_until: float) -> str:
-    """SHA-256 of what a motion begins with and of the laws that drive it; not of efforts, which are functions."""
+    """SHA-256 of what a motion begins with and of the laws that drive it; not of efforts, which are functions.
+
+    ``times`` (n,) and ``settles_until`` are in [s].
+    """
     model, tires = vehicle.vehicle.model, vehicle.tires
     inputs = (model.gravity, model.bodies, model.joints, model.drives, vehicle.vehicle.wheels, steps, settles_until)
     digest = hashlib.sha256(repr(inputs).encode())

@@ -43,7 +43,7 @@ class StepEnd:
     Z: FloatArray
 
     def rescaled(self, ratio: float) -> StepEnd:
-        """The same for a next step ``ratio`` times as long as the last one, see `multibody.generalised_alpha`."""
+        """The same for a next step ``ratio`` [-] times as long as the last one, see `multibody.generalised_alpha`."""
         a, z = self.instant.a, self.instant.z_acceleration
         return StepEnd(instant=self.instant, A=a + ratio * (self.A - a), Z=z + ratio * (self.Z - z))
 

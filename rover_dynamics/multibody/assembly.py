@@ -127,7 +127,14 @@ def _with_velocities(every: Constraints, values: ConstraintValues, state: State)
 def cannot_be_assembled(
     constraints: Constraints, defects: FloatArray, t: float, history: list[float]
 ) -> ConvergenceError:
-    """The error for positions that no joint allows, naming the equation that stays open."""
+    """The error for positions that no joint allows, naming the equation that stays open.
+
+    Parameters
+    ----------
+    constraints, defects : equations, and C (m,) of each in the last iteration [m, rad, -]
+    t : time [s]
+    history : largest |C| of each iteration [m, rad, -]
+    """
     worst = int(np.argmax(np.abs(defects)))
     message = (
         f"bodies cannot be brought together at t = {t:g} s: after {len(history)} iterations "

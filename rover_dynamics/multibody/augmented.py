@@ -86,7 +86,7 @@ class AugmentedEquations:
         )
 
     def corrected(self, t: float, state: State) -> State:
-        """Positions and velocities with the constraints met, changed the least in the sense of the kinetic energy.
+        """The state with the constraints met at t [s], changed the least in the sense of the kinetic energy.
 
         Raises
         ------

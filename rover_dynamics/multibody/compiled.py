@@ -34,7 +34,7 @@ def compiled[F: Callable[..., object]](function: F) -> F:
 
 @compiled
 def cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
-    """out = a x b; out must not be a or b."""
+    """out = a x b, (3,) each; out must not be a or b."""
     out[0] = a[1] * b[2] - a[2] * b[1]
     out[1] = a[2] * b[0] - a[0] * b[2]
     out[2] = a[0] * b[1] - a[1] * b[0]
@@ -54,7 +54,7 @@ def rotation_matrix(q: FloatArray, out: FloatArray) -> None:
 
 @compiled
 def multiply_quaternions(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
-    """out = a * b, the rotation b followed by a; out must not be a or b."""
+    """out = a * b, (4,) each, the rotation b followed by a; out must not be a or b."""
     out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
     out[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2]
     out[2] = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1]

@@ -97,7 +97,7 @@ class Constraints:
     n_bodies: int
 
     def at(self, t: float, state: State) -> ConstraintValues:
-        """Defects, Jacobian and right-hand sides at a state."""
+        """Defects, Jacobian and right-hand sides at t [s] and a state."""
         r = np.vstack([state.positions, np.zeros(3)])
         R = np.concatenate([rotations(state.orientations), np.eye(3)[None]])
         u = np.vstack([state.velocities, np.zeros(6)])
@@ -117,7 +117,7 @@ class Constraints:
         return rates
 
     def part(self, rows: IntArray) -> Constraints:
-        """Some of the equations."""
+        """Some of the equations, by their rows (k,) int."""
         t = self.table
         table = ConstraintTable(t.kinds[rows], t.axes[rows], t.bodies[rows], t.points[rows], t.frames[rows])
         return Constraints(equations=tuple(self.equations[k] for k in rows), table=table, n_bodies=self.n_bodies)
@@ -168,7 +168,7 @@ def _table(model: MultibodyModel, rows: list[tuple[Equation, Joint]]) -> Constra
 
 
 def redundant_equations(jacobian: csr_array) -> IntArray:
-    """Rows of a constraint Jacobian that depend on the others, by QR with column pivoting of its transpose.
+    """Rows (k,) of a constraint Jacobian (m, n) that depend on the others, by QR with column pivoting of its transpose.
 
     Rows are scaled to length one first: translations are of another unit than rotations.
     """

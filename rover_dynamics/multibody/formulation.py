@@ -43,7 +43,7 @@ class Equations(Protocol):
         """Positions and velocities of all bodies at t [s] and y (N,)."""
 
     def accepted(self, t: float, y: FloatArray, course: Course | None) -> None:
-        """Be told that a step ended at t with y, already corrected, and its course; None if y needs no better guess."""
+        """Be told that a step ended at t [s] with corrected y (N,), and its course; None if y needs no better guess."""
 
     def margin(self, t: float, y: FloatArray) -> float:
         """Smallest over largest singular value of the loops' equations [-]; its sign changes where it is zero."""

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from rover_dynamics.multibody.compiled import compiled, cross
 from rover_dynamics.multibody.tree_kernels import LinkKind, Tree, advance, tree_motion
 
-__all__ = ["Method", "generalised_alpha", "implicit_euler", "newmark", "rescaled_rates", "step_frames"]
+__all__ = ["Method", "damped_newmark", "generalised_alpha", "newmark", "rescaled_rates", "step_frames"]
 
 FloatArray = NDArray[np.float64]
 
@@ -55,7 +55,10 @@ class Method(NamedTuple):
 
 
 def generalised_alpha(spectral_radius: float, tolerance: float, iterations: int) -> Method:
-    """Coefficients of order two for a spectral radius at infinity (Chung and Hulbert 1993, eqs 17, 20 and 25)."""
+    """Coefficients of order two for a spectral radius at infinity [-] (Chung and Hulbert 1993, eqs 17, 20 and 25).
+
+    ``tolerance`` [m, rad] and ``iterations`` are those of `Method`.
+    """
     rho = spectral_radius
     alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
     gamma = 0.5 - alpha_m + alpha_f
@@ -64,13 +67,19 @@ def generalised_alpha(spectral_radius: float, tolerance: float, iterations: int)
     return Method(alpha_m, alpha_f, beta, gamma, error, tolerance, iterations)
 
 
-def implicit_euler(tolerance: float, iterations: int) -> Method:
-    """The implicit Euler method as coefficients: order one, damps every frequency; for settling, not for motions."""
+def damped_newmark(tolerance: float, iterations: int) -> Method:
+    """Newmark's method with beta = gamma = 1: order one, every frequency damped; for settling, not for motions.
+
+    The highest frequencies lose a factor of sqrt(2) a step: roots of x^2 - x/2 + 1/2.
+    Verified by tests/unit/test_newmark_damping.py.
+
+    ``tolerance`` [m, rad] and ``iterations`` are those of `Method`.
+    """
     return Method(0.0, 0.0, 1.0, 1.0, 0.0, tolerance, iterations)
 
 
 def rescaled_rates(a: FloatArray, A: FloatArray, ratio: float) -> FloatArray:
-    """A at the time that belongs to a next step ``ratio`` times as long as the last one."""
+    """A, of a's shape and unit, at the time that belongs to a next step ``ratio`` [-] times as long as the last one."""
     return a + ratio * (A - a)
 
 

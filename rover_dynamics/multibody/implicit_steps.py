@@ -40,7 +40,7 @@ class ImplicitSteps(StepLengths):
             raise InputError("fixed step", f"{self.fixed:g} s", "must be finite and > 0", "leave it out")
 
     def accepts(self, error: float) -> bool:
-        """Whether a step with this estimated error counts; one that failed has an infinite one."""
+        """Whether a step with this estimated error [m, rad] counts; one that failed has an infinite one."""
         return math.isfinite(error) if self.fixed is not None else error <= self.tolerance
 
     def towards(self, left: float, length: float) -> float:

@@ -114,7 +114,7 @@ class Stepper(Protocol):
     Attributes
     ----------
     t, t_old : where the last step ended and where it began [s]
-    y : at t
+    y : (N,) float, at t
     length : of the step in hand, for messages [s]
     evaluations : of the equations of motion, so far
     """

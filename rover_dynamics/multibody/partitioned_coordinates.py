@@ -53,7 +53,7 @@ class PartitionedCoordinates(AbsoluteCoordinates):
 
     @property
     def independent(self) -> NDArray[np.int64]:
-        """Velocities among the 6 n that are integrated."""
+        """Velocities among the 6 n that are integrated, (6 n - m,) int."""
         return np.setdiff1d(np.arange(6 * len(self.model.bodies)), self.dependent)
 
     def rates(self, t: float, y: FloatArray) -> FloatArray:

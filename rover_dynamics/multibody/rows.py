@@ -34,7 +34,7 @@ type Matrix = tuple[Vector, Vector, Vector]
 
 @compiled
 def vector(a: FloatArray, k: int, at: int) -> Vector:
-    """Three numbers of row k, from column ``at`` on."""
+    """Three numbers of row k of (n, m), from column ``at`` on."""
     return a[k, at], a[k, at + 1], a[k, at + 2]
 
 
@@ -89,7 +89,7 @@ def times_matrix(A: Matrix, B: Matrix) -> Matrix:
 
 @compiled
 def turn_matrix(axis: Vector, angle: float) -> Matrix:
-    """Rotation about a unit axis (Rodrigues)."""
+    """Rotation about a unit axis by an angle [rad] (Rodrigues)."""
     c, s = np.cos(angle), np.sin(angle)
     (x, y, z), h = axis, 1.0 - c
     return (

@@ -127,7 +127,7 @@ class _AtRest:
         return self._equations.corrected(self._t, self._equations.start())[: self._n_q]
 
     def moved(self, q: FloatArray, step: FloatArray) -> FloatArray:
-        """Coordinates after displacements of the independent joints, with the loops closed."""
+        """Coordinates (n_q,) after displacements (n_i,) [rad, m] of the independent joints, with the loops closed."""
         tree, displacement = self._equations.tree, self._still.copy()
         displacement[self._independent] = step
         loops = self._equations.loops
@@ -143,7 +143,7 @@ class _AtRest:
         return np.asarray(self._equations.accelerations(self._t, motion).joints[self._independent])
 
     def stiffness(self, q: FloatArray) -> FloatArray:
-        """da/dq by central differences."""
+        """da/dq (n_i, n_i) of the independent joints by central differences [1/s^2, m/(rad s^2), rad/(m s^2)]."""
         n, h = len(self._independent), _DIFFERENCE
         columns = [
             (self.accelerations(self.moved(q, h * e)) - self.accelerations(self.moved(q, -h * e))) / (2.0 * h)

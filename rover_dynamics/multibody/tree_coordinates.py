@@ -86,7 +86,7 @@ class TreeCoordinates:
 
     @property
     def independent(self) -> IntArray:
-        """Joint velocities from which all others follow."""
+        """Joint velocities from which all others follow, (n_i,) int."""
         return np.setdiff1d(self.free, self.loops.dependent)
 
     # The formulation -------------------------------------------------------------------------------------------------
@@ -143,11 +143,11 @@ class TreeCoordinates:
     # Its parts -------------------------------------------------------------------------------------------------------
 
     def motion(self, t: float, y: FloatArray) -> TreeMotion:
-        """Links and bodies in the world."""
+        """Links and bodies in the world at t [s] and y (n_q + n_v,)."""
         return tree_motion(self.tree, *self._split(t, y))
 
     def accelerations(self, t: float, motion: TreeMotion) -> TreeAccelerations:
-        """Solve for joint accelerations, multipliers and efforts."""
+        """Solve for joint accelerations, multipliers and efforts at t [s]."""
         wrenches = self._applied(t, motion)
         h, M = bias_and_mass(self.tree, motion, wrenches, self._gravity)
         acceleration, d, f = np.zeros(len(h)), self._drive_at, self.free

@@ -38,7 +38,12 @@ _REVOLUTE, _PRISMATIC, _SPHERICAL = int(LinkKind.REVOLUTE), int(LinkKind.PRISMAT
 
 @compiled
 def tree_motion(tree: Tree, q: FloatArray, v: FloatArray) -> TreeMotion:
-    """Positions, velocities and velocity-dependent accelerations of all links and bodies."""
+    """Positions, velocities and velocity-dependent accelerations of all links and bodies.
+
+    Parameters
+    ----------
+    q, v : (n_q,), (n_v,) float, joint coordinates [rad, m, -] and velocities [rad/s, m/s]
+    """
     motion = tree_memory(tree)
     move_tree(tree, q, v, motion)
     return motion
@@ -46,7 +51,7 @@ def tree_motion(tree: Tree, q: FloatArray, v: FloatArray) -> TreeMotion:
 
 @compiled
 def move_tree(tree: Tree, q: FloatArray, v: FloatArray, motion: TreeMotion) -> None:
-    """Overwrite a motion with that of q and v; allocates nothing."""
+    """Overwrite a motion with that of q (n_q,) and v (n_v,), see `tree_motion`; allocates nothing."""
     for k in range(len(tree.parents)):
         if tree.kinds[k] in (_REVOLUTE, _PRISMATIC):
             _place_on_axis(tree, k, q, motion)

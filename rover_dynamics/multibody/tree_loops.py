@@ -75,7 +75,7 @@ class Loops:
         return bool(self.constraints.equations)
 
     def rows(self, t: float, motion: TreeMotion) -> LoopRows:
-        """All equations at a motion of the tree."""
+        """All equations at t [s] and a motion of the tree."""
         table = self.constraints.table
         C, C_u, Q_c = constraint_rows(table, motion.positions, motion.rotations, motion.velocities)
         rates = self.constraints.add_laws(t, C, Q_c)
@@ -83,7 +83,11 @@ class Loops:
         return LoopRows(defects=C, jacobian=J, rates=rates, accelerations=Q_c - bias, blocks=C_u)
 
     def close(self, t: float, q: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Dependent coordinates and velocities from the independent ones, by Newton's method.
+        """Dependent coordinates and velocities from the independent ones at t [s], by Newton's method.
+
+        Parameters
+        ----------
+        q, v : (n_q,), (n_v,) float, all coordinates [rad, m, -] and velocities [rad/s, m/s]; may be overwritten
 
         Raises
         ------

@@ -77,7 +77,7 @@ class RoverTable:
         return moments
 
     def axis(self) -> tuple[float, float, float]:
-        """A direction; its length says nothing, but has to be one."""
+        """A direction [-] of any length above 1e-6."""
         direction = self.three("axis")
         if not math.hypot(*direction) > 1e-6:
             raise InputError(f"{self.place}: axis", list(direction), "is no direction", "give one such as [0, 1, 0]")

@@ -1,8 +1,8 @@
 """A rover at rest on flexible tires, at one mean wheel load after the other (thesis Figs 15, 20 and 22).
 
-The first equilibrium is reached by implicit Euler steps from tires pressed into the ground, the others from the one
-before, with gravity scaled. What is at rest depends on neither damping nor friction: the ground is taken without
-friction, so that no wheel sticks on its way. Verified by tests/verification/test_rover_standing.py.
+The first equilibrium is reached by strongly damped implicit steps from tires pressed into the ground, the others from
+the one before, with gravity scaled. What is at rest depends on neither damping nor friction: the ground is taken
+without friction, so that no wheel sticks on its way. Verified by tests/verification/test_rover_standing.py.
 """
 
 from __future__ import annotations

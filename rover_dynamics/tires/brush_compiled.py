@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 @compiled
 def vector(row: FloatArray) -> Vector:
-    """Three numbers of an array."""
+    """First three numbers of an array (n,)."""
     return row[0], row[1], row[2]
 
 
@@ -44,7 +44,7 @@ def along(a: Vector, s: float, b: Vector) -> Vector:
 
 @compiled
 def over_length(a: Vector) -> Vector:
-    """Unit vector of a; zero stays zero."""
+    """Unit vector of a [-]; zero stays zero."""
     scale = 1.0 / max(math.sqrt(dot(a, a)), 1e-300)
     return scale * a[0], scale * a[1], scale * a[2]
 
@@ -57,6 +57,6 @@ def hypotenuse(x: float, y: float) -> float:
 
 @compiled
 def ramp(x: float) -> float:
-    """Smooth step 3 x^2 - 2 x^3 from 0 at x <= 0 to 1 at x >= 1."""
+    """Smooth step 3 x^2 - 2 x^3 [-] from 0 at x <= 0 to 1 at x >= 1."""
     x = min(max(x, 0.0), 1.0)
     return x * x * (3.0 - 2.0 * x)

@@ -55,7 +55,8 @@ def brush_derivatives(
     Parameters
     ----------
     motions, state, numbers, terrain : as for `rover_dynamics.tires.brush_force.brush_forces`; the state is left as it
-    was jacobian : (n, 6 + s, 12 + s) float, s = 2 n_pieces, written: rows wrench and state rate; columns hub position,
+        was
+    jacobian : (n, 6 + s, 12 + s) float, s = 2 n_pieces, written: rows wrench and state rate; columns hub position,
         small rotation theta (R becomes exp(theta x) R, world), velocity, angular velocity, state
     scratch : of `brush_scratch` and `derivative_result`
     """

@@ -60,7 +60,7 @@ def convex_distance(piece: FloatArray, p: Vector, e: Vector) -> Facing:
 
 @compiled
 def facing(gap: float, n: Vector, e: Vector) -> Facing:
-    """From the gap along a normal to the distance in the wheel's plane."""
+    """From the gap [m] along a unit normal n to the distance [m] in the wheel's plane; with n, and n . e [-]."""
     tilt = dot(n, e)
     return gap / max(math.sqrt(max(1.0 - tilt * tilt, 0.0)), FLATTEST), n, tilt
 

@@ -66,7 +66,7 @@ def graph(piece: FloatArray, knots: FloatArray, x: float, y: float) -> Graph:
 
 @compiled
 def is_beside(piece: FloatArray, knots: FloatArray, x: float, y: float) -> bool:
-    """Whether a point lies beside a height field."""
+    """Whether the point (x, y) [m] lies beside a height field."""
     if int(piece[0]) != HEIGHT_FIELD:
         return False
     u, v = (x - piece[1]) / piece[3], (y - piece[2]) / piece[4]

@@ -87,7 +87,7 @@ THESIS_BRUSH = BrushTireParameters(
 
 
 def with_friction(parameters: BrushTireParameters, friction: float | None) -> BrushTireParameters:
-    """The same tire on ground of one coefficient of friction, mu(s) = friction at every slip; None leaves its own.
+    """The same tire on ground of one coefficient of friction [-], mu(s) = friction at every slip; None leaves its own.
 
     Table II's two numbers are one ground's coefficient at full slip and at none; Coulomb's law has one for both.
 

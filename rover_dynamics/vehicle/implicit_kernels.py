@@ -47,7 +47,7 @@ _OLD = 0.1
 
 @compiled
 def hub_motions(motion: TreeMotion, bodies: IntArray) -> HubMotions:
-    """Motions of the wheels' bodies."""
+    """Motions of the wheels' bodies, whose rows are ``bodies`` (n_w,) int."""
     n = len(bodies)
     hubs = HubMotions(np.empty((n, 3)), np.empty((n, 3, 3)), np.empty((n, 3)), np.empty((n, 3)))
     for i in range(n):
@@ -63,7 +63,18 @@ def hub_motions(motion: TreeMotion, bodies: IntArray) -> HubMotions:
 def evaluate(
     system: System, q: FloatArray, v: FloatArray, s: FloatArray, result: BrushResult
 ) -> tuple[TreeMotion, HubMotions, FloatArray, FloatArray]:
-    """Motion of links and hubs, bias forces with the tires' wrenches in them, and mass matrix; fills ``result``."""
+    """Motion of links and hubs, bias forces with the tires' wrenches in them, and mass matrix; fills ``result``.
+
+    Parameters
+    ----------
+    q, v : (n_q,), (n_v,) float, joint coordinates [rad, m, -] and velocities [rad/s, m/s]
+    s : (n_w, n_s) float, states of the tires [m]
+
+    Returns
+    -------
+    motion, hubs : of links and bodies, and of the wheels' hubs
+    h, M : (n_v,), (n_v, n_v) float, of M a + h = tau [N m, N], [kg m^2, kg m, kg]
+    """
     motion = tree_motion(system.tree, q, v)
     hubs, wrenches = _tires(system, motion, s, result)
     h, M = bias_and_mass(system.tree, motion, wrenches, system.gravity)

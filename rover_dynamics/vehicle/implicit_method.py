@@ -55,6 +55,6 @@ class Moment(NamedTuple):
 
 
 def rescaled(moment: Moment, ratio: float) -> Moment:
-    """The moment with A and B at the time that belongs to a next step ``ratio`` times as long as the last one."""
+    """The moment with A and B at the time that belongs to a next step ``ratio`` [-] times as long as the last one."""
     A, B = rescaled_rates(moment.a, moment.A, ratio), rescaled_rates(moment.s_rate, moment.B, ratio)
     return moment._replace(A=A, B=B)

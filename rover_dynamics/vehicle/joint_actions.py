@@ -76,7 +76,7 @@ class JointActions:
             self._efforts.append((places[0], effort))
 
     def known(self, t: float) -> Known:
-        """What is prescribed at a time."""
+        """What is prescribed at t [s]."""
         q, v, a = self._held.copy()
         for law, rows in self._moving:
             q[rows], v[rows], a[rows] = law.at(t)
@@ -86,7 +86,7 @@ class JointActions:
         return Known(q, v, a, tau)
 
     def start(self, t: float) -> tuple[FloatArray, FloatArray]:
-        """Coordinates and velocities of the model's start, corrected."""
+        """Coordinates (n_q,) [rad, m, -], velocities (n_v,) [rad/s, m/s] of the model's start, corrected at t [s]."""
         n_q = int(self.coordinates.tree.q_at[-1])
         y = self.coordinates.corrected(t, self.coordinates.start())
         return y[:n_q], y[n_q:]

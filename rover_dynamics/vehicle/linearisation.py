@@ -35,6 +35,11 @@ def changes(newton: Newton, dt: float, outputs: FloatArray) -> tuple[bool, bool]
     """Whether the matrix is that of another length of step, and whether the tires' derivatives are due; notes for what.
 
     They are due where other wheels touch the ground, and after `_OLDEST` uses.
+
+    Parameters
+    ----------
+    dt : length of the step [s]
+    outputs : (n_w, 10) float, of the tires, see `rover_dynamics.tires.brush_force.OUTPUT_SIZE`
     """
     made_for = newton.made_for
     made_for[1] += 1.0
@@ -53,7 +58,7 @@ def linearise(system: System, motion: TreeMotion, work: Work, weights: tuple[flo
 
     Parameters
     ----------
-    weights : c; dt gamma, the derivative of v by A; dt^2 beta, that of the step
+    weights : c [-]; dt gamma, the derivative of v by A [s]; dt^2 beta, that of the step [s^2]
     """
     M, free = mass_matrix(system.tree, motion), system.free
     matrix = weights[0] * M

@@ -148,7 +148,7 @@ class _Run:
         return System(actions.coordinates.tree, tires, gravity, actions.free, actions.driven, actions.driven_q)
 
     def start(self, t: float) -> Moment:
-        """State and consistent accelerations; the method's own begin as these."""
+        """State and consistent accelerations at t [s]; the method's own begin as these."""
         q, v = self.actions.start(t)
         s = np.zeros_like(self.result.rate)
         known, free = self.actions.known(t), self.system.free

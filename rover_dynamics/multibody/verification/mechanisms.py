@@ -57,7 +57,10 @@ def tip_of_four_bar(state: State) -> FloatArray:
 
 
 def slider_crank(law: MotionLaw | None = None, *, gravity: tuple[float, float, float] = DOWN) -> MultibodyModel:
-    """Crank of 0.1 m, rod of 0.3 m, piston along x; crank and rod start along x. A law drives the crank."""
+    """Crank of 0.1 m, rod of 0.3 m, piston along x; crank and rod start along x. A law [rad] drives the crank.
+
+    ``gravity`` is the acceleration of free fall, world [m/s^2].
+    """
     crank: RigidBody = body("crank", 1.0, (1e-3, 1e-3, 1e-3), (0.05, 0, 0))
     rod = body("rod", 0.5, (1e-3, 4e-3, 4e-3), (0.25, 0, 0))
     piston = body("piston", 2.0, (1e-3, 1e-3, 1e-3), (0.4, 0, 0))

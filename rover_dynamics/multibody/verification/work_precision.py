@@ -73,7 +73,11 @@ class Work:
 
 
 def control_for(method: str, allowed: float) -> StepControl | ImplicitSteps:
-    """``"explicit"`` or ``"implicit"`` steps with this error allowed in each."""
+    """``"explicit"`` or ``"implicit"`` steps with this error allowed in each.
+
+    For explicit ones it is the relative error [-] and the absolute one of y [SI], for implicit ones that of the joints
+    [m, rad].
+    """
     if method == "explicit":
         return StepControl(relative=allowed, absolute=allowed)
     return ImplicitSteps(tolerance=allowed, first=1e-5, longest=0.1)

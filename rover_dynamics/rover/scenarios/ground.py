@@ -71,7 +71,7 @@ def on_brush_tires(scenario: Scenario, tire: BrushTireParameters) -> Scenario:
 
 
 def on_friction(scenario: Scenario, friction: float | None) -> Scenario:
-    """The same on ground of another friction, on whatever tires; as it is for None.
+    """The same on ground of another coefficient of friction [-], on whatever tires; as it is for None.
 
     A scenario that holds fast keeps its own, as the static stability does, which is asked of a rover that cannot slide.
     """

@@ -100,7 +100,7 @@ def _sweep(run: ScenarioRun) -> tuple[Outcome, ...]:
 
 
 def sweep_of_gravity(scenario: Scenario, design: RoverDesign, loads: Sequence[float] = SWEEP) -> ScenarioRun:
-    """Gravity scaled to each mean wheel load; one sample for each, at the end of its settling."""
+    """Gravity scaled to each mean wheel load [N]; one sample for each, at the end of its settling."""
     single = replace(scenario, composed=None)
     runs: list[ScenarioRun] = []
     stopped = None

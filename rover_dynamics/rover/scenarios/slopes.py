@@ -40,7 +40,7 @@ def velocity_loss(run: ScenarioRun) -> float:
 
 
 def largest_passed(passes: Callable[[float], bool], low: float, high: float, width: float) -> float:
-    """By bisection, the largest value that passes, from below within ``width``; low must pass, high must not.
+    """By bisection, the largest value that passes, from below within ``width``; bounds and width are in its unit.
 
     ``low`` is taken to pass; where ``high`` passes too, it is the answer.
     """

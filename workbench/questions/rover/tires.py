@@ -155,7 +155,7 @@ def on_ancf_tires(
     turned: float = 0.0,
     settling_damping: float | None = None,
 ) -> Scenario:
-    """The same on six flexible tires; they settle by implicit Euler steps until time zero.
+    """The same on six flexible tires; they settle by strongly damped implicit steps until time zero.
 
     What is searched beside the run is left out, its bisections would take many minutes; a motion in which a tire folds
     ends before it. Friction is that of the scenario, so that all tires slip alike there; of one that asks for none it
