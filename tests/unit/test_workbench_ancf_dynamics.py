@@ -65,10 +65,19 @@ def test_energy_closes_and_integrators_agree(results: AncfMotions) -> None:
 def test_an_open_account_fails_the_gate(results: AncfMotions) -> None:
     """Negative control."""
     drop = results["drop"]
-    broken = replace(drop, numbers={**drop.numbers, "closure": 0.02})
+    broken = replace(drop, numbers=replace(drop.numbers, closure=0.02))
     damaged = replace(results, motions=(broken, *results.motions[1:]))
     checks = ANCF_DYNAMICS.checks(read_study(built_in_study()), damaged)
     assert [check.status for check in checks] == ["fail", "pass", "pass"]
+
+
+def test_a_motion_that_stopped_has_no_account_and_decides_nothing(results: AncfMotions) -> None:
+    drop = results["drop"]
+    stopped = replace(drop, numbers=replace(drop.numbers, closure=None, stopped="no convergence"))
+    checks = ANCF_DYNAMICS.checks(
+        read_study(built_in_study()), replace(results, motions=(stopped, *results.motions[1:]))
+    )
+    assert [(check.status, check.value is None) for check in checks[:2]] == [("error", True), ("pass", False)]
 
 
 def test_figures_show_load_and_hub(results: AncfMotions) -> None:

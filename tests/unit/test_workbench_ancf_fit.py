@@ -18,6 +18,7 @@ from contracts.errors import InputError, StudyError
 from workbench.questions.ancf_fit.fit import average_error, fitted_deflections, perturbed, read_fit
 from workbench.questions.ancf_fit.graph import fit_tasks
 from workbench.questions.ancf_fit.question import AncfFits
+from workbench.questions.ancf_fit.records import Fitted, Held
 from workbench.questions.ancf_fit.task import evaluate, fit
 from workbench.questions.model_curves import ModelCurves
 from workbench.questions.registry import questions_of
@@ -109,23 +110,21 @@ def test_a_fit_and_its_result(folders: Mapping[str, Path], tmp_path: Path) -> No
     inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "points": 4}
     inputs |= {"average_weight": 3.0, "realisations": 4, "mesh_study": MESH_STUDY, "phase_starts": 1, "mirrored": True}
     fit(inputs | {"free": [["young_modulus", 1e4, 1e7]]}, folders, tmp_path, lambda fraction: None)
-    tire = read_fit("test", tmp_path)
-    (row,) = tire.numbers["parameters"]
-    assert row["value"] == pytest.approx(
-        1.2 * SMALL.young_modulus, rel=0.02
-    )  # curves are joined linearly between points
-    assert row["interval"][0] < row["value"] < row["interval"][1]
-    assert row["spread"][0] < row["value"] < row["spread"][1]
-    assert tire.numbers["refits"] == 4
-    assert tire.numbers["flexible_mass_kg"] == pytest.approx(4.44157)
-    assert abs(tire.numbers["average"]["largest"]) < 0.03
+    tire = read_fit("test", tmp_path, Fitted)
+    (row,) = tire.numbers.parameters
+    assert row.value == pytest.approx(1.2 * SMALL.young_modulus, rel=0.02)  # curves are joined linearly between points
+    assert row.interval[0] < row.value < row.interval[1]
+    assert row.spread[0] < row.value < row.spread[1]
+    assert tire.numbers.refits == 4
+    assert tire.numbers.flexible_mass_kg == pytest.approx(4.44157)
+    assert abs(tire.numbers.average.largest) < 0.03
     assert list(tire.curves) == [0.0, 30.0]
     evaluate(inputs, folders, tmp_path, lambda fraction: None)
-    own = read_fit("own", tmp_path)
-    assert own.numbers["preset"]["young_modulus"] == SMALL.young_modulus
-    assert max(own.numbers["relative_rms"]) > 0.05
+    own = read_fit("own", tmp_path, Held)
+    assert own.numbers.preset.young_modulus == SMALL.young_modulus
+    assert max(own.numbers.relative_rms) > 0.05
     # a tire whose spokes stand on its plane of symmetry is its own mirror image
-    np.testing.assert_allclose(own.numbers["mirrored_rms"], own.numbers["relative_rms"], rtol=0.05)
+    np.testing.assert_allclose(own.numbers.mirrored_rms, own.numbers.relative_rms, rtol=0.05)
 
 
 def test_a_turned_tire_is_found_by_its_mirror_image(folders: Mapping[str, Path], tmp_path: Path) -> None:
@@ -134,9 +133,9 @@ def test_a_turned_tire_is_found_by_its_mirror_image(folders: Mapping[str, Path],
     turned = replace(SMALL, phase=np.radians(20.0))
     preset = asdict(turned) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
     evaluate(inputs | {"preset": preset}, folders, tmp_path, lambda fraction: None)
-    numbers = read_fit("own", tmp_path).numbers
-    assert numbers["mirrored_rms"][0] == pytest.approx(numbers["relative_rms"][0], rel=0.05)
-    assert abs(numbers["mirrored_rms"][1] - numbers["relative_rms"][1]) > 0.05
+    numbers = read_fit("own", tmp_path, Held).numbers
+    assert numbers.mirrored_rms[0] == pytest.approx(numbers.relative_rms[0], rel=0.05)
+    assert abs(numbers.mirrored_rms[1] - numbers.relative_rms[1]) > 0.05
 
 
 def test_phases_are_tried_as_the_study_asks(study: Study, folders: Mapping[str, Path], tmp_path: Path) -> None:
@@ -149,9 +148,9 @@ def test_phases_are_tried_as_the_study_asks(study: Study, folders: Mapping[str, 
     inputs |= {"average_weight": 1.0, "realisations": 0, "mesh_study": None, "phase_starts": 2, "mirrored": True}
     free = [["young_modulus", 1e4, 1e7], ["phase", -0.8, 0.8]]
     fit(inputs | {"free": free}, folders, tmp_path, lambda fraction: None)
-    trials = read_fit("test", tmp_path).numbers["phase_trials"]
-    assert [t["start"] for t in trials] == pytest.approx([0.0, -np.pi / 4])
-    assert trials[0]["sum_of_squares"] < 0.1 * trials[1]["sum_of_squares"]
+    trials = read_fit("test", tmp_path, Fitted).numbers.phase_trials
+    assert [t.start for t in trials] == pytest.approx([0.0, -np.pi / 4])
+    assert trials[0].sum_of_squares < 0.1 * trials[1].sum_of_squares
 
 
 def test_curves_too_short_for_the_range_leave_the_reason(folders: Mapping[str, Path], tmp_path: Path) -> None:
@@ -159,7 +158,7 @@ def test_curves_too_short_for_the_range_leave_the_reason(folders: Mapping[str, P
     inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [300.0, 350.0], "mirrored": False}
     evaluate(inputs, folders, tmp_path, lambda fraction: None)
     with pytest.raises(InputError, match="beyond the end of the FE average"):
-        read_fit("own", tmp_path)
+        read_fit("own", tmp_path, Held)
 
 
 def test_curves_half_a_period_apart_are_compared() -> None:

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from rich.table import Table
 
@@ -26,12 +27,14 @@ from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
 from workbench.questions.study_graph import report_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish, to_json
-from workbench.study.ancf_tire import preset_from
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset
 from workbench.study.reading import built_in_study, study_of
 from workbench.study.rewrite import rewritten_study, rewritten_table
 from workbench.verdict.number_format import displayed
+
+if TYPE_CHECKING:
+    from workbench.questions.ancf_fit.records import Fitted, Held
 
 __all__ = ["run_calibrate_ancf"]
 
@@ -42,6 +45,8 @@ _COUNTS = ("circumferential_plates", "spokes")
 
 def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, store: Path, computing: Computing) -> int:
     """Fit the study's tires, or one of them; 0 if the kept one follows the FE average within the study's tolerance."""
+    from workbench.questions.ancf_fit.records import Fitted, Held
+
     path = study_path or built_in_study()
     study = _chosen(read_and_warn(path), tire)
     section = study.ancf_fit
@@ -52,13 +57,13 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     tasks = _with_needs(fit_tasks(study), report_tasks(study))
     with RunDisplay(console, tasks) as display:
         entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
-    own = read_fit("own", entries[AS_IT_IS].path)
-    tires = [read_fit(t.name, entries[fit_name(t.name)].path) for t in section.tires]
+    own = read_fit("own", entries[AS_IT_IS].path, Held)
+    tires = [read_fit(t.name, entries[fit_name(t.name)].path, Fitted) for t in section.tires]
     kept = next(t for t in tires if t.name == section.kept.name)
     note = f"ANCF tire fitted to the FE curves by workbench calibrate ancf: {kept.name}"
     text = rewritten_study(input_text(path, "study file"), {}, note, path.parent)
-    summary = {"schema": 1, "study": study.name, "kept": kept.name, "own": dict(own.numbers)}
-    summary["tires"] = [{"name": t.name, **t.numbers} for t in tires]
+    summary = {"schema": 1, "study": study.name, "kept": kept.name, "own": asdict(own.numbers)}
+    summary["tires"] = [{"name": t.name, **asdict(t.numbers)} for t in tires]
     curves = [curve for t in tires for curve in (*t.curves.values(), t.average)]
     text = rewritten_table(text, "ancf", _values(kept), without=["surfaces"])
     files = {"ancf_fit.json": to_json(summary)}
@@ -69,7 +74,7 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
         tell_kept(publish(out, "calibrate ancf", files, curves))
     _print([own, *tires], kept)
     console.print(f"study: {out / name}", soft_wrap=True)
-    return 0 if abs(kept.numbers["average"]["largest"]) <= study.tolerances.ancf_fit else 1
+    return 0 if abs(kept.numbers.average.largest) <= study.tolerances.ancf_fit else 1
 
 
 def _chosen(study: Study, tire: str | None) -> Study:
@@ -98,48 +103,48 @@ def _with_needs(wanted: Sequence[Task], known: Sequence[Task]) -> list[Task]:
     return [task for task in known if task.name in needed]
 
 
-def _values(tire: FittedTire) -> dict[str, object]:
+def _values(tire: FittedTire[Fitted]) -> dict[str, object]:
     """Keys of [ancf], with the fitted tire's numbers to seven digits, the FE's orientations."""
-    preset = tire.numbers["preset"]
+    preset = asdict(tire.numbers.preset)
     values: dict[str, object] = {name: f"{1e3 * preset[name]:.7g} mm" for name in _LENGTHS}
     values |= {name: f"{preset[name]:.7g} {unit}" for name, unit in _UNITS.items()}
     values |= {name: preset[name] for name in _COUNTS}
-    return values | {"orientations": [f"{o:g} deg" for o in tire.numbers["orientations_deg"]], "thesis_preset": False}
+    return values | {"orientations": [f"{o:g} deg" for o in tire.numbers.orientations_deg], "thesis_preset": False}
 
 
-def _check_rewritten(path: Path, text: str, tire: FittedTire) -> None:
+def _check_rewritten(path: Path, text: str, tire: FittedTire[Fitted]) -> None:
     """Make sure that the study to be written can be read, and says what was found."""
     study = study_of(path, tomllib.loads(text))
-    found, wanted = ancf_preset(study), preset_from(tire.numbers["preset"])
+    found, wanted = ancf_preset(study), tire.numbers.preset
     for name in (*_LENGTHS, *_UNITS, *_COUNTS):
         value, goal = getattr(found, name), getattr(wanted, name)
         if abs(value - goal) > 1e-5 * abs(goal):
             raise RunError(f"{path}: [ancf] {name} could not be written into this file; set it by hand: {goal:g}")
 
 
-def _print(tires: Sequence[FittedTire], kept: FittedTire) -> None:
+def _print(tires: Sequence[FittedTire[Held]], kept: FittedTire[Fitted]) -> None:
     """Errors of every tire, then the kept one's parameters."""
-    low, high = kept.numbers["load_range_N"]
+    low, high = kept.numbers.load_range_N
     table = Table(title=f"against the FE curves, {low:.0f} to {high:.0f} N", title_justify="left")
     for column in ("tire", "spokes", "rim plates", "average: largest", "at", *(f"{o:g} deg" for o in kept.curves)):
         table.add_column(column, justify="left" if column == "tire" else "right")
     for tire in tires:
         n = tire.numbers
-        each = [f"{100.0 * e:.1f} %" for e in n["relative_rms"]]
-        worst = f"{100.0 * n['average']['largest']:+.2f} %", f"{n['average']['at_load']:.0f} N"
-        mesh = str(n["preset"]["spokes"]), str(n["preset"]["circumferential_plates"])
+        each = [f"{100.0 * e:.1f} %" for e in n.relative_rms]
+        worst = f"{100.0 * n.average.largest:+.2f} %", f"{n.average.at_load:.0f} N"
+        mesh = str(n.preset.spokes), str(n.preset.circumferential_plates)
         table.add_row(tire.name, *mesh, *worst, *each)
     console.print(table)
     table = Table(title=f"{kept.name}: parameters, 95 % intervals", title_justify="left")
-    for column in ("parameter", "value", "from the fit", f"spread of {kept.numbers['refits']} refits"):
+    for column in ("parameter", "value", "from the fit", f"spread of {kept.numbers.refits} refits"):
         table.add_column(column, justify="left" if column == "parameter" else "right")
-    for row in kept.numbers["parameters"]:
-        fitted = "at its bound" if row["at_bound"] else _interval(row["interval"], row["unit"])
-        table.add_row(row["name"], displayed(row["value"], row["unit"]), fitted, _interval(row["spread"], row["unit"]))
+    for row in kept.numbers.parameters:
+        fitted = "at its bound" if row.at_bound else _interval(row.interval, row.unit)
+        table.add_row(row.name, displayed(row.value, row.unit), fitted, _interval(row.spread, row.unit))
     console.print(table)
-    for pair in kept.numbers["indistinguishable"]:
+    for pair in kept.numbers.indistinguishable:
         console.print(f"cannot be told apart: {' and '.join(pair)}")
 
 
-def _interval(ends: Sequence[Any] | None, unit: str) -> str:
-    return "–" if ends is None else " … ".join(displayed(float(value), unit) for value in ends)
+def _interval(ends: Sequence[float] | None, unit: str) -> str:
+    return "–" if ends is None else " … ".join(displayed(value, unit) for value in ends)

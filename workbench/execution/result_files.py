@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-__all__ = ["FAILURE", "RESULT", "early_ends", "read_result", "write_result"]
+__all__ = ["FAILURE", "RESULT", "early_ends", "read_record", "read_result", "write_result"]
 
 RESULT = "result.json"
 FAILURE = "failure"
@@ -23,6 +23,13 @@ def read_result(folder: Path) -> dict[str, Any]:
     """Numbers of a task."""
     result: dict[str, Any] = json.loads((folder / RESULT).read_text(encoding="utf-8"))
     return result
+
+
+def read_record[Record](folder: Path, kind: type[Record]) -> Record:
+    """Numbers of a task as the dataclass whose fields it wrote."""
+    from pydantic import TypeAdapter
+
+    return TypeAdapter(kind).validate_python(read_result(folder))
 
 
 def early_ends(folders: Mapping[str, Path]) -> dict[str, str]:

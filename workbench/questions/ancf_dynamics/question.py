@@ -7,17 +7,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from contracts.errors import InputError
 from contracts.records import Check
 from contracts.series import TimeSeries, read_series
-from workbench.execution.result_files import read_result
+from workbench.execution.result_files import read_record
 from workbench.execution.task import Task
 from workbench.questions.question import Question
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, ancf_tire
 from workbench.verdict.rules import Claim, at_most
+
+if TYPE_CHECKING:
+    from workbench.questions.ancf_dynamics.records import MotionNumbers
 
 __all__ = ["ANCF_DYNAMICS", "AncfMotion", "AncfMotions"]
 
@@ -36,7 +41,7 @@ class AncfMotion:
 
     name: str
     title: str
-    numbers: Mapping[str, Any]
+    numbers: MotionNumbers
     series: TimeSeries
 
 
@@ -52,7 +57,7 @@ class AncfMotions:
 
     def drop_of(self, motion: AncfMotion) -> float:
         """Largest deflection of the hub below the nominal radius [m]."""
-        return self.radius - float(motion.numbers["lowest_m"])
+        return self.radius - motion.numbers.lowest_m
 
 
 _TITLES = {
@@ -97,11 +102,13 @@ def _tasks(study: Study) -> Sequence[Task]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> AncfMotions:
+    from workbench.questions.ancf_dynamics.records import MotionNumbers
+
     motions = []
     for name, title in _TITLES.items():
         folder = folders[f"ancf_{name}"]
         series = read_series(folder / "series.csv", _SCENARIOS[name], "ancf")
-        motions.append(AncfMotion(name=name, title=title, numbers=read_result(folder), series=series))
+        motions.append(AncfMotion(name=name, title=title, numbers=read_record(folder, MotionNumbers), series=series))
     return AncfMotions(radius=ancf_preset(study).outer_radius, motions=tuple(motions))
 
 
@@ -116,7 +123,7 @@ def _checks(study: Study, results: AncfMotions) -> Sequence[Check]:
                 role="gate",
                 source="conservation of energy; kinetic, strain, weight, contact, damping, friction and drive",
             ),
-            lambda name=name: float(results[name].numbers["closure"]),  # type: ignore[misc]
+            partial(_closure, results[name]),
             CLOSURE,
         )
         for name in ("drop", "ride")
@@ -130,8 +137,17 @@ def _checks(study: Study, results: AncfMotions) -> Sequence[Check]:
         source="the same equations by RATTLE and by generalised-alpha",
     )
     drop = results["drop"]
-    checks.append(at_most(agreement, lambda: drop.numbers["implicit_difference_m"] / results.drop_of(drop), AGREEMENT))
+    difference = drop.numbers.implicit_difference_m
+    assert difference is not None  # the drop is integrated both ways
+    checks.append(at_most(agreement, lambda: difference / results.drop_of(drop), AGREEMENT))
     return checks
+
+
+def _closure(motion: AncfMotion) -> float:
+    """How far the account stays open [-]; InputError if the motion stopped."""
+    if motion.numbers.closure is None:
+        raise InputError("motion", motion.name, f"stopped: {motion.numbers.stopped}", "see the report")
+    return motion.numbers.closure
 
 
 def _figures(study: Study, results: AncfMotions) -> Mapping[str, str]:

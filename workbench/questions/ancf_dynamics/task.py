@@ -25,6 +25,7 @@ from contracts.series import TimeSeries, write_series
 from contracts.terrain import Plane, TerrainUnion
 from contracts.terrain_ridges import HalfRound
 from workbench.execution.result_files import write_result
+from workbench.questions.ancf_dynamics.records import MotionNumbers
 from workbench.study.ancf_tire import tire_from
 
 if TYPE_CHECKING:
@@ -41,30 +42,31 @@ def move_wheel(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, 
     rig = _rig(inputs)
     start = rig.start(np.array(inputs["hub"]), np.array([inputs["speed"], 0.0, 0.0]), inputs["spin"])
     times = np.linspace(0.0, inputs["end"], inputs["points"] + 1)[1:]
-    step, account = STEP_FRACTION * stable_step(rig.system, start.z), EnergyAccount(rig.system)
+    length, account = STEP_FRACTION * stable_step(rig.system, start.z), EnergyAccount(rig.system)
     account.watch(start)
     states, message = [start], None
     try:
-        for state in integrate_explicit(rig.system, start, times, step, account.watch):
+        for state in integrate_explicit(rig.system, start, times, length, account.watch):
             states.append(state)
             progress(state.time / inputs["end"])
     except ConvergenceError as error:
         message = str(error)
     write_series(_series(inputs, rig, states, partial=message is not None), out / "series.csv")
     heights = np.array([rig.hub(s.z)[2] for s in states])
-    numbers: dict[str, Any] = {
-        "closure": account.closure() if message is None else None,
-        "energies": asdict(next(row for row in reversed(account.rows) if row.time <= states[-1].time)),
-        "lowest_m": float(heights.min()),
-        "largest_load_N": max(float(rig.load(s)[2]) for s in states),
-        "step_s": step,
-        "stopped": message,
-        "end_s": float(states[-1].time),
-        "viscosity": rig.tire.model.viscosity[1],
-    }
-    if inputs["implicit"]:
-        numbers |= _by_implicit(rig, start, times, heights[1:])
-    write_result(out, numbers)
+    difference, steps = _by_implicit(rig, start, times, heights[1:]) if inputs["implicit"] else (None, None)
+    numbers = MotionNumbers(
+        closure=account.closure() if message is None else None,
+        energies=next(row for row in reversed(account.rows) if row.time <= states[-1].time),
+        lowest_m=float(heights.min()),
+        largest_load_N=max(float(rig.load(s)[2]) for s in states),
+        step_s=length,
+        stopped=message,
+        end_s=float(states[-1].time),
+        viscosity=float(rig.tire.model.viscosity[1]),
+        implicit_difference_m=difference,
+        implicit_steps=steps,
+    )
+    write_result(out, asdict(numbers))
     return 3 * rig.system.coordinates.n_vectors
 
 
@@ -85,14 +87,14 @@ def _rig(inputs: Mapping[str, Any]) -> WheelRig:
 
 def _by_implicit(
     rig: WheelRig, start: MotionState, times: NDArray[np.float64], explicit: NDArray[np.float64]
-) -> dict[str, Any]:
+) -> tuple[float, int]:
     """Largest difference of the hub's height between both integrators [m], and steps of the implicit one."""
     steps: list[float] = []
     states = integrate_implicit(
         rig.system, start, times, ImplicitSettings(tolerance=2e-7), lambda state: steps.append(state.time)
     )
     heights = np.array([rig.hub(state.z)[2] for state in states])
-    return {"implicit_difference_m": float(np.abs(heights - explicit).max()), "implicit_steps": len(steps)}
+    return float(np.abs(heights - explicit).max()), len(steps)
 
 
 def _series(inputs: Mapping[str, Any], rig: WheelRig, states: Sequence[MotionState], *, partial: bool) -> TimeSeries:

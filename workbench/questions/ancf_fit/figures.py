@@ -22,8 +22,8 @@ def fit_figures(fits: AncfFits) -> dict[str, str]:
     averages.add_scatter(x=1e3 * fe.deflection, y=fe.load, name="FE average", mode="lines",
                          line={"color": MODEL_COLOURS["fe"], "width": 5.0})  # fmt: skip
     for i, tire in enumerate(fits.all):
-        preset, curve = tire.numbers["preset"], tire.average
-        label = f"{preset['spokes']} spokes, {preset['circumferential_plates']} rim plates"
+        preset, curve = tire.numbers.preset, tire.average
+        label = f"{preset.spokes} spokes, {preset.circumferential_plates} rim plates"
         averages.add_scatter(
             x=1e3 * curve.deflection,
             y=curve.load,

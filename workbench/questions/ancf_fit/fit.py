@@ -8,20 +8,22 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
-from workbench.execution.result_files import FAILURE, read_result
+from workbench.execution.result_files import FAILURE, read_record, read_result
 from workbench.questions.model_curves import CURVE, mean_curve
 from workbench.study.orientation import orientation_name
 
+if TYPE_CHECKING:
+    from workbench.questions.ancf_fit.records import AverageError, Held
+
 __all__ = [
     "THESIS_WHEEL_MASS",
-    "AverageError",
     "FittedTire",
     "average_error",
     "compared_deflections",
@@ -38,15 +40,7 @@ _SAMPLES = 401
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AverageError:
-    """Largest difference of an average curve from the FE's over the FE's load, with its sign [-], and where [N]."""
-
-    largest: float
-    at_load: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FittedTire:
+class FittedTire[Numbers: Held]:
     """A tire fitted to the FE curves, or one held against them as it is.
 
     Attributes
@@ -54,13 +48,13 @@ class FittedTire:
     name : of the tire in the study, ``thesis`` for the study's own
     curves : by orientation [deg], hub drop from the nominal radius
     average : their mean
-    numbers : see ``workbench.questions.ancf_fit.task``
+    numbers : what was found
     """
 
     name: str
     curves: Mapping[float, StiffnessCurve]
     average: StiffnessCurve
-    numbers: Mapping[str, Any]
+    numbers: Numbers
 
 
 def fe_curves(folders: Mapping[str, Path], orientations_deg: Sequence[float]) -> list[StiffnessCurve]:
@@ -79,14 +73,15 @@ def fe_curves(folders: Mapping[str, Path], orientations_deg: Sequence[float]) ->
     return loaded
 
 
-def read_fit(name: str, folder: Path) -> FittedTire:
+def read_fit[Numbers: Held](name: str, folder: Path, kind: type[Numbers]) -> FittedTire[Numbers]:
     """One tire from its result folder; InputError with the reason if it could not be fitted."""
-    numbers = read_result(folder)
-    if FAILURE in numbers:
-        raise InputError("ANCF tire", name, f"could not be held against the FE curves: {numbers[FAILURE]}", "mend that")
+    failure = read_result(folder).get(FAILURE)
+    if failure is not None:
+        raise InputError("ANCF tire", name, f"could not be held against the FE curves: {failure}", "mend that")
+    numbers = read_record(folder, kind)
     curves = {
         o: read_curve(folder / f"{orientation_name('ancf', o)}.csv", model=f"ancf_{name}", orientation_deg=o)
-        for o in numbers["orientations_deg"]
+        for o in numbers.orientations_deg
     }
     return FittedTire(name=name, curves=curves, average=mean_curve(list(curves.values())), numbers=numbers)
 
@@ -111,6 +106,8 @@ def compared_deflections(average: StiffnessCurve, load_range: Sequence[float]) -
 
 def average_error(curves: Sequence[StiffnessCurve], fe: StiffnessCurve, load_range: Sequence[float]) -> AverageError:
     """How far the mean of curves lies from the FE average, relative to its load at equal deflection, within a range."""
+    from workbench.questions.ancf_fit.records import AverageError
+
     d = compared_deflections(fe, load_range)
     loads = fe.load_at(d)
     error = np.mean([curve.load_at(d) for curve in curves], axis=0) / loads - 1.0

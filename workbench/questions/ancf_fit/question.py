@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
@@ -21,6 +22,9 @@ from workbench.study.full import rotational_period
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_most
 
+if TYPE_CHECKING:
+    from workbench.questions.ancf_fit.records import Fitted
+
 __all__ = ["ANCF_FIT"]
 
 
@@ -29,12 +33,14 @@ def _tasks(study: Study) -> Sequence[Task]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> AncfFits:
+    from workbench.questions.ancf_fit.records import Fitted, Held
+
     section = study.ancf_fit
     assert section is not None  # the question applies
     fe, period, kept = model_curves("fe", folders), rotational_period(study), section.kept.name
     try:
-        own = read_fit("own", folders[AS_IT_IS])
-        fitted = tuple(read_fit(tire.name, folders[fit_name(tire.name)]) for tire in section.tires)
+        own = read_fit("own", folders[AS_IT_IS], Held)
+        fitted = tuple(read_fit(tire.name, folders[fit_name(tire.name)], Fitted) for tire in section.tires)
     except InputError as error:
         return AncfFits(own=None, fitted=(), kept=kept, fe=fe, period=period, failure=error)
     return AncfFits(own=own, fitted=fitted, kept=kept, fe=fe, period=period)
@@ -44,9 +50,9 @@ def _checks(study: Study, fits: AncfFits) -> Sequence[Check]:
     return [_check(tire, study.tolerances.ancf_fit) for tire in fits.fitted]
 
 
-def _check(tire: FittedTire, limit: float) -> Check:
-    preset, (low, high) = tire.numbers["preset"], tire.numbers["load_range_N"]
-    mesh = f"{preset['spokes']} spokes, {preset['circumferential_plates']} rim plates"
+def _check(tire: FittedTire[Fitted], limit: float) -> Check:
+    preset, (low, high) = tire.numbers.preset, tire.numbers.load_range_N
+    mesh = f"{preset.spokes} spokes, {preset.circumferential_plates} rim plates"
     claim = Claim(
         id=f"ancf_fit.{tire.name}",
         title=f"Fitted ANCF tire ({mesh}) against the FE average, {low:.0f} to {high:.0f} N",
@@ -55,7 +61,7 @@ def _check(tire: FittedTire, limit: float) -> Check:
         role="finding",
         source="our own continuum model; largest difference over its load at equal deflection",
     )
-    return at_most(claim, lambda: abs(tire.numbers["average"]["largest"]), limit)
+    return at_most(claim, lambda: abs(tire.numbers.average.largest), limit)
 
 
 def _figures(study: Study, fits: AncfFits) -> Mapping[str, str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.ancf_fit.fit import FittedTire
 from workbench.questions.model_curves import ModelCurves
+
+if TYPE_CHECKING:
+    from workbench.questions.ancf_fit.records import Fitted, Held
 
 __all__ = ["AncfFits"]
 
@@ -29,29 +33,29 @@ class AncfFits:
     failure : why there is no result, else None
     """
 
-    own: FittedTire | None
-    fitted: tuple[FittedTire, ...]
+    own: FittedTire[Held] | None
+    fitted: tuple[FittedTire[Fitted], ...]
     kept: str
     fe: ModelCurves
     period: float
     failure: InputError | None = None
 
     @property
-    def best(self) -> FittedTire:
+    def best(self) -> FittedTire[Fitted]:
         """The one that is kept; raises the reason if there is no result."""
         if self.failure is not None:
             raise self.failure
         return next(tire for tire in self.fitted if tire.name == self.kept)
 
     @property
-    def all(self) -> tuple[FittedTire, ...]:
+    def all(self) -> tuple[FittedTire[Held], ...]:
         """The study's own tire, then the fitted ones."""
         return self.fitted if self.own is None else (self.own, *self.fitted)
 
     @property
     def periods(self) -> Mapping[str, float]:
         """Turn after which each tire repeats itself [deg]: 360 deg over its spokes."""
-        return {tire.name: 360.0 / tire.numbers["preset"]["spokes"] for tire in self.all}
+        return {tire.name: 360.0 / tire.numbers.preset.spokes for tire in self.all}
 
     @property
     def half_period(self) -> float | None:

@@ -1,7 +1,6 @@
 """Tasks that fit the ANCF tire to the FE curves, or hold it against them as it is.
 
-``result.json``: the preset, its error on every orientation and on the average; of a fit also the parameters with their
-intervals and the spread of the refits, correlation and condition. SI, null where there is no number.
+``result.json`` has the fields of `ancf_fit.records.Held` or `Fitted`, null where there is no number.
 Verified by tests/unit/test_workbench_ancf_fit.py and tests/end_to_end/test_calibrate_ancf.py.
 """
 
@@ -9,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +32,7 @@ from workbench.questions.ancf_fit.fit import (
     fitted_deflections,
     perturbed,
 )
+from workbench.questions.ancf_fit.records import Fitted, FittedParameter, Held
 from workbench.questions.mesh_study.results import read_mesh_study
 from workbench.questions.model_curves import mean_curve
 from workbench.study.ancf_tire import preset_from, tire_from
@@ -55,24 +55,22 @@ def evaluate(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pr
     """Curves of a preset at the FE's orientations and how far they lie from the FE's."""
     tire = tire_from(inputs)
     try:
-        numbers = _held_against(tire, inputs, fe_curves(needs, inputs["orientations_deg"]), out)
+        write_result(out, asdict(_held_against(tire, inputs, fe_curves(needs, inputs["orientations_deg"]), out)))
     except (InputError, ConvergenceError) as error:
-        numbers = {FAILURE: str(error)}
-    write_result(out, numbers)
+        write_result(out, {FAILURE: str(error)})
     return _unknowns(tire)
 
 
 def fit(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """Fit a preset to the FE curves, then again to each perturbed set of them; without a result, say why."""
     try:
-        numbers = _fitted(inputs, needs, out, progress)
+        write_result(out, asdict(_fitted(inputs, needs, out, progress)))
     except (InputError, ConvergenceError) as error:
-        numbers = {FAILURE: str(error)}
-    write_result(out, numbers)
+        write_result(out, {FAILURE: str(error)})
     return _unknowns(tire_from(inputs))
 
 
-def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> dict[str, Any]:
+def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> Fitted:
     """The fit's numbers."""
     solid = fe_curves(needs, inputs["orientations_deg"])
     average = mean_curve(solid)
@@ -89,9 +87,21 @@ def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
     realisations = inputs["realisations"]
     again = _refits(found, _uncertainty(inputs, needs, deflection), realisations, progress) if realisations else []
     tire = build_tire(with_mass(found.preset, THESIS_WHEEL_MASS))
-    numbers = _held_against(tire, inputs, solid, out)
-    numbers |= _statistics(found) | {"parameters": _parameters(found, again), "refits": len(again)}
-    return numbers | {"phase_trials": [asdict(trial) for trial in search.trials]}
+    held, statistics = _held_against(tire, inputs, solid, out), found.statistics
+    names = [p.parameter.value for p in found.free]
+    return Fitted(
+        **{field.name: getattr(held, field.name) for field in fields(held)},
+        correlation=tuple(tuple(map(_number, row)) for row in statistics.correlation.tolist()),
+        condition=_number(statistics.condition),
+        weakest=tuple(map(_number, statistics.weakest.tolist())),
+        indistinguishable=tuple((names[i], names[j]) for i, j in statistics.indistinguishable()),
+        evaluations=found.evaluations,
+        settled=found.settled,
+        deflections_m=tuple(deflection.tolist()),
+        parameters=_parameters(found, again),
+        refits=len(again),
+        phase_trials=tuple(search.trials),
+    )
 
 
 def _unknowns(tire: Tire) -> int:
@@ -122,7 +132,7 @@ def _refits(found: CurveFit, uncertainty: FloatArray, realisations: int, progres
     return values
 
 
-def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[StiffnessCurve], out: Path) -> dict[str, Any]:
+def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[StiffnessCurve], out: Path) -> Held:
     """Write the tire's curves; its numbers, and its errors in percent of the load over the range of loads."""
     average = mean_curve(solid)
     end = float(fitted_deflections(average, inputs["load_range"], 2)[-1])
@@ -133,19 +143,19 @@ def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[Stiffne
         write_curve(curve, out / f"{orientation_name('ancf', o)}.csv")
     inside = compared_deflections(average, inputs["load_range"])
     pairs = [(c.load_at(inside), s.load_at(inside)) for c, s in zip(curves, solid, strict=True)]
-    return {
-        "preset": asdict(tire.preset),
-        "flexible_mass_kg": flexible_mass(tire.model),
-        "orientations_deg": orientations,
-        "load_range_N": [float(average.load_at(d)) for d in (inside[0], inside[-1])],
-        "relative_rms": [float(np.linalg.norm(f - s) / np.linalg.norm(s)) for f, s in pairs],
-        "largest_N": [float(np.abs(f - s).max()) for f, s in pairs],
-        "average": asdict(average_error(curves, average, inputs["load_range"])),
-        "mirrored_rms": _mirrored_rms(tire, inside, solid) if inputs["mirrored"] else None,
-    }
+    return Held(
+        preset=tire.preset,
+        flexible_mass_kg=flexible_mass(tire.model),
+        orientations_deg=tuple(orientations),
+        load_range_N=(float(average.load_at(inside[0])), float(average.load_at(inside[-1]))),
+        relative_rms=tuple(float(np.linalg.norm(f - s) / np.linalg.norm(s)) for f, s in pairs),
+        largest_N=tuple(float(np.abs(f - s).max()) for f, s in pairs),
+        average=average_error(curves, average, inputs["load_range"]),
+        mirrored_rms=_mirrored_rms(tire, inside, solid) if inputs["mirrored"] else None,
+    )
 
 
-def _mirrored_rms(tire: Tire, deflection: FloatArray, solid: Sequence[StiffnessCurve]) -> list[float] | None:
+def _mirrored_rms(tire: Tire, deflection: FloatArray, solid: Sequence[StiffnessCurve]) -> tuple[float, ...] | None:
     """Relative rms at the mirror images of the orientations, where a wheel that is its own has the same curves.
 
     What a free phase makes of one half of the wheel's orientations says nothing about the other. None where no
@@ -160,42 +170,35 @@ def _mirrored_rms(tire: Tire, deflection: FloatArray, solid: Sequence[StiffnessC
             return None
         wanted = curve.load_at(deflection[::_MIRRORED_EVERY])
         errors.append(float(np.linalg.norm(load - wanted) / np.linalg.norm(wanted)))
-    return errors
+    return tuple(errors)
 
 
-def _parameters(found: CurveFit, again: Sequence[FloatArray]) -> list[dict[str, Any]]:
-    """Each free parameter: value, bounds, 95 % interval from the fit, mean and 95 % of the refits' spread."""
+def _parameters(found: CurveFit, again: Sequence[FloatArray]) -> tuple[FittedParameter, ...]:
+    """Each free parameter with its 95 % from the fit, and from the refits where there are three or more."""
     statistics, rows = found.statistics, []
     for i, (p, value) in enumerate(zip(found.free, found.values.tolist(), strict=True)):
+        inside = bool(statistics.inside[i])
         at, half = float(statistics.unknowns[i]), float(statistics.half_width[i])
-        row = {"name": p.parameter.value, "unit": p.parameter.unit, "value": value, "bounds": [p.lower, p.upper]}
-        row |= {"start": p.parameter.of(found.start), "at_bound": not bool(statistics.inside[i])}
-        row["interval"] = None if row["at_bound"] else _ends(p.parameter, at, half)
         unknowns = np.array([p.parameter.unknown(values[i]) for values in again])
-        middle, width = (float(unknowns.mean()), 1.96 * float(unknowns.std(ddof=1))) if len(again) > 2 else (0.0, 0.0)
-        row["spread"] = _ends(p.parameter, middle, width) if len(again) > 2 and not row["at_bound"] else None
+        row = FittedParameter(
+            name=p.parameter.value,
+            unit=p.parameter.unit,
+            value=value,
+            bounds=(p.lower, p.upper),
+            start=p.parameter.of(found.start),
+            at_bound=not inside,
+            interval=_ends(p.parameter, at, half) if inside else None,
+            spread=_ends(p.parameter, float(unknowns.mean()), 1.96 * float(unknowns.std(ddof=1)))
+            if inside and len(again) > 2
+            else None,
+        )
         rows.append(row)
-    return rows
+    return tuple(rows)
 
 
-def _ends(parameter: Parameter, middle: float, half: float) -> list[float] | None:
+def _ends(parameter: Parameter, middle: float, half: float) -> tuple[float, float] | None:
     """Both ends of an interval of the unknown, as values; None where it is wider than a factor of a million."""
-    return [parameter.value_at(middle - half), parameter.value_at(middle + half)] if half < 14.0 else None
-
-
-def _statistics(found: CurveFit) -> dict[str, Any]:
-    """Identifiability, null for what a bound holds."""
-    statistics = found.statistics
-    names = [p.parameter.value for p in found.free]
-    return {
-        "correlation": [[_number(value) for value in row] for row in statistics.correlation.tolist()],
-        "condition": _number(statistics.condition),
-        "weakest": [_number(value) for value in statistics.weakest.tolist()],
-        "indistinguishable": [[names[i], names[j]] for i, j in statistics.indistinguishable()],
-        "evaluations": found.evaluations,
-        "settled": found.settled,
-        "deflections_m": found.data.deflection.tolist(),
-    }
+    return (parameter.value_at(middle - half), parameter.value_at(middle + half)) if half < 14.0 else None
 
 
 def _number(value: float) -> float | None:
