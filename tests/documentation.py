@@ -74,7 +74,7 @@ def run_command(command: Command, folder: Path, environment: Mapping[str, str]) 
     return subprocess.run(
         ["bash", "-c", command.line],
         cwd=folder, env=dict(environment), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        text=True, check=False, timeout=300,
+        text=True, check=False,
     )  # fmt: skip
 
 

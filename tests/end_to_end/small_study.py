@@ -92,5 +92,5 @@ def said(*arguments: str | Path, folder: Path = ROOT) -> subprocess.CompletedPro
 def run(*arguments: str | Path, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
     """Run one command to its end."""
     return subprocess.run(
-        command(*arguments), cwd=folder, env=environment(), capture_output=True, text=True, check=False, timeout=900
+        command(*arguments), cwd=folder, env=environment(), capture_output=True, text=True, check=False
     )

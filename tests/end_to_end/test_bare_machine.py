@@ -28,9 +28,7 @@ def elsewhere(tmp_path: Path) -> dict[str, str]:
 
 
 def ended(*arguments: str, folder: Path, known: dict[str, str]) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        command(*arguments), cwd=folder, env=known, capture_output=True, text=True, check=False, timeout=900
-    )
+    return subprocess.run(command(*arguments), cwd=folder, env=known, capture_output=True, text=True, check=False)
 
 
 def test_a_mesh_without_opengl_is_one_message(tmp_path: Path, elsewhere: dict[str, str]) -> None:

@@ -43,7 +43,7 @@ def _gate(folder: Path, out: str, *more: str, sources: str = "", page: str = "")
     settings = environment() | ({"GITHUB_STEP_SUMMARY": page} if page else {})
     settings["PYTHONPATH"] = f"{sources}:{ROOT}" if sources else str(ROOT)
     arguments = command("report", "gate.toml", "--ci", "--out", out, "--store", "store", *more)
-    return subprocess.run(arguments, cwd=folder, env=settings, capture_output=True, text=True, check=False, timeout=900)
+    return subprocess.run(arguments, cwd=folder, env=settings, capture_output=True, text=True, check=False)
 
 
 @pytest.fixture(scope="module")

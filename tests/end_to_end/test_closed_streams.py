@@ -26,9 +26,7 @@ from workbench.execution.worker import _redirect_output
 )
 def test_closed_or_full(arguments: tuple[str, ...], streams: str, status: int, tmp_path: Path) -> None:
     line = f"{shlex.join(map(str, command(*arguments)))} {streams}"
-    ended = subprocess.run(
-        ["/bin/sh", "-c", line], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=300
-    )
+    ended = subprocess.run(["/bin/sh", "-c", line], cwd=tmp_path, env=environment(), capture_output=True, text=True)
     assert (ended.returncode, ended.stderr) == (status, "")
 
 
@@ -43,9 +41,7 @@ def test_a_command_that_computes(streams: str, tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(small_study_text(), encoding="utf-8")
     arguments = command("stiffness", "s.toml", "--model", "brush", "--out", "out", "--store", "store")
     line = f"{shlex.join(arguments)} {streams}"
-    ended = subprocess.run(
-        ["/bin/sh", "-c", line], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=300
-    )
+    ended = subprocess.run(["/bin/sh", "-c", line], cwd=tmp_path, env=environment(), capture_output=True, text=True)
     assert (ended.returncode, ended.stderr) == (0, "")
     assert ("tasks computed" in ended.stdout) == (">&-" not in streams.replace("2>&-", ""))
     (curve,) = (tmp_path / "out" / "curves").glob("*.csv")
@@ -78,8 +74,6 @@ def test_a_width_that_no_terminal_has(name: str, width: str, tmp_path: Path) -> 
     """An unknown width, as for Python's own `shutil.get_terminal_size`: everything is shown."""
     settings = environment() | {name: width}
     for arguments, words in ((("rover", "--list"), "static"), (("--help",), "Usage")):
-        ended = subprocess.run(
-            command(*arguments), cwd=tmp_path, env=settings, capture_output=True, text=True, timeout=300
-        )
+        ended = subprocess.run(command(*arguments), cwd=tmp_path, env=settings, capture_output=True, text=True)
         assert (ended.returncode, ended.stderr) == (0, "")
         assert words in ended.stdout

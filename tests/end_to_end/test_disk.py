@@ -39,7 +39,7 @@ def _on(options: str, folder: Path, arguments: list[str], before: str = "") -> s
             pytest.fail("mounting needs root and mount namespaces")
         pytest.skip("mounting a small file system needs root and mount namespaces")
     whole = ["unshare", "-m", "bash", "-c", script, "bash", str(folder), *arguments]
-    return subprocess.run(whole, env=environment(), capture_output=True, text=True, check=False, timeout=900)
+    return subprocess.run(whole, env=environment(), capture_output=True, text=True, check=False)
 
 
 def test_a_full_disk_under_the_output(curve: Path, tmp_path: Path) -> None:
@@ -51,7 +51,7 @@ def test_a_full_disk_under_the_output(curve: Path, tmp_path: Path) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))
 
     ended = subprocess.run(
-        arguments, env=environment(), capture_output=True, text=True, check=False, timeout=900, preexec_fn=small_files
+        arguments, env=environment(), capture_output=True, text=True, check=False, preexec_fn=small_files
     )
     _refused(ended, "File too large")
     assert list(out.iterdir()) == []
@@ -82,7 +82,7 @@ def test_standard_output_on_a_full_disk_and_a_reader_that_leaves(curve: Path) ->
     with Path("/dev/full").open("w") as full:
         ended = subprocess.run(
             command("compare", curve, curve), env=environment(), stdout=full, stderr=subprocess.PIPE, text=True,
-            check=False, timeout=900,
+            check=False,
         )  # fmt: skip
     assert (ended.returncode, ended.stderr.count("\n")) == (2, 1), ended.stderr
     assert "No space left on device" in ended.stderr
@@ -106,7 +106,7 @@ def _small_disk(folder: Path, size: str, arguments: list[str], **more: str) -> s
     folder.mkdir(exist_ok=True)
     script = 'set -e; mount -t tmpfs -o size="$2" none "$1"; shift 2; exec "$@"'
     whole = ["unshare", "-m", "bash", "-c", script, "bash", str(folder), size, *arguments]
-    return subprocess.run(whole, env=environment() | more, capture_output=True, text=True, check=False, timeout=900)
+    return subprocess.run(whole, env=environment() | more, capture_output=True, text=True, check=False)
 
 
 def test_each_full_disk_is_named(tmp_path: Path) -> None:
@@ -148,9 +148,7 @@ def test_a_new_study_is_whole_or_not_there(tmp_path: Path) -> None:
     _refused(ended, f"No space left on device: the disk mounted at {small}, which holds the study file")
     assert ended.stdout == ""
     limit = f"ulimit -f 1; exec {shlex.join(new)}"
-    too_long = subprocess.run(
-        ["bash", "-c", limit], env=environment(), capture_output=True, text=True, check=False, timeout=900
-    )
+    too_long = subprocess.run(["bash", "-c", limit], env=environment(), capture_output=True, text=True, check=False)
     _refused(too_long, f"File too large: {small / 's.toml'}: a file may not be longer than 1 kB (ulimit -f)")
     for words in ("--out", "finished results", "/dev/shm"):
         assert words not in ended.stderr + too_long.stderr
@@ -162,7 +160,7 @@ def test_a_full_standard_output_is_named(unbuffered: str) -> None:
     with Path("/dev/full").open("w") as full:
         ended = subprocess.run(
             command("rover", "--list"), env=environment() | {"PYTHONUNBUFFERED": unbuffered}, stdout=full,
-            stderr=subprocess.PIPE, text=True, check=False, timeout=900,
+            stderr=subprocess.PIPE, text=True, check=False,
         )  # fmt: skip
     expected = "workbench: error: standard output: No space left on device; check path and space\n"
     assert (ended.returncode, ended.stderr) == (2, expected)
@@ -174,6 +172,6 @@ def test_a_working_folder_that_was_removed(arguments: tuple[str, ...], tmp_path:
     gone.mkdir()
     line = f"rmdir {shlex.quote(str(gone))}; exec {shlex.join(command(*arguments))}"
     ended = subprocess.run(
-        ["bash", "-c", line], cwd=gone, env=environment(), capture_output=True, text=True, check=False, timeout=900
+        ["bash", "-c", line], cwd=gone, env=environment(), capture_output=True, text=True, check=False
     )
     _refused(ended, "the working folder is gone")

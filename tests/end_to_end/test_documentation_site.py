@@ -28,7 +28,7 @@ def build(folder: Path, out: Path) -> subprocess.CompletedProcess[str]:
     """``mkdocs build`` of the manual in a folder."""
     return subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "--site-dir", out],
-        cwd=folder, capture_output=True, text=True, check=False, timeout=550,
+        cwd=folder, capture_output=True, text=True, check=False,
     )  # fmt: skip
 
 

@@ -52,7 +52,7 @@ def _interrupted(folder: Path, at: int) -> tuple[int, str]:
     known["PYTHONPATH"] = f"{folder}{os.pathsep}{known['PYTHONPATH']}"
     places = ("--out", folder / f"out{at}", "--store", folder / "store")
     process = _started(command("stiffness", folder / "study.toml", "--model", "brush", *places), known)
-    _, message = process.communicate(timeout=300)
+    _, message = process.communicate()
     return process.returncode, message
 
 
@@ -92,7 +92,7 @@ def test_in_the_middle_of_a_command_without_tasks(tmp_path: Path) -> None:
     process = _started(command("rover", "straight", "--tire", "ancf", "--out", tmp_path), environment())
     time.sleep(begun)
     process.send_signal(signal.SIGINT)
-    _, message = process.communicate(timeout=300)
+    _, message = process.communicate()
     assert (process.returncode, message.count("\n")) == (2, 1), message
     assert message.startswith("workbench: error: interrupted; ")
     assert not (tmp_path / "series").exists()

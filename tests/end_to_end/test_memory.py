@@ -75,7 +75,7 @@ def group() -> Iterator[Path]:
 def _said(folder: Path, group: str, space: int) -> list[str]:
     (folder / "run.py").write_text(SCRIPT, encoding="utf-8")
     arguments = [sys.executable, str(folder / "run.py"), str(folder), group, str(space)]
-    ended = subprocess.run(arguments, env=environment(), capture_output=True, text=True, check=False, timeout=900)
+    ended = subprocess.run(arguments, env=environment(), capture_output=True, text=True, check=False)
     assert (ended.returncode, ended.stderr) == (0, "")
     return ended.stdout.splitlines()
 

@@ -36,9 +36,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def _report(package: Path, workspace: Path, store: Path, out: str) -> subprocess.CompletedProcess[str]:
     settings = environment() | {"PYTHONPATH": f"{package}:{ROOT}"}
     arguments = command("report", "study.toml", "--out", out, "--store", str(store))
-    return subprocess.run(
-        arguments, cwd=workspace, env=settings, capture_output=True, text=True, check=False, timeout=900
-    )
+    return subprocess.run(arguments, cwd=workspace, env=settings, capture_output=True, text=True, check=False)
 
 
 def _named(package: Path) -> None:

@@ -45,7 +45,7 @@ def python(folder: Path, *arguments: str, given: str = "") -> str:
     """What a Python process prints, which must end well and say nothing else."""
     ended = subprocess.run(
         [sys.executable, *arguments], cwd=folder, env=environment(), input=given, capture_output=True, text=True,
-        check=False, timeout=900,
+        check=False,
     )  # fmt: skip
     assert (ended.returncode, ended.stderr) == (0, "")
     return ended.stdout

@@ -40,7 +40,6 @@ def _run(folder: Path, *arguments: str, **more: str) -> subprocess.CompletedProc
         capture_output=True,
         text=True,
         check=False,
-        timeout=900,
     )
 
 
@@ -82,7 +81,6 @@ def test_fields_that_vtk_cannot_read(tmp_path: Path) -> None:
         capture_output=True,
         text=True,
         check=True,
-        timeout=300,
     )
     assert run.stderr == ""
     assert "field file = bad.vtu: cannot be read" in run.stdout

@@ -67,9 +67,7 @@ def _study_text() -> str:
 def _run(folder: Path, *arguments: str, page: Path | None = None) -> Finished:
     """A command on a terminal so wide that no text is broken."""
     settings = environment() | {"COLUMNS": "6000"} | ({"GITHUB_STEP_SUMMARY": str(page)} if page else {})
-    return subprocess.run(
-        command(*arguments), cwd=folder, env=settings, capture_output=True, text=True, check=False, timeout=900
-    )
+    return subprocess.run(command(*arguments), cwd=folder, env=settings, capture_output=True, text=True, check=False)
 
 
 class _Page(HTMLParser):

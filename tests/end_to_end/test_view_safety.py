@@ -96,7 +96,7 @@ def address(folder: Path) -> Iterator[str]:
     assert listening(process.pid) == {("tcp", "127.0.0.1")}
     yield line
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=300)
+    out, err = process.communicate()
     assert (process.returncode, out) == (0, "")
     said = [one.partition(" is left out")[0] for one in err.splitlines()]
     assert said == [f"workbench: warning: curves/{name}" for name in ("pipe.csv", "round.csv", "way\\nout.csv")]

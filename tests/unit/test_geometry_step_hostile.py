@@ -223,4 +223,4 @@ def test_a_user_s_file_never_reaches_gmsh(tmp_path: Path) -> None:
         "import sys\nfrom pathlib import Path\nfrom geometry.step_surfaces import read_surfaces_step\n"
         f"assert len(read_surfaces_step(Path({str(tmp_path / 'tire.step')!r}))) == 1\nassert 'gmsh' not in sys.modules"
     )
-    subprocess.run([sys.executable, "-c", script], check=True, timeout=120)
+    subprocess.run([sys.executable, "-c", script], check=True)

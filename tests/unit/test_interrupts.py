@@ -91,9 +91,7 @@ def test_other_code_is_not(filename: str) -> None:
     ("filename", "printed"), [("lib/numba/a.py", ["not inside", "interrupted"]), ("lib/a.py", ["interrupted"])]
 )
 def test_the_signal_comes_as_soon_as_the_compiler_has_returned(filename: str, printed: list[str]) -> None:
-    run = subprocess.run(
-        [sys.executable, "-c", SCRIPT, filename], cwd=ROOT, capture_output=True, text=True, check=True, timeout=60
-    )
+    run = subprocess.run([sys.executable, "-c", SCRIPT, filename], cwd=ROOT, capture_output=True, text=True, check=True)
     assert run.stdout.split("\n")[:-1] == printed
 
 
@@ -102,8 +100,6 @@ def test_the_signal_comes_as_soon_as_the_compiler_has_returned(filename: str, pr
 )
 def test_a_lost_one_comes_again_once_and_in_silence(how: str, printed: list[str]) -> None:
     """Raised in a finaliser, it is lost by Python's own handler (negative control), which also speaks of it."""
-    run = subprocess.run(
-        [sys.executable, "-c", LOST, how], cwd=ROOT, capture_output=True, text=True, check=False, timeout=60
-    )
+    run = subprocess.run([sys.executable, "-c", LOST, how], cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.stdout.split("\n")[:-1] == printed
     assert (run.returncode == 0) == (run.stderr == "") == (how == "safely")

@@ -180,7 +180,7 @@ def test_an_error_while_filling_leaves_all_as_it_was(tmp_path: Path) -> None:
 def test_a_run_killed_at_any_file_operation_loses_nothing(tmp_path: Path) -> None:
     """In each state that a kill can leave both texts of the user's are there, and the next run puts all in order."""
     process = [sys.executable, "-m", "tests.unit.dying_process", str(tmp_path), "publish"]
-    ended = subprocess.run(process, capture_output=True, text=True, check=True, timeout=600)
+    ended = subprocess.run(process, capture_output=True, text=True, check=True)
     cases = int(ended.stdout)
     assert cases > 30
     for number in range(1, cases + 1):
