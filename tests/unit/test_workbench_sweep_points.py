@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
+from pydantic import BaseModel
 
 from contracts.errors import StudyError
+from workbench.study.contact import PlaneSection
 from workbench.study.key_units import is_whole_number, unit_of
+from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study_table
+from workbench.study.section import Section
 from workbench.study.sweep import SweepSection
 from workbench.study.sweep_points import Point, design_points, sweep_points
 
@@ -75,11 +80,31 @@ def test_whole_numbers_stay_whole_and_lists_are_drawn_equally_often() -> None:
         ("fe.contact_stiffness", "N/m**3", False),
         ("fe.camber", "rad", False),
         ("fe.contact_method", None, False),
+        ("fe.obstacle.height", "m", False),
+        ("penalty_study.deflection", "m", False),
         ("fe.nothing", None, False),
     ],
 )
 def test_the_study_knows_the_unit_of_each_key(key: str, unit: str | None, whole: bool) -> None:
     assert (unit_of(key), is_whole_number(key)) == (unit, whole)
+
+
+def test_every_section_of_a_study_is_one_that_its_keys_can_be_asked_of() -> None:
+    """What is no ``Section`` hides its keys from ``unit_of``, so that a sweep and [inferred] do not know them."""
+    found, new = set[type[BaseModel]](), {Study}
+    while new := {kind for one in new for kind in _models_in(one)} - found:
+        found |= new
+    assert PlaneSection in found
+    assert [kind for kind in found if not issubclass(kind, Section)] == []
+
+
+def _models_in(kind: type[BaseModel]) -> Iterator[type[BaseModel]]:
+    waiting: list[Any] = [field.annotation for field in kind.model_fields.values()]
+    while waiting:
+        one = waiting.pop()
+        waiting += get_args(getattr(one, "__value__", one))
+        if isinstance(one, type) and issubclass(one, BaseModel):
+            yield one
 
 
 def test_each_point_is_a_whole_study_with_its_values_and_the_first_is_the_study_as_it_is() -> None:
