@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_runner.py.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Protocol
@@ -12,7 +13,7 @@ from typing import Protocol
 from workbench.execution.jobs import Job, Message
 from workbench.execution.store import Entry
 
-__all__ = ["Listener", "Workers"]
+__all__ = ["Listener", "Teller", "Workers"]
 
 
 class Listener(Protocol):
@@ -41,6 +42,26 @@ class Listener(Protocol):
 
     def failed(self, name: str, message: str) -> None:
         """The task failed; those that do not need it go on."""
+
+
+class Teller(ABC):
+    """Base of a ``Listener`` that tells in sentences; to whom, each says."""
+
+    @abstractmethod
+    def say(self, sentence: str, *, warning: bool = False) -> None:
+        """Tell a sentence; ``warning`` where something is not as it should be."""
+
+    def damaged(self, name: str, fault: str) -> None:
+        """Warn of it."""
+        self.say(f"{name}: its stored result is damaged ({fault}); computed again", warning=True)
+
+    def elsewhere(self, name: str) -> None:
+        """Say so."""
+        self.say(f"{name}: another run computes it now; waiting for its result")
+
+    def restarted(self, name: str, reason: str) -> None:
+        """Warn of it."""
+        self.say(f"{name}: {reason}; started again", warning=True)
 
 
 class Workers(Protocol):

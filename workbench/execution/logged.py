@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 
+from workbench.execution.listening import Teller
 from workbench.execution.store import Entry
 
 __all__ = ["Logged"]
@@ -15,20 +16,20 @@ __all__ = ["Logged"]
 _LOG = logging.getLogger("workbench")
 
 
-class Logged:
+class Logged(Teller):
     """A ``Listener`` that writes to the logger ``workbench``."""
 
-    def damaged(self, name: str, fault: str) -> None:
-        """Warn of it."""
-        _LOG.warning("%s: its stored result is damaged (%s); computed again", name, fault)
+    def say(self, sentence: str, *, warning: bool = False) -> None:
+        """To the log."""
+        _LOG.log(logging.WARNING if warning else logging.INFO, "%s", sentence)
 
     def warned(self, warning: str) -> None:
         """Warn of it."""
-        _LOG.warning("%s", warning)
+        self.say(warning, warning=True)
 
     def started(self, name: str) -> None:
         """Say so."""
-        _LOG.info("%s: started", name)
+        self.say(f"{name}: started")
 
     def progressed(self, name: str, fraction: float) -> None:
         """Say so to those who want every detail."""
@@ -36,16 +37,8 @@ class Logged:
 
     def finished(self, name: str, entry: Entry, reused: bool) -> None:
         """Say so."""
-        _LOG.info("%s: %s", name, "reused" if reused else f"computed in {entry.wall_s:.1f} s")
-
-    def elsewhere(self, name: str) -> None:
-        """Say so."""
-        _LOG.info("%s: another run computes it now; waiting for its result", name)
-
-    def restarted(self, name: str, reason: str) -> None:
-        """Warn of it."""
-        _LOG.warning("%s: %s; started again", name, reason)
+        self.say(f"{name}: {'reused' if reused else f'computed in {entry.wall_s:.1f} s'}")
 
     def failed(self, name: str, message: str) -> None:
         """Say so; the error that is raised at the end says it to everybody."""
-        _LOG.info("%s: failed", name)
+        self.say(f"{name}: failed")

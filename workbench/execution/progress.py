@@ -16,6 +16,7 @@ from rich.progress import Task as ProgressTask
 from rich.text import Text
 
 from contracts.text import for_terminal
+from workbench.execution.listening import Teller
 from workbench.execution.remaining import RemainingTime
 from workbench.execution.store import Entry
 from workbench.execution.task import Task
@@ -46,7 +47,7 @@ class _Left(ProgressColumn):
         return Text(self._display.left() if task.id == self._display.whole else "")
 
 
-class RunDisplay:
+class RunDisplay(Teller):
     """A ``Listener`` that draws Rich progress bars, or prints plain lines when standard output is no terminal."""
 
     def __init__(self, console: Terminal, tasks: Sequence[Task]) -> None:
@@ -72,9 +73,9 @@ class RunDisplay:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         self.progress.stop()
 
-    def damaged(self, name: str, fault: str) -> None:
-        """Say so, in one line."""
-        self._say(f"{name}: its stored result is damaged ({fault}); computed again")
+    def say(self, sentence: str, *, warning: bool = False) -> None:
+        """In one line, a warning like the rest."""
+        self.console.print(sentence)
 
     def warned(self, warning: str) -> None:
         """Say so, on standard error."""
@@ -103,20 +104,16 @@ class RunDisplay:
             how = "reused" if reused else f"computed in {entry.wall_s:.1f} s{left and f', {left}'}"
             self.console.print(f"[{self.count}/{self.total}] {name}: {how}")
 
-    def elsewhere(self, name: str) -> None:
-        """Say so."""
-        self._say(f"{name}: another run computes it now; waiting for its result")
-
     def restarted(self, name: str, reason: str) -> None:
         """Say so; the task's bar starts anew."""
         self._drop(name)
-        self._say(f"{name}: {reason}; started again")
+        super().restarted(name, reason)
 
     def failed(self, name: str, message: str) -> None:
         """Say so; the whole message comes at the end."""
         self._drop(name)
         self.remaining.dropped(name)
-        self._say(f"{name}: failed; what does not need it goes on")
+        self.say(f"{name}: failed; what does not need it goes on")
 
     def left(self) -> str:
         """``"about 3 min left"``, ``"at least 3 min left"``; nothing where nothing is known or all is done."""
@@ -128,6 +125,3 @@ class RunDisplay:
     def _drop(self, name: str) -> None:
         if name in self.bars:
             self.progress.remove_task(self.bars.pop(name))
-
-    def _say(self, text: str) -> None:
-        self.console.print(text)
