@@ -12,9 +12,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from workbench.execution.disk import disk_full
 from workbench.execution.fingerprint import library_versions
-from workbench.execution.jobs import Done, Failed, Job, Lost, run_job
+from workbench.execution.jobs import Done, Failed, Job, Lost, ended_by_full_disk, run_job
 from workbench.execution.ranks import run_on_ranks
 from workbench.execution.reach import source_hash
 
@@ -52,10 +51,7 @@ def run_remote(
             message = run_job(here, report) if job.ranks == 1 else run_on_ranks(here, report)
             return _of_this_machine(message), read_files(here.folder)
     except OSError as error:
-        text = disk_full(error)
-        if not text:
-            raise
-        return _of_this_machine(Failed(message=text, disk_full=True)), {}
+        return _of_this_machine(ended_by_full_disk(error, {})), {}
 
 
 def _of_this_machine(message: Done | Failed | Lost) -> Done | Failed | Lost:

@@ -26,9 +26,8 @@ from pathlib import Path
 from typing import Any
 
 from workbench.execution.dask_remote import Files, read_files, run_remote, write_files
-from workbench.execution.disk import disk_full
 from workbench.execution.errors import RunError
-from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
+from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed, ended_by_full_disk
 
 __all__ = ["PATIENCE", "DaskWorkers"]
 
@@ -228,10 +227,7 @@ def _fetched(job: Job, message: Done | Failed | Lost, files: Files) -> Done | Fa
     try:
         write_files(job.folder, files)
     except OSError as error:
-        text = disk_full(error, job.places)
-        if not text:
-            raise
-        return Failed(message=text, disk_full=True)
+        return ended_by_full_disk(error, job.places)
     return message
 
 

@@ -22,7 +22,7 @@ from contracts.memory import free_memory, limited_address_space, shown_size
 from workbench.execution.disk import STORE, disk_full, no_room, where_full
 from workbench.execution.memory import limit_text, out_of_memory
 
-__all__ = ["Done", "Failed", "Job", "Lost", "Message", "Progressed", "run_job"]
+__all__ = ["Done", "Failed", "Job", "Lost", "Message", "Progressed", "ended_by_full_disk", "run_job"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,6 +105,13 @@ _SHORT = 1e8
 
 type Message = Progressed | Done | Failed | Lost
 """News of a task; ``last`` where no more will follow."""
+
+
+def ended_by_full_disk(error: OSError, places: Mapping[str, Path]) -> Failed:
+    """What becomes of a task where a disk is full, ``places`` as in `disk_full`; any other error is raised again."""
+    if text := disk_full(error, places):
+        return Failed(message=text, disk_full=True)
+    raise error
 
 
 def run_job(job: Job, report: Callable[[float], None]) -> Done | Failed | Lost:

@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import Any
 
 from contracts.errors import InputError
-from workbench.execution.disk import disk_full, where_full
-from workbench.execution.jobs import Done, Failed, Job, Lost, run_job
+from workbench.execution.disk import where_full
+from workbench.execution.jobs import Done, Failed, Job, Lost, ended_by_full_disk, run_job
 from workbench.execution.memory import KillCount, limit_text
 
 __all__ = ["die_with_parent", "mpiexec", "run_on_ranks"]
@@ -48,10 +48,7 @@ def run_on_ranks(job: Job, report: Callable[[float], None]) -> Done | Failed | L
     try:
         return _run(job, report)
     except OSError as error:
-        text = disk_full(error, job.places)
-        if not text:
-            raise
-        return Failed(message=text, disk_full=True)
+        return ended_by_full_disk(error, job.places)
 
 
 def _run(job: Job, report: Callable[[float], None]) -> Done | Failed | Lost:

@@ -16,9 +16,9 @@ from typing import Any
 
 from contracts.errors import InputError
 from workbench.execution.claims import Claims
-from workbench.execution.disk import STORE, disk_full, naming_the_disk
+from workbench.execution.disk import STORE, naming_the_disk
 from workbench.execution.errors import DiskFullError, InterruptedRunError, RunError
-from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed
+from workbench.execution.jobs import Done, Failed, Job, Lost, Message, Progressed, ended_by_full_disk
 from workbench.execution.listening import Listener, Workers
 from workbench.execution.live_runs import announce
 from workbench.execution.load_checks import require_loadable
@@ -250,10 +250,7 @@ class _Run:
         try:
             entries[task.name] = self.store.put(self.keys[task.name], folder, record)
         except OSError as error:
-            text = disk_full(error, {STORE: self.store.root})
-            if not text:
-                raise
-            return Failed(message=text, disk_full=True)
+            return ended_by_full_disk(error, {STORE: self.store.root})
         return None
 
     def _again(self, name: str, message: Lost) -> bool:
