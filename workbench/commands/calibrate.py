@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from pydantic_core import PydanticCustomError
-from rich.table import Table
 
 from contracts.curves import read_curve
 from contracts.errors import InputError
@@ -23,7 +22,7 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
-from workbench.execution.terminal import console
+from workbench.execution.terminal import console, empty_table
 from workbench.questions.calibration import Calibration, Trial, calibrate, scaled_study, strip_thicknesses
 from workbench.questions.fe.graph import without_fields
 from workbench.questions.model_curves import CURVE, mean_curve
@@ -160,9 +159,8 @@ def _check_rewritten(path: Path, text: str, thickness: dict[str, float]) -> None
 
 def _print(study: Study, found: Calibration) -> None:
     title = f"initial tangent to {study.tolerances.initial_tangent_up_to * 1e3:g} mm, mean of the orientations"
-    table = Table(title=title, title_justify="left")
-    for column in ("trial", "rim thickness", "section", "solid", "target", "solid - target"):
-        table.add_column(column, justify="left" if column == "trial" else "right")
+    columns = ("trial", "rim thickness", "section", "solid", "target", "solid - target")
+    table = empty_table(title, columns, texts=["trial"])
     for name, trial in (
         ("section model meets the target", found.first),
         ("corrected by solid/section", found.corrected),

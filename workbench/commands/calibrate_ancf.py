@@ -11,8 +11,6 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.table import Table
-
 from contracts.errors import InputError
 from contracts.input_file import input_text
 from workbench.commands.computing import read_and_warn, tell_kept
@@ -21,7 +19,7 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
-from workbench.execution.terminal import console
+from workbench.execution.terminal import console, empty_table
 from workbench.questions.ancf_fit.fit import FittedTire, read_fit
 from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
 from workbench.questions.study_graph import report_tasks
@@ -125,9 +123,8 @@ def _check_rewritten(path: Path, text: str, tire: FittedTire[Fitted]) -> None:
 def _print(tires: Sequence[FittedTire[Held]], kept: FittedTire[Fitted]) -> None:
     """Errors of every tire, then the kept one's parameters."""
     low, high = kept.numbers.load_range_N
-    table = Table(title=f"against the FE curves, {low:.0f} to {high:.0f} N", title_justify="left")
-    for column in ("tire", "spokes", "rim plates", "average: largest", "at", *(f"{o:g} deg" for o in kept.curves)):
-        table.add_column(column, justify="left" if column == "tire" else "right")
+    columns = ("tire", "spokes", "rim plates", "average: largest", "at", *(f"{o:g} deg" for o in kept.curves))
+    table = empty_table(f"against the FE curves, {low:.0f} to {high:.0f} N", columns, texts=["tire"])
     for tire in tires:
         n = tire.numbers
         each = [f"{100.0 * e:.1f} %" for e in n.relative_rms]
@@ -135,9 +132,8 @@ def _print(tires: Sequence[FittedTire[Held]], kept: FittedTire[Fitted]) -> None:
         mesh = str(n.preset.spokes), str(n.preset.circumferential_plates)
         table.add_row(tire.name, *mesh, *worst, *each)
     console.print(table)
-    table = Table(title=f"{kept.name}: parameters, 95 % intervals", title_justify="left")
-    for column in ("parameter", "value", "from the fit", f"spread of {kept.numbers.refits} refits"):
-        table.add_column(column, justify="left" if column == "parameter" else "right")
+    columns = ("parameter", "value", "from the fit", f"spread of {kept.numbers.refits} refits")
+    table = empty_table(f"{kept.name}: parameters, 95 % intervals", columns, texts=["parameter"])
     for row in kept.numbers.parameters:
         fitted = "at its bound" if row.at_bound else _interval(row.interval, row.unit)
         table.add_row(row.name, displayed(row.value, row.unit), fitted, _interval(row.spread, row.unit))

@@ -9,10 +9,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.table import Table
-
 from contracts.errors import InputError
 from workbench.commands.computing import console, tell_kept, warn
+from workbench.execution.terminal import empty_table
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import put_files
 from workbench.study.curve_file import MeasuredCurve, load_uncertainty, newtons, read_measured_curve
@@ -113,10 +112,8 @@ def _require_in_sight(max_load: float, reference: MeasuredCurve) -> None:
 def _print(pair: CurvePair, title: str) -> None:
     from workbench.report.compared_page import compared_rows, sentence
 
-    table = Table(title=title, title_justify="left")
-    table.add_column("quantity", overflow="fold")
-    for column in ("curve", "reference", "difference"):
-        table.add_column(column, justify="right", overflow="fold")
+    columns = ("quantity", "curve", "reference", "difference")
+    table = empty_table(title, columns, texts=["quantity"], folded=columns)
     for row in compared_rows(pair):
         table.add_row(row.quantity, row.curve, row.reference, row.difference)
     console.print(table)

@@ -5,12 +5,9 @@ Verified by tests/end_to_end/test_commands.py.
 
 from __future__ import annotations
 
-from rich.table import Table
-
-from workbench.commands.computing import console
 from workbench.execution.doctor import Examination, examine, install
 from workbench.execution.load_checks import install_command
-from workbench.execution.terminal import Terminal
+from workbench.execution.terminal import Terminal, console, empty_table
 
 __all__ = ["run_doctor"]
 
@@ -27,9 +24,8 @@ def run_doctor(*, mend: bool = False) -> int:
 
 
 def _show(found: Examination, shown_on: Terminal) -> None:
-    table = Table(title="workbench doctor", title_justify="left")
-    for column in ("name", "found", "needed for", "advice"):
-        table.add_column(column, overflow="fold")
+    columns = ("name", "found", "needed for", "advice")
+    table = empty_table("workbench doctor", columns, texts=columns, folded=columns)
     for finding in found.findings:
         cells = (finding.name, finding.found, finding.purpose, finding.advice or "ok")
         table.add_row(*cells)

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from rich.table import Table
 from rich.text import Text
 
 from contracts.records import Check
@@ -19,6 +18,7 @@ from workbench.execution.integrity import stated
 from workbench.execution.runner import Computing
 from workbench.execution.store import Entry
 from workbench.execution.task import Task, task_keys
+from workbench.execution.terminal import empty_table
 from workbench.questions.study_graph import report_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.gate_summary import gate_markdown, gate_rows
@@ -131,9 +131,8 @@ def _motion_files(entries: dict[str, Entry]) -> dict[str, Path]:
 def _print_checks(checks: Sequence[Check]) -> None:
     from workbench.verdict.number_format import displayed
 
-    table = Table(title="checks", title_justify="left")
-    for column in ("status", "role", "check", "value", "tolerance"):
-        table.add_column(column, overflow="fold")
+    columns = ("status", "role", "check", "value", "tolerance")
+    table = empty_table("checks", columns, texts=columns, folded=columns)
     colours = {"pass": "green", "fail": "red", "error": "yellow"}
     for c in checks:
         table.add_row(

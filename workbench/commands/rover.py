@@ -9,8 +9,6 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from rich.table import Table
-
 from contracts.errors import ConvergenceError, InputError
 from contracts.series import write_series
 from contracts.text import one_line
@@ -23,7 +21,7 @@ from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_s
 from workbench.commands.computing import read_and_warn, warn
 from workbench.commands.rover_tires import check_tire, on_tires
 from workbench.execution.errors import RunError
-from workbench.execution.terminal import console
+from workbench.execution.terminal import console, empty_table
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import new_files
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, series_file
@@ -35,9 +33,8 @@ __all__ = ["RoverChoices", "list_scenarios", "run_rover"]
 
 def list_scenarios() -> int:
     """Print every scenario's name, what it is and its source."""
-    table = Table(title="scenarios of the rover", title_justify="left")
-    for column in ("scenario", "what happens", "source"):
-        table.add_column(column, overflow="fold")
+    columns = ("scenario", "what happens", "source")
+    table = empty_table("scenarios of the rover", columns, texts=columns, folded=columns)
     for scenario in SCENARIOS.values():
         table.add_row(scenario.name, scenario.title, scenario.source)
     console.print(table)
@@ -197,10 +194,8 @@ def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -
 
 
 def _print_outcomes(title: str, outcomes: Sequence[Outcome]) -> None:
-    table = Table(title=title, title_justify="left")
-    table.add_column("quantity", overflow="fold")
-    for column in ("value", "reference", "required", "margin", "verdict"):
-        table.add_column(column, justify="right")
+    columns = ("quantity", "value", "reference", "required", "margin", "verdict")
+    table = empty_table(title, columns, texts=["quantity"], folded=["quantity"])
     for one in outcomes:
         sign = ">=" if one.at_least else "<="
         required = "" if one.limit is None else f"{sign} {displayed(one.limit, one.unit)}"

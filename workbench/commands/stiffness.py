@@ -9,8 +9,6 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from rich.table import Table
-
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.commands.computing import (
@@ -24,6 +22,7 @@ from workbench.commands.computing import (
 )
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
+from workbench.execution.terminal import empty_table
 from workbench.questions.models.curves import stiffness_curves
 from workbench.questions.strength.yielding import PeakStress, peak_stresses, yield_strengths
 from workbench.questions.study_graph import MODELS, stiffness_tasks
@@ -106,9 +105,8 @@ def _print(model: str, curves: Sequence[StiffnessCurve], peaks: Peaks) -> None:
         console.print(f"{model} {label}: {reach}{part}")
     if not peaks:
         return
-    table = Table(title="largest von Mises stress against yield", title_justify="left")
-    for column in ("orientation", "load", "part", "stress", "yield", "share"):
-        table.add_column(column, justify="left" if column == "part" else "right")
+    columns = ("orientation", "load", "part", "stress", "yield", "share")
+    table = empty_table("largest von Mises stress against yield", columns, texts=["part"])
     worst: dict[tuple[float, float], PeakStress] = {}
     for angle, peak in peaks:
         worst[angle, peak.load] = max(worst.get((angle, peak.load), peak), peak, key=lambda p: p.used)

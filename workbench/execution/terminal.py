@@ -5,15 +5,17 @@ Verified by tests/unit/test_terminal.py.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from rich.console import Console
 from rich.status import Status
+from rich.table import Table
 from rich.text import Text
 
 from contracts.text import for_terminal
 
-__all__ = ["Terminal", "console"]
+__all__ = ["Terminal", "console", "empty_table"]
 
 
 class Terminal(Console):
@@ -32,3 +34,13 @@ class Terminal(Console):
 
 
 console = Terminal()
+
+
+def empty_table(title: str, columns: Sequence[str], *, texts: Sequence[str], folded: Sequence[str] = ()) -> Table:
+    """A table without rows: columns of ``texts`` on the left, numbers on the right; what is ``folded`` is never cut."""
+    table = Table(title=title, title_justify="left")
+    for name in columns:
+        table.add_column(
+            name, justify="left" if name in texts else "right", overflow="fold" if name in folded else "ellipsis"
+        )
+    return table
