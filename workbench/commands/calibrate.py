@@ -11,8 +11,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from pydantic_core import PydanticCustomError
-
 from contracts.curves import read_curve
 from contracts.errors import InputError
 from contracts.input_file import input_text
@@ -30,10 +28,9 @@ from workbench.questions.section.graph import without_planar_model
 from workbench.questions.study_graph import stiffness_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish, to_json
-from workbench.study.magnitudes import require_possible
+from workbench.study.magnitudes import above_zero
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
-from workbench.study.quantities import to_si
 from workbench.study.reading import built_in_study, study_of
 from workbench.study.rewrite import rewritten_study
 from workbench.study.wheel_design import wheel_design
@@ -49,7 +46,10 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     study = read_and_warn(path)
     if (reason := without_planar_model(study)) is not None:
         raise reason
-    wanted = _of_the_reference(study) if target is None else _target(target)
+    if target is None:
+        wanted = _of_the_reference(study)
+    else:
+        wanted = above_zero("target", target, "N/m", "reference.initial_tangent", "8.25 N/mm")
     check_folder(out)
     name = f"{path.stem}_calibrated.toml"
     check_targets(out, ("calibration.json", name))
@@ -73,18 +73,6 @@ def _of_the_reference(study: Study) -> float:
     if study.reference is None:
         raise InputError("target", "", "is missing, and the study has no [reference]", "give --target '8.25 N/mm'")
     return study.reference.initial_tangent
-
-
-def _target(text: str) -> float:
-    try:
-        value = to_si(text, "N/m")
-    except PydanticCustomError as error:
-        context = error.context or {}
-        raise InputError("target", repr(text), str(context["rule"]), str(context["hint"])) from error
-    if not value > 0.0:
-        raise InputError("target", repr(text), "must be greater than zero", "write it like '8.25 N/mm'")
-    require_possible("target", value, "reference.initial_tangent")
-    return value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

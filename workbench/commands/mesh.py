@@ -8,8 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from pydantic_core import PydanticCustomError
-
 from contracts.errors import InputError
 from workbench.commands.computing import computed, console, naming, read_and_warn, tell_kept
 from workbench.commands.stiffness import check_orientation
@@ -21,8 +19,7 @@ from workbench.questions.ancf.surfaces import surfaces_task
 from workbench.questions.study_graph import mesh_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import copy_files
-from workbench.study.magnitudes import require_possible
-from workbench.study.quantities import to_si
+from workbench.study.magnitudes import above_zero
 
 __all__ = ["deflections_si", "run_mesh_of"]
 
@@ -74,15 +71,4 @@ def _run_surfaces(study_path: Path, orientation_deg: float, deflections: Sequenc
 
 def deflections_si(texts: Sequence[str]) -> tuple[float, ...]:
     """Deflections [m] in increasing order, each once; raises InputError for one that is no length above zero."""
-    found = set()
-    for text in texts:
-        try:
-            value = to_si(text, "m")
-        except PydanticCustomError as error:
-            context = error.context or {}
-            raise InputError("deflection", repr(text), str(context["rule"]), str(context["hint"])) from error
-        if not value > 0.0:
-            raise InputError("deflection", repr(text), "must be greater than zero", "write it like '10 mm'")
-        require_possible("deflection", value, "ancf.max_deflection")
-        found.add(value)
-    return tuple(sorted(found))
+    return tuple(sorted({above_zero("deflection", text, "m", "ancf.max_deflection", "10 mm") for text in texts}))

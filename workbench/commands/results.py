@@ -11,7 +11,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pydantic_core import PydanticCustomError
 from rich.filesize import decimal
 
 from contracts.errors import InputError
@@ -23,7 +22,7 @@ from workbench.execution.progress import duration_text
 from workbench.execution.pruning import Rule, prune
 from workbench.execution.store import Store
 from workbench.execution.store_folder import holds_a_store
-from workbench.study.quantities import to_si
+from workbench.study.magnitudes import number_in_si
 
 __all__ = ["run_list", "run_prune", "run_show"]
 
@@ -125,11 +124,7 @@ def _existing(root: Path) -> Store:
 
 
 def _quantity(option: str, text: str, unit: str) -> float:
-    try:
-        value = to_si(text if any(c.isalpha() for c in text) else f"{text} ", unit)
-    except PydanticCustomError as error:
-        context = error.context or {}
-        raise InputError(option, repr(text), str(context["rule"]), str(context["hint"])) from error
+    value = number_in_si(option, text if any(c.isalpha() for c in text) else f"{text} ", unit, repr(text))
     if value < 0.0:
         raise InputError(option, repr(text), "must not be negative", "give an age or a size, e.g. '30 d' or '2 GB'")
     return value

@@ -22,7 +22,7 @@ from contracts.errors import InputError
 from contracts.input_file import input_text
 from contracts.text import one_line
 from workbench.study.deformation import DEFORMATIONS, UNLOADED, Deformation, Kind, beyond_size, deformation_named
-from workbench.study.magnitudes import require_possible
+from workbench.study.magnitudes import number_in_si, require_possible
 from workbench.study.quantities import to_si
 
 __all__ = ["MeasuredCurve", "in_si", "load_uncertainty", "newtons", "read_measured_curve"]
@@ -143,7 +143,7 @@ def load_uncertainty(text: str, load: NDArray[np.float64], what: str = "uncertai
         If it is neither, negative, or above 100 %.
     """
     relative = not re.search(r"[^\W\d_]", re.sub(r"[eE][+-]?\d+", "", text))
-    value = _number(what, text, "" if relative else "N")
+    value = number_in_si(what, text, "" if relative else "N")
     if value < 0.0 or (relative and value > 1.0):
         raise InputError(what, text, "must lie between 0 and 100 %", "write it like '3 %', or '5 N' for newtons")
     width = value * np.abs(load) if relative else np.full_like(load, value)
@@ -256,7 +256,7 @@ def _si_deformation(
             return values
         rule = f"lists a {deformation.words} and does not say the unloaded size"
         raise InputError(_WHAT, path, rule, f"add a line such as '# {deformation.unloaded}: 142.5 mm'")
-    size = _number(f"{path}: {named}", remarks[named], "m")
+    size = number_in_si(f"{path}: {named}", remarks[named], "m")
     require_possible(f"{path}: {named}", size if named == "unloaded_radius" else 0.5 * size, "wheel.tire.outer_radius")
     found = values if deformation.unloaded is None else np.asarray(size - values)
     if wrong := beyond_size(found, size, table.lines):
@@ -288,12 +288,4 @@ def _others(table: CsvTable, used: Mapping[str, _Column]) -> dict[str, NDArray[n
 def newtons(what: str, text: str) -> float:
     """A load of the command line [N]: ``"250"`` or ``"0.25 kN"``; raises InputError for what is neither."""
     bare = re.fullmatch(r"\s*[-+.\d]+([eE][-+]?\d+)?\s*", text)
-    return _number(what, f"{text} N" if bare else text, "N")
-
-
-def _number(what: str, text: str, unit: str) -> float:
-    try:
-        return to_si(text, unit)
-    except PydanticCustomError as error:
-        context = error.context or {}
-        raise InputError(what, text, str(context.get("rule")), str(context.get("hint"))) from error
+    return number_in_si(what, f"{text} N" if bare else text, "N")

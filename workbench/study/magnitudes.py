@@ -12,14 +12,26 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel
+from pydantic_core import PydanticCustomError
 
 from contracts.errors import InputError
 from contracts.ranges import Key, Oddity, RangeTable, dotted, oddities, range_table
 from workbench.study.key_units import nameless
 from workbench.study.loosened import loosened
 from workbench.study.model import DATA, Study
+from workbench.study.quantities import to_si
 
-__all__ = ["impossible", "numbers_of", "require_possible", "study_ranges", "unusual", "unusual_curve", "warnings_of"]
+__all__ = [
+    "above_zero",
+    "impossible",
+    "number_in_si",
+    "numbers_of",
+    "require_possible",
+    "study_ranges",
+    "unusual",
+    "unusual_curve",
+    "warnings_of",
+]
 
 _MOST = 12
 """Warnings told one by one; a unit mistaken once may make many."""
@@ -76,6 +88,24 @@ def unusual_curve(deflection: NDArray[np.float64], load: NDArray[np.float64]) ->
     if (pull := float(np.min(load))) < -0.01 * largest["load"]:
         told.append(f"smallest load = {pull:g} N pulls; loads are positive where the ground pushes the wheel")
     return tuple(told)
+
+
+def number_in_si(what: str, text: str, unit: str, shown: str | None = None) -> float:
+    """A number with its unit, as `to_si`; raises InputError about ``what``, whose value is ``shown``, else the text."""
+    try:
+        return to_si(text, unit)
+    except PydanticCustomError as error:
+        context = error.context or {}
+        raise InputError(what, shown or text, str(context["rule"]), str(context["hint"])) from error
+
+
+def above_zero(what: str, text: str, unit: str, like: str, example: str) -> float:
+    """A number of the command line [SI] above zero; raises InputError for others, as `require_possible` too."""
+    value = number_in_si(what, text, unit, repr(text))
+    if not value > 0.0:
+        raise InputError(what, repr(text), "must be greater than zero", f"write it like {example!r}")
+    require_possible(what, value, like)
+    return value
 
 
 def require_possible(what: str, value: float, like: str) -> None:
