@@ -17,7 +17,7 @@ from contracts.series import read_series
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from tests.end_to_end.small_study import run, small_study_text
 from workbench.charts.packing import unpacked
-from workbench.study.loosened import GATES
+from workbench.study.magnitudes import GATES
 from workbench.verdict.statements import statement_of
 
 TASKS = {

@@ -22,8 +22,16 @@ from rover_dynamics.rover.rover_file import EXOMARS_ROVER, read_rover
 from tests.end_to_end.small_study import small_study_text
 from workbench.report.opening import verdict
 from workbench.study.key_units import is_whole_number, parts_of
-from workbench.study.loosened import GATES, loosened
-from workbench.study.magnitudes import numbers_of, require_possible, study_ranges, unusual, unusual_curve, warnings_of
+from workbench.study.magnitudes import (
+    GATES,
+    loosened,
+    numbers_of,
+    require_possible,
+    study_ranges,
+    unusual,
+    unusual_curve,
+    warnings_of,
+)
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study, study_of
 from workbench.study.sections import ToleranceSection

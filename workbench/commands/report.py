@@ -25,8 +25,7 @@ from workbench.report.gate_summary import gate_markdown, gate_rows
 from workbench.report.outputs import curve_file, field_files, junit, publish, summary, to_json
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER
 from workbench.study.full import full_study
-from workbench.study.loosened import loosened
-from workbench.study.magnitudes import warnings_of
+from workbench.study.magnitudes import loosened, warnings_of
 from workbench.study.reading import built_in_study
 from workbench.verdict.baseline import read_baseline
 

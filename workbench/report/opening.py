@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from contracts.records import Check
 from workbench.questions.comparison import Comparison
 from workbench.questions.models.agreement import Agreement
-from workbench.study.loosened import loosened
-from workbench.study.magnitudes import unusual
+from workbench.study.magnitudes import loosened, unusual
 from workbench.study.model import Study
 from workbench.verdict.number_format import displayed
 

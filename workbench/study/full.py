@@ -11,7 +11,7 @@ from contracts.errors import InputError
 from geometry.parts import SpringSet
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
-from workbench.study.rover import RoverSection
+from workbench.study.sections import RoverSection
 from workbench.study.wheel_design import wheel_design
 
 __all__ = ["full_study", "is_mirrored", "rotational_period"]

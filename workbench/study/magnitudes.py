@@ -1,6 +1,7 @@
 """Whether a study's numbers can be: each held against the table of ranges before anything is built from it.
 
-Verified by tests/unit/test_workbench_magnitudes.py.
+And which gates a study has made easier than the project's own. Verified by tests/unit/test_workbench_magnitudes.py and
+tests/end_to_end/test_report.py.
 """
 
 from __future__ import annotations
@@ -17,13 +18,15 @@ from pydantic_core import PydanticCustomError
 from contracts.errors import InputError
 from contracts.ranges import Key, Oddity, RangeTable, dotted, oddities, range_table
 from workbench.study.key_units import nameless
-from workbench.study.loosened import loosened
 from workbench.study.model import DATA, Study
 from workbench.study.quantities import to_si
+from workbench.study.sections import ToleranceSection
 
 __all__ = [
+    "GATES",
     "above_zero",
     "impossible",
+    "loosened",
     "number_in_si",
     "numbers_of",
     "require_possible",
@@ -35,6 +38,15 @@ __all__ = [
 
 _MOST = 12
 """Warnings told one by one; a unit mistaken once may make many."""
+_OF_THE_REFERENCE = {
+    **{"initial_tangent": 1.0, "initial_tangent_up_to": 1.0, "reach_deflection": -1.0, "reach_load": -1.0}
+}
+"""Tolerances whose checks are gates for the wheel of the reference only."""
+GATES = _OF_THE_REFERENCE | {
+    **{"ancf_preset": 1.0, "flexible_mass": 1.0, "mesh_mass": 1.0, "min_scaled_jacobian": -1.0},
+    **{"fe_residual": 1.0, "fe_balance": 1.0, "fe_energy": 1.0, "mesh_uncertainty": 1.0, "surface_distance": 1.0},
+}
+"""Tolerances of gates -> 1 where a larger number is easier to meet, -1 where a smaller one is."""
 
 
 def study_ranges() -> RangeTable:
@@ -73,6 +85,17 @@ def unusual(study: Study) -> tuple[str, ...]:
     if len(lines) <= _MOST:
         return tuple(lines)
     return (*lines[:_MOST], f"{len(lines) - _MOST} more numbers are unusual")
+
+
+def loosened(study: Study) -> tuple[str, ...]:
+    """Each tolerance of a gate that is easier to meet than by default, in words."""
+    given, own = study.tolerances, ToleranceSection()
+    found = []
+    for key, sign in GATES.items():
+        value, usual = getattr(given, key), getattr(own, key)
+        if sign * (value - usual) > 1e-9 * usual and (given.reference_wheel or key not in _OF_THE_REFERENCE):
+            found.append(f"tolerances.{key} = {value:g} is looser than its gate's own {usual:g}")
+    return tuple(found)
 
 
 def warnings_of(study: Study) -> tuple[str, ...]:

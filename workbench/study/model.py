@@ -18,16 +18,16 @@ from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
-from workbench.study.ground import GroundSection
 from workbench.study.quantities import Force, Length, Stiffness
-from workbench.study.rover import RoverSection
 from workbench.study.section import Positive, Section
 from workbench.study.sections import (
     AncfSection,
     BrushSection,
     CurveSection,
     FeSection,
+    GroundSection,
     MeshSection,
+    RoverSection,
     ToleranceSection,
     VerificationSection,
 )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from pydantic import ValidationError
 from contracts.errors import InputError, StudyError
 from contracts.input_file import input_table
 from contracts.ranges import Key, dotted
+from contracts.text import one_line
 from workbench.study.curve_file import in_si
 from workbench.study.key_units import nearest_key
 from workbench.study.magnitudes import impossible
@@ -23,7 +25,6 @@ from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
 from workbench.study.rules import broken_rules
 from workbench.study.wheel_design import SectionInputError, wheel_design
-from workbench.study.words import in_one_line
 
 __all__ = ["built_in_study", "read_study", "read_study_table", "study_of"]
 
@@ -43,6 +44,8 @@ _LIMITS = {"less_than": "lt", "less_than_equal": "le", "greater_than": "gt", "gr
 """Pydantic's name of a complaint -> that of its limit, which is in SI whatever unit the user writes."""
 _SORTED = (("environment", "temperatures"),)
 """Lists that the study holds in another order than its file."""
+_PATHS = ("file", "surfaces")
+"""Keys whose texts name files; they stay as they are."""
 
 
 def built_in_study() -> Path:
@@ -69,7 +72,7 @@ def read_study(path: Path) -> Study:
 def study_of(path: Path, table: Mapping[str, Any]) -> Study:
     """Check and freeze the content of a study file, which may have been changed since it was read; as `read_study`."""
     try:
-        study = Study.model_validate(in_one_line(table))
+        study = Study.model_validate(_in_one_line(table))
     except ValidationError as error:
         raise _study_error(path, error) from error
     except InputError as error:
@@ -108,6 +111,22 @@ def read_study_table(path: Path) -> dict[str, Any]:
     if not table:
         raise StudyError(path, "", "", "is empty", "copy studies/exomars.toml and change it")
     return table
+
+
+def _in_one_line(content: Any) -> Any:
+    """The content of a study file with every text and every name in one line, see `contracts.text.one_line`.
+
+    Raises InputError for two names of one table that are then the same.
+    """
+    if isinstance(content, Mapping):
+        if twice := [name for name, times in Counter(map(one_line, content)).items() if times > 1]:
+            raise InputError(
+                "name", repr(twice[0]), "stands for two names that differ in what is not shown", "rename one"
+            )
+        return {one_line(k): v if k in _PATHS and isinstance(v, str) else _in_one_line(v) for k, v in content.items()}
+    if isinstance(content, list):
+        return [_in_one_line(one) for one in content]
+    return one_line(content) if isinstance(content, str) else content
 
 
 def _study_error(path: Path, error: ValidationError) -> StudyError:

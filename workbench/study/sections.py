@@ -1,12 +1,14 @@
-"""Sections of a study file other than the wheel: materials, mesh, solvers, brush, comparison.
+"""Sections of a study file other than the wheel: materials, mesh, solvers, brush, comparison, rover and its ground.
 
 Every model is frozen and refuses unknown keys. All values are SI after parsing. Verified by
-tests/unit/test_workbench_study.py.
+tests/unit/test_workbench_study.py, tests/unit/test_workbench_rover_inputs.py and
+tests/unit/test_workbench_rover_ancf.py.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Annotated, Literal
 
 from pydantic import (
@@ -34,9 +36,12 @@ __all__ = [
     "Drop",
     "Factor",
     "FeSection",
+    "GroundSection",
     "MeshSection",
+    "RoverSection",
     "ToleranceSection",
     "VerificationSection",
+    "runs_on_ancf_tires",
 ]
 
 NotNegative = Field(ge=0.0)
@@ -240,3 +245,31 @@ class ToleranceSection(Section):
     def asks_for_reach(self) -> bool:
         """Whether every orientation is to come somewhere: of the reference's wheel, and where a study says where to."""
         return self.reference_wheel or bool({"reach_deflection", "reach_load"} & self.model_fields_set)
+
+
+class GroundSection(Section):
+    """Coulomb's coefficient between the ground and the rover's tires, of whatever kind.
+
+    Without it the brush tire has the friction of [brush], falling with slip, ANCF tires the thesis' 0.6, and all of
+    them 0.6 in the scenario that the thesis drives with it. [fe] friction is that of the static runs.
+    """
+
+    friction: Annotated[Number, Positive] | None = None
+    """Of every tire under the rover [-]; each tire's own without it."""
+
+
+class RoverSection(Section):
+    """What the rover does on six ANCF tires in the report, beside its runs on brush tires.
+
+    Nothing, the thesis' scenarios and the quick ones of the mission's (about a minute), or all of them, as `workbench
+    report --full` does (some minutes more).
+    """
+
+    on_ancf_tires: Literal["none", "short", "all"] = "short"
+    """Runs on flexible tires beside those on brush tires: none, the thesis' and quick ones, all."""
+
+
+def runs_on_ancf_tires(rover: RoverSection | None, short: Iterable[str], long: Iterable[str]) -> tuple[str, ...]:
+    """Which of the short and the long runs a study asks for."""
+    asked = "none" if rover is None else rover.on_ancf_tires
+    return {"none": (), "short": tuple(short), "all": (*short, *long)}[asked]

@@ -22,7 +22,7 @@ from workbench.questions.rover_ancf.results import OBSERVED, AncfRover
 from workbench.questions.rover_mission.checks import mission_checks
 from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, on_tire_of_thesis, rover_ancf, rover_on_ancf
-from workbench.study.rover import runs_on_ancf_tires
+from workbench.study.sections import runs_on_ancf_tires
 from workbench.verdict.rules import Claim, at_least, at_most, near
 
 __all__ = ["LONG", "ROVER_ANCF", "SHORT", "runs_of"]

@@ -18,7 +18,7 @@ from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
 from workbench.questions.rover_mission.checks import mission_checks
 from workbench.questions.rover_mission.row import Mission
 from workbench.study.model import Study
-from workbench.study.rover import runs_on_ancf_tires
+from workbench.study.sections import runs_on_ancf_tires
 
 __all__ = ["ROVER_MISSION"]
 
