@@ -31,7 +31,7 @@ from workbench.commands.options import (
 )
 from workbench.commands.results_app import results_app
 from workbench.execution.interrupts import came, hear_no_more, interrupt_safely
-from workbench.execution.quiet import quieten
+from workbench.execution.standard_streams import quieten
 
 __all__ = ["app", "main"]
 

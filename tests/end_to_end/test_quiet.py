@@ -22,7 +22,7 @@ BAD_FIELDS = """<VTKFile type="UnstructuredGrid" version="1.0" byte_order="Littl
 0 0 0</DataArray></Points></Piece></UnstructuredGrid></VTKFile>"""
 READ_FIELDS = """
 from pathlib import Path
-from workbench.execution.quiet import quieten
+from workbench.execution.standard_streams import quieten
 quieten()
 from workbench.viewer.scene import read_fields
 try:

@@ -127,6 +127,6 @@ def test_help_answers_in_a_moment() -> None:
     heavy = {*("numpy", "scipy", "pydantic", "pint", "jinja2", "plotly", "numba"), *("gmsh", "pyvista", "pyarrow")}
     assert heavy & {name.split(".")[0] for name in modules} == set()
     own = {name for name in modules if name.startswith("workbench.")}
-    rooms = ("workbench.execution", "workbench.execution.interrupts", "workbench.execution.quiet")
+    rooms = ("workbench.execution", "workbench.execution.interrupts", "workbench.execution.standard_streams")
     light = {"workbench.cli", *rooms}
     assert {name for name in own if not name.startswith("workbench.commands")} == light

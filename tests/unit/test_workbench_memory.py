@@ -11,7 +11,7 @@ import pytest
 
 from contracts.errors import MemoryLimitError
 from contracts.memory import MemoryBound, free_memory, shown_size, total_memory
-from workbench.execution.memory_need import memory_warning
+from workbench.execution.memory import memory_warning
 from workbench.execution.task import Task
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from workbench.report.page_figures import joined_figures
+from workbench.report.page import joined_figures
 
 
 def test_figures_of_two_topics_are_joined() -> None:

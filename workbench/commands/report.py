@@ -22,7 +22,7 @@ from workbench.execution.terminal import empty_table
 from workbench.questions.study_graph import report_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.gate_summary import gate_markdown, gate_rows
-from workbench.report.outputs import curve_file, field_files, junit, publish, summary, to_json
+from workbench.report.outputs import curve_file, curve_links, field_files, junit, publish, summary, to_json
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER
 from workbench.study.full import full_study
 from workbench.study.magnitudes import loosened, warnings_of
@@ -61,7 +61,6 @@ def run_report(
     entries = computed(path, report_tasks(study), store, computing, shown_on)
 
     from workbench.questions.comparison import compare
-    from workbench.report.curve_links import curve_links
     from workbench.report.evidence import evidence_of
     from workbench.report.opening import verdict
     from workbench.report.page import PageContent, render, rendered_sections

@@ -23,7 +23,7 @@ from workbench.execution.listening import Listener, Workers
 from workbench.execution.live_runs import announce
 from workbench.execution.load_checks import require_loadable
 from workbench.execution.local_workers import LocalWorkers
-from workbench.execution.memory_need import memory_warning
+from workbench.execution.memory import memory_warning
 from workbench.execution.ranks import mpiexec
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task, bare_name, chain_costs, task_keys

@@ -1,16 +1,22 @@
 """The three standard streams and the terminal's width as a program may count on them, whoever started it and how.
 
 A closed stream is opened on nothing, before any file can take its number; an error on one names it; a width that no
-terminal has is forgotten. Verified by tests/end_to_end/test_closed_streams.py.
+terminal has is forgotten. What a command says on the terminal is its own: libraries' warnings and logs are for those
+who mend the workbench. With ``WORKBENCH_TRACEBACK`` set, or Python's own ``-W`` and ``PYTHONWARNINGS``, they are shown.
+Worker processes write all they say into the store's logs.
+
+Verified by tests/end_to_end/test_closed_streams.py and tests/end_to_end/test_quiet.py.
 """
 
 from __future__ import annotations
 
 import io
+import logging
 import os
 import sys
+import warnings
 
-__all__ = ["STANDARD_OUTPUT", "forget_odd_widths", "name_errors", "open_closed_streams"]
+__all__ = ["STANDARD_OUTPUT", "forget_odd_widths", "name_errors", "open_closed_streams", "quieten"]
 
 STANDARD_OUTPUT = "standard output"
 _WIDEST = 10_000
@@ -58,3 +64,13 @@ def forget_odd_widths() -> None:
         text = os.environ.get(name, "1")
         if not (text.isascii() and text.isdigit() and 0 < int(text[:20]) <= _WIDEST):
             del os.environ[name]
+
+
+def quieten() -> None:
+    """Let this process print our own lines alone, and letters its terminal does not have as escapes."""
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+    if os.environ.get("WORKBENCH_TRACEBACK") or sys.warnoptions:
+        return
+    warnings.simplefilter("ignore")
+    logging.getLogger().addHandler(logging.NullHandler())  # else Python prints what no handler takes

@@ -1,6 +1,6 @@
 """Writes results into the user's folder: whole files only, each put in place by one rename.
 
-Verified by tests/unit/test_workbench_outputs.py.
+Verified by tests/unit/test_workbench_outputs.py and tests/end_to_end/test_report.py.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import json
 import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 from xml.etree import ElementTree
 
@@ -24,7 +25,7 @@ from workbench.report.series import SERIES_FOLDER, series_files
 from workbench.verdict.baseline import Change
 from workbench.verdict.status import overall_status
 
-__all__ = ["curve_file", "field_files", "junit", "publish", "summary", "to_json"]
+__all__ = ["curve_file", "curve_links", "field_files", "junit", "publish", "summary", "to_json"]
 
 
 def curve_file(curve: StiffnessCurve) -> str:
@@ -34,6 +35,19 @@ def curve_file(curve: StiffnessCurve) -> str:
     if curve.orientation_deg is None:
         return f"{curve.model}_average.csv"
     return f"{orientation_name(curve.model, curve.orientation_deg)}.csv"
+
+
+def curve_links(curves: Sequence[StiffnessCurve]) -> dict[str, str]:
+    """``curves/{name}.csv`` -> a ``data:`` link with the bytes that the file in the report's folder has."""
+    from workbench.charts.packing import file_link
+
+    links = {}
+    with TemporaryDirectory() as folder:
+        for curve in curves:
+            path = Path(folder) / curve_file(curve)
+            write_curve(curve, path)
+            links[f"curves/{path.name}"] = file_link(path.read_bytes())
+    return links
 
 
 def field_files(entries: Mapping[str, Entry]) -> dict[str, Path]:

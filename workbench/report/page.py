@@ -1,7 +1,7 @@
 """The report: one self-contained page, its verdict first. The one module that imports Jinja2.
 
-Verified by tests/unit/test_workbench_outputs.py, tests/end_to_end/test_report.py and, in a browser,
-tests/end_to_end/test_report_browser.py.
+Verified by tests/unit/test_workbench_outputs.py, tests/unit/test_workbench_page_figures.py,
+tests/end_to_end/test_report.py and, in a browser, tests/end_to_end/test_report_browser.py.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from workbench.charts.interactive import plotly_source
 from workbench.charts.packing import packed
 from workbench.charts.palette import PART_COLOURS
 from workbench.questions.comparison import Comparison
+from workbench.questions.registry import questions_of
 from workbench.report.chosen import chosen_groups
 from workbench.report.contents import Section, contents, section_titles
 from workbench.report.evidence import Evidence
 from workbench.report.opening import check_groups, opening
-from workbench.report.page_figures import page_figures
 from workbench.report.series import series_links
 from workbench.study.model import Study
 from workbench.verdict.number_format import displayed, displayed_reference, largest_by_unit, power_of_ten
 from workbench.verdict.status import overall_status
 
-__all__ = ["TEMPLATES", "PageContent", "Rendered", "page_environment", "render", "rendered_sections"]
+__all__ = ["TEMPLATES", "PageContent", "Rendered", "joined_figures", "page_environment", "render", "rendered_sections"]
 
 
 TEMPLATES = (Path(__file__).parent / "templates", Path(questions.__file__).parent)
@@ -79,7 +79,7 @@ class Rendered:
 def rendered_sections(content: PageContent) -> Rendered:
     """Fill in every section's template."""
     found, study = content.found, content.study
-    figures, lacking = page_figures(study, found, partial=bool(content.provenance["partial"]))
+    figures, lacking = _page_figures(study, found, partial=bool(content.provenance["partial"]))
     values: dict[str, Any] = {
         "groups": contents(study),
         "study": study,
@@ -149,3 +149,31 @@ def _section_text(
             raise
         why = f"Not evaluated, because a curve is partial: {error}"
         return f'<section id="{section.name}"><h2>{section.title}</h2><p>{for_html(why)}</p></section>'
+
+
+def _page_figures(study: Study, found: Comparison, *, partial: bool) -> tuple[dict[str, str], dict[str, InputError]]:
+    """Figures by name; and by question, what a partial curve leaves without any.
+
+    Parameters
+    ----------
+    study, found : what the report is about
+    partial : a curve ended early, so that questions may lack their figures
+    """
+    figures: dict[str, str] = {}
+    lacking = {}
+    for question in questions_of(study):
+        try:
+            figures = joined_figures(figures, question.figures(study, found.answers[question.name]))
+        except InputError as error:
+            if not partial:
+                raise
+            lacking[question.name] = error
+    return figures, lacking
+
+
+def joined_figures(figures: Mapping[str, str], more: Mapping[str, str]) -> dict[str, str]:
+    """Both; a name that two questions give would let one section show the other's figure."""
+    twice = sorted(figures.keys() & more.keys())
+    if twice:
+        raise ValueError(f"figures of two questions have the same name: {', '.join(twice)}")
+    return {**figures, **more}
