@@ -68,8 +68,8 @@ def font_folder() -> Path:
     return Path(get_data_path()) / "fonts" / "ttf"
 
 
-def png_bytes(figure: Figure, dpi: int = 144) -> bytes:
+def png_bytes(figure: Figure) -> bytes:
     """The figure as the content of a PNG file."""
     stream = io.BytesIO()
-    figure.savefig(stream, format="png", dpi=dpi)
+    figure.savefig(stream, format="png", dpi=144)
     return stream.getvalue()

@@ -14,10 +14,8 @@ from workbench.questions.section.graph import section_tasks
 from workbench.questions.wheel.graph import MESH, MESH_WHOLE, wheel_meshes
 from workbench.study.model import Study
 
-__all__ = ["MODELS", "Model", "mesh_tasks", "report_tasks", "stiffness_tasks"]
+__all__ = ["MODELS", "mesh_tasks", "report_tasks", "stiffness_tasks"]
 
-type Model = str
-"""One of `MODELS`."""
 MODELS = ("fe", "section", "ancf", "brush")
 
 
@@ -56,8 +54,8 @@ def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
     return foreseen((*meshes, files))
 
 
-def stiffness_tasks(study: Study, model: Model, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
-    """Curves of one model; no orientation means those of the study."""
+def stiffness_tasks(study: Study, model: str, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
+    """Curves of one of the `MODELS`; no orientation means those of the study."""
     if model == "fe":
         return foreseen((wheel_meshes(study)[0], *fe_curve_tasks(study, orientations_deg)))
     if model == "section":

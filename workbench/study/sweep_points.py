@@ -30,6 +30,7 @@ __all__ = ["Point", "beyond_reach", "design_points", "end_points", "probes", "sw
 
 NAMED = {"strip_thickness": "wheel.tire.thickness", "plates": "ancf.circumferential_plates"}
 """Names of parameters that are more than one key -> the key that says what kind of value they take."""
+_MOST_ENDS = 40
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,11 +107,11 @@ def sweep_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
     return points
 
 
-def end_points(path: Path, table: Mapping[str, Any], most: int = 40) -> list[Point]:
+def end_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
     """Points of [sweep] that hold the first and the last value of every parameter, checked as `sweep_points` does.
 
-    All points if they are no more than ``most``; else for each parameter the first point with its smallest or first
-    value and the first with its largest or last one, of at most ``most`` points. Each is a point that is run, so that
+    All points if they are no more than `_MOST_ENDS`; else for each parameter the first point with its smallest or first
+    value and the first with its largest or last one, of at most so many points. Each is a point that is run, so that
     one which cannot be used is a study that cannot be swept. Empty without a [sweep].
     """
     study = study_of(path, table)
@@ -118,7 +119,7 @@ def end_points(path: Path, table: Mapping[str, Any], most: int = 40) -> list[Poi
         return []
     base = {key: value for key, value in table.items() if key != "sweep"}
     every = design_points(study.sweep)
-    places = range(len(every)) if len(every) <= most else _ends(study.sweep, every)[:most]
+    places = range(len(every)) if len(every) <= _MOST_ENDS else _ends(study.sweep, every)[:_MOST_ENDS]
     return [_point(path, base, place + 1, every[place]) for place in places]
 
 

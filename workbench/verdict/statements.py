@@ -125,9 +125,9 @@ def _plain(matched: str) -> str:
 
 
 @cache
-def families(folder: Path = DATA) -> tuple[Family, ...]:
+def families() -> tuple[Family, ...]:
     """Every family of the package's data files."""
-    rows = [row for path in sorted(folder.glob("*/statements.toml")) for row in _rows(path)]
+    rows = [row for path in sorted(DATA.glob("*/statements.toml")) for row in _rows(path)]
     return tuple(_family(row) for row in rows)
 
 
