@@ -23,7 +23,7 @@ from tests.end_to_end.test_view import ARGUMENTS, CHROMIUM, PATIENCE, start
 from tests.listening import listening
 from tests.small_report_folder import write_small_report
 from tests.viewer_client import Client, browser
-from workbench.viewer.windows import MOST
+from workbench.viewer.window import MOST
 
 NAMES = (
     "<img src=x onerror=document.pwned=1>.csv",

@@ -14,9 +14,9 @@ from trame.ui.html import DivLayout  # type: ignore[import-untyped]
 from trame.widgets import vtk  # type: ignore[import-untyped]
 
 from workbench.viewer.first_state import first_state
-from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
 from workbench.viewer.session import Session
+from workbench.viewer.stages import Results
 from workbench.viewer.window import Window
 
 __all__ = ["open_page"]

@@ -22,9 +22,8 @@ from workbench.viewer.charts import curves_chart, quantities, series_chart
 from workbench.viewer.first_state import first_state
 from workbench.viewer.folder import spoken
 from workbench.viewer.names import plain
-from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
-from workbench.viewer.stages import QUANTITIES, RoverStage, WheelStage
+from workbench.viewer.stages import QUANTITIES, Results, RoverStage, WheelStage
 
 __all__ = ["SPEEDS", "Session"]
 

@@ -14,7 +14,7 @@ from aiohttp import WSMsgType, web
 
 from workbench.viewer.access import Access, entry_page, headers
 from workbench.viewer.requests import LONGEST
-from workbench.viewer.windows import MOST, Windows
+from workbench.viewer.window import MOST, Windows
 
 __all__ = ["site"]
 

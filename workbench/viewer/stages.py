@@ -1,6 +1,7 @@
 """What is looked at: the wheel at its loads, a rover in its motion; each knows its pictures and its words.
 
-Verified by tests/unit/test_viewer_stages.py.
+All windows look at the same ones, a folder's, read once. Verified by tests/unit/test_viewer_stages.py and
+tests/end_to_end/test_view.py.
 """
 
 from __future__ import annotations
@@ -21,10 +22,11 @@ from workbench.questions.fe.field_file import read_points
 from workbench.questions.rover.motion_file import RecordedMotion, read_motion
 from workbench.study.ancf_tire import drawn_tire
 from workbench.viewer.colours import ColourBar, colour_bar
+from workbench.viewer.folder import ReportFolder
 from workbench.viewer.scene import Camera, Scene, read_fields
 from workbench.viewer.wheel_surface import WheelField, WheelSurface
 
-__all__ = ["QUANTITIES", "RoverStage", "WheelStage", "wheel_stage"]
+__all__ = ["QUANTITIES", "Results", "RoverStage", "WheelStage", "wheel_stage"]
 
 FloatArray = NDArray[np.float64]
 QUANTITIES = {"stress": ("von Mises stress", "MPa", 1e-6), "displacement": ("displacement", "mm", 1e3)}
@@ -173,6 +175,25 @@ class RoverStage:
         seen = points @ np.array([across, above]).T
         half = 0.62 * max(np.ptp(seen[:, 1]), np.ptp(seen[:, 0]) / 1.5)
         return Camera(eye=_three(eye), up=_three(up), centre=_three(0.5 * (low + high)), half_height=float(half))
+
+
+class Results:
+    """A folder with its stages; what cannot be read is said before the page opens.
+
+    Attributes
+    ----------
+    folder : as it was found
+    wheels : by (model, orientation [deg])
+    rovers : by (scenario, tire)
+    """
+
+    def __init__(self, folder: ReportFolder) -> None:
+        self.folder = folder
+        self.wheels: dict[tuple[str, float], WheelStage] = {}
+        for key in dict.fromkeys((one.model, one.orientation) for one in folder.fields):
+            files = [(one.load, one.path) for one in folder.fields if (one.model, one.orientation) == key]
+            self.wheels[key] = wheel_stage(key[1], files, folder.points.get(key))
+        self.rovers = {key: RoverStage(path) for key, path in folder.motions.items()}
 
 
 def _unit(vector: tuple[float, float, float]) -> tuple[float, float, float]:
