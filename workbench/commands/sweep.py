@@ -25,6 +25,7 @@ from workbench.report.sweep_page import sweep_page
 from workbench.study.magnitudes import unusual
 from workbench.study.model import Study
 from workbench.study.reading import read_study_table, study_of
+from workbench.study.sweep import SweepSection
 from workbench.study.sweep_points import Point, beyond_reach, design_points, probes, sweep_points
 
 __all__ = ["run_sweep"]
@@ -42,15 +43,15 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
     if study.sweep is not None and (count := len(design_points(study.sweep))) > _MANY:
         console.print(f"reading {count} points, each as a whole study: some {count // 50} s", soft_wrap=True)
     points = sweep_points(study_path, content)
-    assert study.sweep is not None
-    silent = _without_effect(study_path, content, study, points)
+    section = study.sweep
+    assert section is not None
+    silent = _without_effect(study_path, content, section, points)
     warn(study_path, (*_warnings(study, points), *beyond_reach(study, points), *silent))
     check_folder(out)
     check_targets(out, _FILES)
     with naming(study_path):
-        graph = sweep_graph(points, study.sweep.models)
-    models = ", ".join(study.sweep.models)
-    console.print(f"{len(points)} points, {models}: {len(graph.tasks)} tasks")
+        graph = sweep_graph(points, section.models)
+    console.print(f"{len(points)} points, {', '.join(section.models)}: {len(graph.tasks)} tasks")
     with naming(study_path), RunDisplay(console, graph.tasks) as display:
         ended = run_all(graph.tasks, Store(store, study=study_path.stem), display, computing)
     found = outcomes(graph, ended.entries, ended.failures)
@@ -71,17 +72,18 @@ def _warnings(study: Study, points: Sequence[Point]) -> list[str]:
     return [where + warning for warning, where in found.items()][:_MOST_WARNINGS]
 
 
-def _without_effect(path: Path, content: dict[str, Any], study: Study, points: Sequence[Point]) -> Iterator[str]:
+def _without_effect(
+    path: Path, content: dict[str, Any], section: SweepSection, points: Sequence[Point]
+) -> Iterator[str]:
     """Parameters of which no other value changes what any of the models computes, the rest as the study has it."""
-    assert study.sweep is not None
-    for key in study.sweep.parameters:
+    for key in section.parameters:
         values = list(dict.fromkeys(point.values[key] for point in points if key in point.values))
         try:
-            graph = sweep_graph(probes(path, content, key, values[:: max(len(values) - 1, 1)]), study.sweep.models)
+            graph = sweep_graph(probes(path, content, key, values[:: max(len(values) - 1, 1)]), section.models)
         except (StudyError, InputError):  # fits only together with other parameters
             continue
-        if len(values) > 1 and len({run.tasks for run in graph.runs}) == len(study.sweep.models):
-            yield f"sweep.{key} changes nothing that {' or '.join(study.sweep.models)} computes; leave it out"
+        if len(values) > 1 and len({run.tasks for run in graph.runs}) == len(section.models):
+            yield f"sweep.{key} changes nothing that {' or '.join(section.models)} computes; leave it out"
 
 
 def _publish(out: Path, table: SweepTable, page: str) -> None:
