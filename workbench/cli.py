@@ -185,7 +185,7 @@ def rover(
     study: Annotated[
         Path | None,
         typer.Option(
-            help="Study whose [brush], [ancf] and [ground] the rover drives on; the thesis' if left out.",
+            help=r"Study whose \[brush], \[ancf] and \[ground] the rover drives on; the thesis' if left out.",
             show_default=False,
         ),
     ] = None,
@@ -201,7 +201,9 @@ def rover(
     ] = None,
     start: Annotated[
         tuple[float, float] | None,
-        typer.Option(help="Where on the height field the rover starts, x y [m]; 0 0 if left out.", show_default=False),
+        typer.Option(
+            help="Where the rover starts on the height field, x and y in m; 0 0 if left out.", show_default=False
+        ),
     ] = None,
     rocks: Annotated[int | None, typer.Option(help="Seed of random rocks to drive on.", show_default=False)] = None,
     out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/rover"),

@@ -54,7 +54,7 @@ def calibrate_thickness(
 def calibrate_ancf(
     study: StudyOrBuiltIn = None,
     tire: Annotated[
-        str | None, typer.Option(help="One tire of [[ancf_fit.tires]]; all of them if left out.", show_default=False)
+        str | None, typer.Option(help=r"One tire of \[ancf_fit]; all of them if left out.", show_default=False)
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of ancf_fit.json, the curves and the study.")] = Path(
         "build/calibration"
