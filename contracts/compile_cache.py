@@ -1,8 +1,8 @@
 """Where a package keeps its compiled functions: one folder for each state of its sources.
 
-A compiler that caches by the file of a function does not see that another file changed whose function it took in; after
-an update old machine code would then meet new arguments. A folder named by a digest of all sources of the package holds
-what belongs together.
+A compiler that caches by the file of a function does not see that another file changed whose function or constant it
+took in; after an update old machine code would then compute on. A folder named by a digest of all sources of the
+package and of ``contracts``, whose constants every package takes in, holds what belongs together.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 
 __all__ = ["compile_cache", "kept_by_sources"]
 
-_PREFIX, _MARK = "compiled-", b"compiled"
+_PREFIX = "compiled-"
 
 
 @cache
@@ -26,27 +26,30 @@ def compile_cache(package: Path) -> Path:
 
     Parameters
     ----------
-    package : folder of the package; of its sources, subfolders included, those count that speak of `compiled`, the name
-        of each package's decorator
+    package : folder of the package
 
     Verified by tests/unit/test_compile_cache.py.
     """
-    digest = hashlib.sha256()
-    for source in sorted(package.rglob("*.py")):
-        text = source.read_bytes()
-        if _MARK in text:
-            digest.update(source.relative_to(package).as_posix().encode())
-            digest.update(text)
-    keep = package / "__pycache__" / f"{_PREFIX}{digest.hexdigest()[:16]}"
+    keep = package / "__pycache__" / f"{_PREFIX}{_state(package)}"
     for folder in keep.parent.glob(f"{_PREFIX}*"):
         if folder != keep:
             shutil.rmtree(folder, ignore_errors=True)
     return keep
 
 
+def _state(package: Path) -> str:
+    """Digest of the sources of a package and of this one."""
+    digest = hashlib.sha256()
+    for root in (package, Path(__file__).parent):
+        for source in sorted(root.rglob("*.py")):
+            digest.update(source.relative_to(root).as_posix().encode())
+            digest.update(source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
 @contextmanager
 def kept_by_sources(config: Any, package: Path) -> Iterator[None]:
-    """Within, numba caches in `compile_cache` of the package, unless the user chose a folder (``NUMBA_CACHE_DIR``).
+    """Within, numba caches in `compile_cache` of the package, or so in the folder the user chose (``NUMBA_CACHE_DIR``).
 
     Parameters
     ----------
@@ -54,7 +57,9 @@ def kept_by_sources(config: Any, package: Path) -> Iterator[None]:
     package : as in `compile_cache`
     """
     users = config.CACHE_DIR
-    config.CACHE_DIR = users or str(compile_cache(package))
+    config.CACHE_DIR = str(
+        Path(users) / f"{package.name}-{_PREFIX}{_state(package)}" if users else compile_cache(package)
+    )
     try:
         yield
     finally:

@@ -56,15 +56,16 @@ def _openblas() -> Path | None:
 
 def _compiled() -> Path:
     """The shared library, compiled at the first use on this machine."""
-    digest = hashlib.sha256(SOURCE.read_bytes() + platform.machine().encode()).hexdigest()[:16]
+    compiler = os.environ.get("CC") or str(sysconfig.get_config_var("CC") or "cc")
+    command = [*compiler.split(), "-O2", "-shared", "-fPIC", str(SOURCE), "-o"]
+    made_from = SOURCE.read_bytes() + " ".join([platform.machine(), *command[:-2]]).encode()
+    digest = hashlib.sha256(made_from).hexdigest()[:16]
     folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "wheel-workbench"
     target = folder / f"dgemmt-{digest}.so"
     if not target.is_file():
         folder.mkdir(parents=True, exist_ok=True)
-        compiler = os.environ.get("CC") or str(sysconfig.get_config_var("CC") or "cc")
         with tempfile.TemporaryDirectory(dir=folder) as scratch:
             made = Path(scratch) / target.name
-            command = [*compiler.split(), "-O2", "-shared", "-fPIC", "-o", str(made), str(SOURCE)]
-            subprocess.run(command, check=True, capture_output=True, timeout=60)
+            subprocess.run([*command, str(made)], check=True, capture_output=True)
             made.replace(target)  # at once: another process may do the same
     return target

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 
+import contracts.compile_cache as contracts_cache
 from contracts.compile_cache import compile_cache, kept_by_sources
 
 ROOT = Path(__file__).parents[2]
@@ -33,10 +34,10 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def outer_of_three(package: Path) -> float:
-    """What a fresh process computes."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(package.parent), str(ROOT)])}
-    environment.pop("NUMBA_CACHE_DIR", None)
+def outer_of_three(package: Path, users: str = "") -> float:
+    """What a fresh process computes, with the folder for compiled functions that the user chose."""
+    paths = os.pathsep.join([str(package.parent), str(ROOT)])
+    environment = {**os.environ, "PYTHONPATH": paths, "NUMBA_CACHE_DIR": users}
     command = [sys.executable, "-c", "from multi.use import outer; print(outer(3.0))"]
     found = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     return float(found.stdout)
@@ -55,17 +56,31 @@ def test_a_change_in_another_file_is_seen(package: Path) -> None:
     assert first[0] not in list((package / "__pycache__").glob("compiled-*"))
 
 
-def test_the_folder_depends_on_every_source_that_compiles(tmp_path: Path) -> None:
-    (tmp_path / "deep").mkdir()
-    kernel = tmp_path / "deep" / "kernel.py"
-    kernel.write_text("@compiled\ndef a(): return 1", encoding="utf-8")
-    before = compile_cache(tmp_path)
+def test_a_change_is_seen_in_the_users_folder(package: Path, tmp_path: Path) -> None:
+    users = tmp_path / "users"
+    assert outer_of_three(package, str(users)) == 7.0
+    assert list(users.glob("multi-compiled-*/**/*.nbi"))
+    (package / "number.py").write_text(INNER.format(12.25), encoding="utf-8")
+    assert outer_of_three(package, str(users)) == 37.75
+
+
+def test_the_folder_depends_on_every_source_whose_constants_may_be_taken_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package, contracts = tmp_path / "package", tmp_path / "contracts"
+    for source in (package / "deep" / "kernel.py", package / "plain.py", contracts / "terrain.py"):
+        source.parent.mkdir(parents=True, exist_ok=True)
+        source.write_text("a = 1", encoding="utf-8")
+    monkeypatch.setattr(contracts_cache, "__file__", str(contracts / "compile_cache.py"))
+    states = []
+    for source in (package / "deep" / "kernel.py", package / "plain.py", contracts / "terrain.py"):
+        compile_cache.cache_clear()
+        states.append(compile_cache(package))
+        source.write_text("a = 2", encoding="utf-8")
     compile_cache.cache_clear()
-    (tmp_path / "plain.py").write_text("a = 1", encoding="utf-8")
-    assert compile_cache(tmp_path) == before
+    states.append(compile_cache(package))
     compile_cache.cache_clear()
-    kernel.write_text("@compiled\ndef a(): return 2", encoding="utf-8")
-    assert compile_cache(tmp_path) != before
+    assert len(set(states)) == 4
 
 
 @pytest.mark.parametrize("users", ["", "elsewhere"])
@@ -79,5 +94,6 @@ def test_the_users_folder_goes_first_and_stays_set(users: str, tmp_path: Path) -
 
     with pytest.raises(ZeroDivisionError):
         fail()
-    assert seen == [users or str(compile_cache(tmp_path))]
+    own = compile_cache(tmp_path)
+    assert seen == [str(Path(users) / f"{tmp_path.name}-{own.name}" if users else own)]
     assert users == config.CACHE_DIR

@@ -221,6 +221,46 @@ def test_every_library_has_its_distribution() -> None:
     assert {"numpy", "numba", "gmsh", "dolfinx-solver-real", "fenics-ffcx", "vtk"} <= names
 
 
+def test_debians_and_condas_libraries_stand_for_those_of_the_wheel(monkeypatch: pytest.MonkeyPatch) -> None:
+    def distribution(name: str) -> None:
+        if name == "dolfinx-solver-real":
+            raise importlib.metadata.PackageNotFoundError(name)
+
+    monkeypatch.setattr(importlib.metadata, "distribution", distribution)
+    for function in (reached_libraries, reach._installed):
+        function.cache_clear()
+    names = set(reached_libraries("workbench.questions.fe.task"))
+    for function in (reached_libraries, reach._installed):
+        function.cache_clear()
+    assert {"fenics-dolfinx", "petsc4py", "fenics-ffcx"} <= names
+    assert "dolfinx-solver-real" not in names
+
+
+def test_every_published_table_is_an_input_of_what_is_held_against_it() -> None:
+    """A name put together at run time would hide: a changed reference would leave old verdicts standing."""
+    tasks = report_tasks(read_study(built_in_study()))
+    inputs = {name for task in tasks for name in reached(task.function.partition(":")[0])}
+    tests = "".join(path.read_text("utf-8") for path in (ROOT / "tests").rglob("test_*.py"))
+    tables = sorted((ROOT / "contracts" / "published").glob("*.csv"))
+    assert len(tables) > 10
+    hidden = [t.stem for t in tables if f"contracts/published/{t.name}" not in inputs and f'"{t.stem}"' not in tests]
+    assert hidden == []
+    matrices = reached("ancf_reduced.verification.plate_matrices")
+    for name in ("mass", "gravity", "elastic_force"):
+        assert f"contracts/published/ancf_plate_{name}.csv" in matrices
+
+
+def test_packages_that_hold_no_code_are_words_alone() -> None:
+    """An ``__init__`` runs whenever a module below it is imported, and no key covers it unless it is named."""
+    for package in PACKAGES:
+        for path in (ROOT / package).rglob("__init__.py"):
+            if path.parent.name in ("workbench", "published"):  # the one is the Python interface, the other is named
+                continue
+            (words,) = ast.parse(path.read_text("utf-8")).body
+            assert isinstance(words, ast.Expr), path
+            assert isinstance(words.value, ast.Constant), path
+
+
 def test_nothing_reached_imports_by_a_name_made_at_run_time() -> None:
     """No import of ours hides from the text."""
     tasks = report_tasks(read_study(built_in_study()))

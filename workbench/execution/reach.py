@@ -11,6 +11,7 @@ Verified by tests/unit/test_reach.py and, against what workers load, tests/end_t
 from __future__ import annotations
 
 import hashlib
+import importlib.metadata
 import importlib.util
 import re
 import sys
@@ -32,6 +33,8 @@ _DISTRIBUTIONS = {
     "objective_rating_metrics": ("objective-rating-metrics",),
 }
 """Name of an import -> the distributions behind it, where it is not its own."""
+_ELSEWHERE = {"dolfinx-solver-real": ("fenics-dolfinx", "petsc4py")}
+"""Distribution -> those of Debian and conda that bring the same."""
 _IMPORT = re.compile(r"^ *(?:from ([\w.]+) import (\([^)]*\)|.+)|import (.+))", re.MULTILINE)
 _COMMENT = re.compile("#.*")
 _TYPES_ALONE = re.compile(r"^( *)if TYPE_CHECKING:\n(?:\1 .*\n|\n)*", re.MULTILINE)
@@ -59,7 +62,18 @@ def reached(module: str) -> Mapping[str, str]:
 def reached_libraries(module: str) -> tuple[str, ...]:
     """Distributions of the libraries that a module can reach, sorted."""
     names = {name for one in reached(module) if "/" not in one for name in _named(one).libraries}
-    return tuple(sorted({found for name in names for found in _DISTRIBUTIONS.get(name, (name,))}))
+    whole = {found for name in names for found in _DISTRIBUTIONS.get(name, (name,))}
+    return tuple(sorted({found for name in whole for found in _installed(name)}))
+
+
+@cache
+def _installed(distribution: str) -> tuple[str, ...]:
+    """The distribution, or those that stand for it where it is not installed."""
+    try:
+        importlib.metadata.distribution(distribution)
+    except importlib.metadata.PackageNotFoundError:
+        return _ELSEWHERE.get(distribution, (distribution,))
+    return (distribution,)
 
 
 @cache
