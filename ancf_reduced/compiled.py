@@ -74,13 +74,13 @@ def symmetric_at(f: FloatArray, q: int) -> Symmetric:
 
 @inlined
 def dot(a: Vector, b: Vector) -> float:
-    """Scalar product."""
+    """Scalar product of two vectors (x, y, z), in the product of their units."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 @inlined
 def combination(x: Vector, a: Vector, b: Vector, c: Vector) -> Vector:
-    """x0 a + x1 b + x2 c."""
+    """Vector (x, y, z): x0 a + x1 b + x2 c."""
     return (
         x[0] * a[0] + x[1] * b[0] + x[2] * c[0],
         x[0] * a[1] + x[1] * b[1] + x[2] * c[1],
@@ -90,5 +90,5 @@ def combination(x: Vector, a: Vector, b: Vector, c: Vector) -> Vector:
 
 @inlined
 def columns(S: Symmetric) -> tuple[Vector, Vector, Vector]:
-    """Columns of a symmetric tensor."""
+    """Columns, (x, y, z) each, of a symmetric tensor (11, 22, 33, 23, 13, 12)."""
     return (S[0], S[5], S[4]), (S[5], S[1], S[3]), (S[4], S[3], S[2])

@@ -36,7 +36,7 @@ _DAMAGED = (
 
 
 def read_archive(path: Path, what: str, largest: int, names: Iterable[str] | None = None) -> dict[str, NDArray[Any]]:
-    """Arrays of an archive by name.
+    """Arrays of an archive by name, of whatever shape and type they have: the caller judges these.
 
     Parameters
     ----------

@@ -140,6 +140,9 @@ def write_curve(curve: StiffnessCurve, path: Path) -> None:
 def read_curve(path: Path, model: str | None = None, orientation_deg: float | None = None) -> StiffnessCurve:
     """Read a curve from CSV: comment lines with ``#``, a header, ``deflection_m,load_N`` first.
 
+    Columns are (n,), deflection [m] and load [N]. ``model`` is the file's stem by default; ``orientation_deg`` [deg] is
+    None for an average.
+
     Raises
     ------
     InputError

@@ -49,7 +49,7 @@ class In:
     least: float | None = None
 
     def broken(self, value: float) -> str | None:
-        """The rule that a value breaks, in words; None if it breaks none."""
+        """The rule that a value [``unit``] breaks, in words; None if it breaks none."""
         above = self.above is None or value > self.above
         below = self.below is None or value < self.below
         if math.isfinite(value) and above and below and (self.least is None or value >= self.least):
@@ -62,7 +62,7 @@ class In:
         return f"must be finite{words}"
 
     def shown(self, value: float) -> str:
-        """A value with its unit as one says it: lengths in mm."""
+        """A value [``unit``] with its unit as one says it: lengths in mm."""
         return f"{1e3 * value:g} mm" if self.unit == "m" else f"{value:g} {self.unit}".rstrip()
 
 

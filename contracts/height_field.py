@@ -65,11 +65,11 @@ class HeightField:
             raise InputError("height field spacing", f"{self.spacing} m", rule, "check its unit, give metres")
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """See `contracts.terrain.Terrain`."""
+        """Height (...) [m] at x, y [m], see `contracts.terrain.Terrain`."""
         return self._interpolated(x, y, 0, 0)
 
     def gradient(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """See `contracts.terrain.Terrain`."""
+        """Slopes (..., 2) [-] at x, y [m], see `contracts.terrain.Terrain`."""
         return np.stack([self._interpolated(x, y, 1, 0), self._interpolated(x, y, 0, 1)], axis=-1)
 
     def pieces(self) -> TerrainPieces:
@@ -105,7 +105,7 @@ class HeightField:
 
 
 def cubic_weights(t: FloatArray, order: int = 0) -> FloatArray:
-    """Weights (..., 4) of the heights at -1, 0, 1, 2 for the place t in 0..1, or their first derivative."""
+    """Weights (..., 4) [-] of the heights at -1, 0, 1, 2 for places t (...) in 0..1 [-], or their derivative by t."""
     coefficients = 0.5 * np.array([[0, -1, 2, -1], [2, 0, -5, 3], [0, 1, 4, -3], [0, 0, -1, 1]], dtype=np.float64)
     powers = [t**0, t, t**2, t**3] if order == 0 else [0.0 * t, t**0, 2 * t, 3 * t**2]
     return np.asarray(np.stack(powers, axis=-1) @ coefficients.T)

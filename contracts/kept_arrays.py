@@ -24,7 +24,10 @@ _BLOCK = 1 << 20
 
 
 def write_kept(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Keep these arrays; the file that was there stays whole until this one is, and if this one cannot be written."""
+    """Keep these arrays, of any shape and type but Python objects.
+
+    The file that was there stays whole until this one is, and if this one cannot be written.
+    """
     fresh = path.with_name(f".{path.stem}-{machine()}-{os.getpid()}.npz")
     try:
         with fresh.open("w+b") as stream:
@@ -39,7 +42,7 @@ def write_kept(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
 
 
 def read_kept(path: Path) -> dict[str, NDArray[Any]] | None:
-    """The arrays, or None if the file is absent or damaged in any byte."""
+    """The arrays as `write_kept` had them, or None if the file is absent, cannot be read or is damaged in any byte."""
     try:
         with path.open("rb") as stream:
             if not _is_whole(stream):

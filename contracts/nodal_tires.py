@@ -70,7 +70,7 @@ class NodalTires(Protocol):
     n_wheels : tires
     mass : (n, n) float [kg, kg m, kg m^2] of each tire, the same for each direction, constant
     weight : (n,) float [kg, kg m], so that gravity's force on a tire is weight[:, None] * g
-    position_rows : rows of a tire's vectors that are positions
+    position_rows : (n_positions,) int, rows of a tire's vectors that are positions, increasing
     pattern : (n_blocks, 2) int, row and column vector of each 3 x 3 block that a tangent may have
     """
 
@@ -80,19 +80,19 @@ class NodalTires(Protocol):
 
     @property
     def mass(self) -> FloatArray:
-        """See the class."""
+        """(n, n) [kg, kg m, kg m^2], see the class."""
 
     @property
     def weight(self) -> FloatArray:
-        """See the class."""
+        """(n,) [kg, kg m], see the class."""
 
     @property
     def position_rows(self) -> IntArray:
-        """See the class."""
+        """(n_positions,) int, see the class."""
 
     @property
     def pattern(self) -> IntArray:
-        """See the class."""
+        """(n_blocks, 2) int, see the class."""
 
     def reference(self) -> FloatArray:
         """Vectors (n, 3) of a stress-free tire in the wheel frame, x forward, y along the axle, hub centre at 0."""
@@ -115,7 +115,7 @@ class NodalTires(Protocol):
         """
 
     def contacts(self, z: FloatArray, v: FloatArray) -> TireContacts:
-        """What the ground does, for output; arguments as `force`."""
+        """What the ground does to each wheel, for output; z, v (n_wheels, n, 3) as `force`."""
 
     def energies(self, z: FloatArray, v: FloatArray) -> TireEnergies:
-        """The account, for checks; arguments as `force`."""
+        """The account [J, W] of all tires, for checks; z, v (n_wheels, n, 3) as `force`."""

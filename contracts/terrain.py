@@ -111,12 +111,12 @@ class Plane:
         check_finite("plane offset", self.offset)
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """See `Terrain`; InputError for a vertical or overhanging plane."""
+        """Height (...) [m] at x, y [m], see `Terrain`; InputError for a vertical or overhanging plane."""
         slope = self.gradient(x, y)
         return np.asarray(self.offset / self.normal[2] + slope[..., 0] * x + slope[..., 1] * y)
 
     def gradient(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """See `Terrain`; InputError for a vertical or overhanging plane."""
+        """Slopes (..., 2) [-], see `Terrain`; InputError for a vertical or overhanging plane."""
         a, b, c = self.normal
         if c <= 0.0:
             raise InputError("plane normal", self.normal, "must point upwards to have a height", "turn the plane")

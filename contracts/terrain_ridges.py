@@ -38,11 +38,11 @@ class _Ridge:
         raise NotImplementedError
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """See `Terrain`."""
+        """Height (...) [m] at x, y [m] in the world frame, see `Terrain`."""
         return self.base + self.profile(self._along(x, y))[0]
 
     def gradient(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """See `Terrain`."""
+        """Slopes (..., 2) [-] along x and y of the world frame, see `Terrain`."""
         slope = self.profile(self._along(x, y))[1]
         return np.stack([math.cos(self.yaw) * slope, math.sin(self.yaw) * slope], axis=-1)
 

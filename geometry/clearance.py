@@ -59,7 +59,7 @@ def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float], key: st
 def require_clear_sets(sets: Sequence[SpringSet], gap: tuple[float, float], keys: Sequence[str]) -> None:
     """Raise InputError if springs of one set overlap, or those of two sets that share (or touch) an axial band.
 
-    ``keys`` say where the sets stand in their wheel.
+    ``gap`` is (hub, rim), radii [m] as in `require_clear_of_rings`; ``keys`` say where the sets stand in their wheel.
     """
     strips = [_strips(springs, gap) for springs in sets]
     for i, (first, own) in enumerate(zip(sets, strips, strict=True)):

@@ -26,14 +26,14 @@ def write_inp(
     """Write the mesh as 20-node hexahedra: an element set for each part, a node set for each face group.
 
     Nodes keep their number plus one; those in the middle of faces and cells, which 20-node hexahedra do not have, are
-    left out. Names are written in capitals, coordinates with 13 digits.
+    left out. Names are written in capitals, coordinates [m] with 13 digits.
 
     Parameters
     ----------
     mesh : 27-node hexahedra
     path : file to write (``.inp``); its folder is made if needed
     element : type of the elements, C3D20 or C3D20R
-    node_sets : further node sets by name, as node numbers of the mesh
+    node_sets : further node sets by name, (n,) int each, node numbers of the mesh from 0
 
     Raises
     ------

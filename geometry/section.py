@@ -92,7 +92,7 @@ class _Draft:
         return key
 
     def ring_arc(self, name: str, radius: float, ring: Ring, i: int) -> Curve:
-        """Arc about the axle between breaks ``i`` and ``i + 1`` of a ring."""
+        """Arc of ``radius`` [m] about the axle between breaks ``i`` and ``i + 1`` of a ring."""
         j = (i + 1) % len(ring.angles)
         ends = [self.corner((name, k), polar(radius, ring.angle(k))) for k in (i, j)]
         return Curve(start=ends[0], end=ends[1], centre=np.zeros(2))

@@ -105,7 +105,7 @@ def contact_grid(
     Parameters
     ----------
     mesh, plates, shape : as `build_contact_grid`
-    xi, share : see `ContactGrid`
+    xi, share : (n_points, 3) and (n_points,) float [-], see `ContactGrid`; on either face
 
     Raises
     ------

@@ -174,7 +174,7 @@ class PlateContact:
         return force
 
     def power(self, p: FloatArray, v: FloatArray) -> ContactPower:
-        """Energy account; arguments as `force`."""
+        """Energy account [J, W]; p, v (n_nodes, 4, 3) as `force`."""
         _, energy, damping, friction, power = self._evaluate(p, v, np.empty_like(p))
         return ContactPower(energy=energy, damping=damping, friction=friction, power=power)
 
@@ -198,7 +198,7 @@ class PlateContact:
         return both[0], both[1]
 
     def patch(self, p: FloatArray, v: FloatArray) -> ContactPatch:
-        """The points that touch, for output; arguments as `force`."""
+        """The points that touch, for output, in the world frame; p, v (n_nodes, 4, 3) as `force`."""
         carriers, points = self.grid.tables.interpolation.shape[:2]
         capacity = carriers * points * len(self.terrain.rows)
         where, record = np.empty((capacity, 2), dtype=np.int64), np.empty((capacity, 14))

@@ -172,7 +172,7 @@ def _inverse_foot_matrix(
 
 @compiled
 def is_outside(piece: FloatArray, knots: FloatArray, x: float, y: float) -> bool:
-    """Whether a point lies beside a height field, where its end cells are only continued."""
+    """Whether x, y [m] lie beside a height field, where its end cells are only continued; piece (7,) as `piece_gap`."""
     if int(piece[0]) != HEIGHT_FIELD:
         return False
     u, v = (x - piece[1]) / piece[3], (y - piece[2]) / piece[4]
@@ -209,7 +209,7 @@ def piece_bound(piece: FloatArray, terrain: TerrainPieces, low: Vector, high: Ve
 
 @compiled
 def is_clear(bound: Bound, low: Vector, high: Vector) -> bool:
-    """Whether a box lies outside the half space of `piece_bound`."""
+    """Whether a box, corners (x, y, z) [m], lies outside the half space (n_x, n_y, n_z, d) [-, m] of `piece_bound`."""
     return (
         least(bound[0], low[0], high[0]) + least(bound[1], low[1], high[1]) + least(bound[2], low[2], high[2])
         > bound[3]
@@ -225,7 +225,7 @@ def _highest_wave(amplitude: float, first: float, last: float) -> float:
 
 @compiled
 def least(a: float, low: float, high: float) -> float:
-    """Smallest a x over low..high."""
+    """Smallest a x [m] over x in low..high [m], a [-]."""
     return a * low if a > 0.0 else a * high
 
 

@@ -130,7 +130,7 @@ class _Trials:
         self.last: tuple[FloatArray, Tire, list[TireEquilibria]] | None = None
 
     def solve(self, unknowns: FloatArray) -> tuple[Tire, list[TireEquilibria]]:
-        """The tire at trial unknowns and its equilibria at each orientation."""
+        """The tire at trial unknowns (n_free,) [-, rad] and its equilibria at each orientation."""
         if self.last is None or not np.array_equal(self.last[0], unknowns):
             self.evaluations += 1
             tire = build_tire(preset_at(self.start, self.free, unknowns))
@@ -142,7 +142,10 @@ class _Trials:
         return self.last[1:]
 
     def residual(self, unknowns: FloatArray) -> FloatArray:
-        """Weighted residual; NaN where the tire is impossible or has no equilibrium, which scipy steps back from."""
+        """Weighted residual [-] of load minus data, (n_phi n,), orientation after orientation.
+
+        NaN where the tire is impossible or has no equilibrium, which scipy steps back from; the first trial raises.
+        """
         try:
             states = self.solve(unknowns)[1]
         except (ConvergenceError, MeshError, InputError):
@@ -152,7 +155,7 @@ class _Trials:
         return self.data.weighted(np.array([s.load for s in states]) - self.data.load)
 
     def jacobian(self, unknowns: FloatArray) -> FloatArray:
-        """Its derivative, (n_phi n, n_free)."""
+        """Its derivative by the unknowns, (n_phi n, n_free) [-, 1/rad]."""
         tire, states = self.solve(unknowns)
         varied = vary_tire(tire, self.free)
         return self.data.weighted(np.array([load_gradient(varied, s) for s in states]))
@@ -171,9 +174,10 @@ def fit_curves(
     Parameters
     ----------
     start : where the search begins; all that is not free stays as it is here
-    free : parameters and their bounds, no number of the preset twice
+    free : parameters and their bounds [SI], no number of the preset twice
     data : loads to be met, more than there are parameters
-    tolerance : relative change of the sum of squares, or of the unknowns, at which the search ends
+    tolerance : relative change of the sum of squares or of the unknowns, or largest component of the scaled gradient,
+        at which the search ends [-]
     max_evaluations : tires solved at most; the best one so far is returned then, marked as not settled
     known : an earlier fit to data at the same places; its equilibria are where Newton's method begins
 

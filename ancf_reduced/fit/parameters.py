@@ -54,7 +54,7 @@ class Parameter(StrEnum):
         return self is not Parameter.PHASE
 
     def of(self, preset: TirePreset) -> float:
-        """Its value in a preset; that of the rim for one thickness of both."""
+        """Its value in a preset [own unit]; that of the rim for one thickness of both."""
         return float(getattr(preset, self.fields[0]))
 
     def unknown(self, value: float) -> float:
@@ -62,7 +62,7 @@ class Parameter(StrEnum):
         return math.log(value) if self.is_relative else value
 
     def value_at(self, unknown: float) -> float:
-        """Inverse of `unknown`."""
+        """The value [own unit] of an unknown [-, rad]: the inverse of `unknown`."""
         return math.exp(unknown) if self.is_relative else unknown
 
     def slope(self, value: float) -> float:

@@ -68,8 +68,8 @@ def fit_from_phases(
 
     Parameters
     ----------
-    start, free, data, tolerance : as `fit_curves`
-    starts : phases to begin with; more than one needs the phase to be free
+    start, free, data, tolerance [-] : as `fit_curves`
+    starts : phases to begin with, see `phases_over_a_turn`; more than one needs the phase to be free
 
     Raises
     ------

@@ -136,10 +136,10 @@ def follow_path(
 
     Parameters
     ----------
-    solve_at : (control parameter, first iterate) -> NewtonResult
-    start : control parameter and solution to start from
-    targets : control parameters wanted, in order
-    controls : smallest increment
+    solve_at : (control parameter, first iterate (n,)) -> NewtonResult
+    start : control parameter and solution (n,) to start from
+    targets : control parameters wanted, in order, in a unit of their own: m for a deflection, [-] for a load factor
+    controls : smallest increment, in the same unit
     history : every attempt is appended
 
     Yields one PathPoint per target, as soon as it is reached.
@@ -147,7 +147,7 @@ def follow_path(
     Raises
     ------
     ConvergenceError
-        If an increment below ``controls.smallest_step`` fails; with the history, without a last good state.
+        If an increment fails whose half is below ``controls.smallest_step``; with the history, no last good state.
 
     Verified by tests/unit/test_ancf_equilibrium.py.
     """

@@ -137,7 +137,7 @@ def _check(start: MotionState, times: FloatArray, step: float) -> None:
 
 
 def check_times(start: MotionState, times: FloatArray) -> None:
-    """Raise InputError for wanted times that are not finite or do not increase from the start's.
+    """Raise InputError for no times, or wanted times (n,) [s] that are not finite or do not increase from the start's.
 
     Verified by tests/unit/test_ancf_implicit_dynamics.py.
     """

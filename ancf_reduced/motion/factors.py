@@ -20,12 +20,13 @@ FloatArray = NDArray[np.float64]
 
 
 def factorised(matrix: Any) -> Callable[[FloatArray], FloatArray]:
-    """The inverse of a full or sparse (CSC) matrix as a map of vectors.
+    """The inverse of a full or sparse (CSC) matrix (n, n) as a map of vectors (n,) or of columns (n, m).
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        If the matrix is singular or holds what is no finite number; from the map, if a solution is no finite number.
+        If the matrix is singular or holds NaN, at the latest from the map, which refuses a solution that is no finite
+        number. A matrix with infinite entries may have a finite one.
     """
     solve = _dense(matrix) if isinstance(matrix, np.ndarray) else _sparse(matrix)
 

@@ -96,7 +96,7 @@ def integrate_implicit(
     settings: ImplicitSettings | None = None,
     watch: Callable[[MotionState], None] | None = None,
 ) -> Iterator[MotionState]:
-    """States at the wanted times.
+    """States at the wanted times (n,) [s], vectors and rates (n_vectors, 3) each.
 
     Parameters
     ----------
@@ -106,9 +106,9 @@ def integrate_implicit(
     Raises
     ------
     InputError
-        For times that are not finite or do not increase from the start.
+        For no times, or some that are not finite or do not increase from the start.
     ConvergenceError
-        If a step below the smallest one does not converge.
+        If the step would have to be cut below the smallest one, or the start has no consistent accelerations.
 
     Verified by tests/unit/test_ancf_implicit_dynamics.py.
     """
@@ -161,7 +161,7 @@ class _Run:
         return _Step(state=start, acceleration=a, auxiliary=a, multipliers=x[force.size :])
 
     def advance(self, here: _Step, h: float) -> _Step | None:
-        """One step; None if Newton's iteration does not converge or its matrix is singular."""
+        """One step h [s]; None if Newton's iteration does not converge or its matrix is singular."""
         w, system = self.weights, self.system
         time, a, lam = here.state.time + h, here.acceleration.copy(), here.multipliers
         auxiliary = (w.alpha_f * here.acceleration + (1.0 - w.alpha_f) * a - w.alpha_m * here.auxiliary) / (

@@ -51,11 +51,11 @@ class Linearisation:
         self.mass: Matrix = mass.toarray() if self.is_small else csc_array(mass)
 
     def elastic(self, z: FloatArray) -> Matrix:
-        """Derivative of the elastic force by z."""
+        """Derivative of the elastic force by z (n_vectors, 3): (3 n, 3 n) [N/m, N, N m]."""
         return self._reduced(self.system.model.elastic_tangents(self.system.coordinates.expand(z)))
 
     def damping(self, z: FloatArray, v: FloatArray, time: float = 0.0) -> Matrix:
-        """Minus the derivative of `PlateSystem.force` by v."""
+        """Minus the derivative of `PlateSystem.force` by v (n_vectors, 3): (3 n, 3 n) [N s/m, N s, N m s]."""
         system = self.system
         p, p_dot = system.coordinates.expand(z), system.coordinates.expand_rates(v)
         blocks = np.zeros((len(system.model.mesh.elements), 48, 48))
@@ -67,7 +67,7 @@ class Linearisation:
         return self._reduced(blocks)
 
     def stiffness_and_damping(self, z: FloatArray, v: FloatArray, time: float) -> tuple[Matrix, Matrix]:
-        """Minus the derivatives of `PlateSystem.force` by z and by v."""
+        """Minus the derivatives of `PlateSystem.force` by z and by v, (3 n, 3 n) each [as `elastic`, `damping`]."""
         system = self.system
         p, p_dot = system.coordinates.expand(z), system.coordinates.expand_rates(v)
         stiffness, damping = system.model.elastic_tangents(p), np.zeros((len(system.model.mesh.elements), 48, 48))

@@ -64,7 +64,7 @@ class MassFactor:
         return np.asarray(self._upper @ z[self.order])
 
     def from_cholesky(self, z_bar: FloatArray) -> FloatArray:
-        """The inverse of `to_cholesky`."""
+        """Vectors (n, 3) [m, -] from z_bar (n, 3) [kg^1/2 m], the inverse of `to_cholesky`; rates likewise."""
         z = np.empty_like(z_bar)
         z[self.order] = spsolve_triangular(self._upper, z_bar, lower=False)
         return z

@@ -142,7 +142,7 @@ class PlateSystem:
         return -float(np.sum(self.dead_load * z))
 
     def reference(self) -> FloatArray:
-        """Independent vectors of the stress-free configuration."""
+        """Independent vectors (n_vectors, 3) [m, -] of the stress-free configuration."""
         return self.coordinates.restrict(self.model.mesh.reference_coordinates())
 
 

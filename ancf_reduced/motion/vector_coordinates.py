@@ -61,7 +61,7 @@ class VectorCoordinates:
 
     @property
     def position_rows(self) -> IntArray:
-        """Rows of z that are positions: those that no gradient of a node depends on."""
+        """Rows of z that are positions, (n,) int, increasing: those that no gradient of a node depends on."""
         on_gradients = np.delete(np.arange(self.map.shape[0]), np.s_[::4])
         return np.setdiff1d(np.arange(self.n_vectors), self.map[on_gradients].indices)
 

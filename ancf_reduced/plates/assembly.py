@@ -34,7 +34,7 @@ def dense_matrix(mesh: PlateMesh, blocks: FloatArray) -> FloatArray:
 
 
 def sparse_matrix(mesh: PlateMesh, blocks: FloatArray) -> csc_array:
-    """The same as `dense_matrix`, sparse, by compressed columns.
+    """The same as `dense_matrix`, sparse, by compressed columns: (size, size), size 12 n_nodes or 4 n_nodes.
 
     Verified by tests/unit/test_ancf_plate_assembly.py.
     """

@@ -149,7 +149,7 @@ class PlateMesh:
         return np.concatenate([s[..., :1], gradients], axis=-1).reshape(len(self.elements), -1, 16)
 
     def plates_of(self, part: str) -> NDArray[np.int64]:
-        """Numbers of the plates of one part; raises InputError if there is none."""
+        """Numbers (n,) of the plates of one part; raises InputError if there is none."""
         found = np.array([j for j, name in enumerate(self.parts) if name == part], dtype=np.int64)
         if not len(found):
             raise InputError("part", part, f"is not in the mesh ({sorted(set(self.parts))})", "check the name")

@@ -109,7 +109,8 @@ def build_tire(
     Parameters
     ----------
     preset : the tire's numbers
-    shape, tangent_length : interpolation and |r_x1| at the rim's nodes; arguments so that a test can damage them
+    shape, tangent_length : interpolation, and |r_x1| [-] at the rim's nodes from a plate's angle [rad]; arguments so
+        that a test can damage them
 
     Verified by tests/verification/test_ancf_tire_table.py.
     """

@@ -56,13 +56,14 @@ class PlaneProblem:
         return self.contact(deflection).force(p, np.zeros_like(p))
 
     def patch(self, p: FloatArray, deflection: float) -> ContactPatch:
-        """The points that touch."""
+        """The points that touch at coordinates p (n_nodes, 4, 3) and a deflection [m], wheel frame."""
         return self.contact(deflection).patch(p, np.zeros_like(p))
 
     def residual(self, x: FloatArray, deflection: float) -> tuple[FloatArray, float]:
-        """Elastic minus contact force on the free coordinates, gradient rows divided by t: all in newtons.
+        """Elastic minus contact force (12 n_free,), gradient rows divided by t, and its scale: all in newtons.
 
-        The scale is the largest contact force component, and at least 1e-4 E t w (so that the dead zone has one).
+        At x (12 n_free,) [m, -] and a deflection [m]. The scale is the largest contact force component, and at least
+        1e-4 E t w (so that the dead zone has one).
         """
         preset, p = self.tire.preset, self.expand(x)
         contact, free = self.contact_force(p, deflection), self.tire.tie.free
@@ -72,7 +73,7 @@ class PlaneProblem:
         return out_of_balance.ravel(), max(float(np.abs(contact[free] * unit).max()), floor)
 
     def tangent(self, x: FloatArray, deflection: float) -> FloatArray:
-        """Exact derivative of `residual` (contact points that switch excepted)."""
+        """Exact derivative (12 n_free, 12 n_free) [N/m, N] of `residual` by x (contact points that switch excepted)."""
         preset, p = self.tire.preset, self.expand(x)
         contact = self.contact(deflection).tangents(p, np.zeros_like(p))[0]
         rows = (12 * self.tire.tie.free[:, None] + np.arange(12)).ravel()
@@ -81,7 +82,7 @@ class PlaneProblem:
         return np.asarray(tangent[np.ix_(rows, rows)] * unit[:, None])
 
     def solve(self, deflection: float, start: FloatArray, controls: NewtonControls) -> NewtonResult:
-        """Newton at one deflection; a result with an inverted plate counts as not converged."""
+        """Newton at one deflection [m] from x (12 n_free,); a result with an inverted plate counts as not converged."""
         result = newton_solve(
             lambda x: self.residual(x, deflection), lambda x: self.tangent(x, deflection), start, controls
         )

@@ -208,7 +208,10 @@ def stiffness_curve(
 def tire_curve(
     tire: Tire, phi: float, deflections: FloatArray | Sequence[float], controls: NewtonControls | None = None
 ) -> StiffnessCurve:
-    """Stiffness curve of a tire that is built already, on whatever plates; see `stiffness_curve`."""
+    """Stiffness curve of a tire that is built already, on whatever plates; see `stiffness_curve`.
+
+    phi [rad], deflections (n,) [m], controls : as there
+    """
     return solve_tire(tire, phi, deflections, controls).curve(source=_describe(tire))
 
 

@@ -86,7 +86,7 @@ class HubDrive:
         return force
 
     def tangents(self, p: FloatArray, v: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
-        """Zero: the drive is slow, and Newton's iteration does without its derivative."""
+        """Zero, (n_plates, 48, 48) each: the drive is slow, and Newton's iteration does without its derivative."""
         none = np.zeros((len(self.tire.mesh.elements), 48, 48))
         return none, none
 

@@ -63,7 +63,7 @@ class WheelSet:
 
     @property
     def position_rows(self) -> IntArray:
-        """Rows of one tire's vectors that are positions."""
+        """Rows of one tire's vectors that are positions, (n_positions,) int."""
         return self.one.position_rows
 
     @property
@@ -107,15 +107,15 @@ class WheelSet:
         return self.reduction(matrices)
 
     def node_coordinates(self, z: FloatArray) -> FloatArray:
-        """Structure coordinates (n_wheels n_nodes, 4, 3) of all tires, wheel after wheel."""
+        """Structure coordinates (n_wheels n_nodes, 4, 3) [m, -] from z (n_wheels, n, 3), wheel after wheel."""
         return self.system.coordinates.expand(z.reshape(-1, 3))
 
     def node_rates(self, v: FloatArray) -> FloatArray:
-        """Their rates."""
+        """Their rates [m/s, 1/s], from v (n_wheels, n, 3)."""
         return self.system.coordinates.expand_rates(v.reshape(-1, 3))
 
     def contacts(self, z: FloatArray, v: FloatArray) -> TireContacts:
-        """What the ground does to each wheel."""
+        """What the ground does to each wheel; z, v (n_wheels, n, 3) [m, -], [m/s, 1/s], world frame."""
         patch = self.contact.patch(self.node_coordinates(z), self.node_rates(v))
         wheel, hubs = patch.plates * self.n_wheels // self.contact.grid.n_plates, z[:, -4]
         n, N = self.n_wheels, patch.normal_force
@@ -146,7 +146,7 @@ class WheelSet:
         )
 
     def energies(self, z: FloatArray, v: FloatArray) -> TireEnergies:
-        """Stored and dissipated by all tires."""
+        """Stored [J] and dissipated [W] by all tires; z, v as `contacts`."""
         p, p_dot, system = self.node_coordinates(z), self.node_rates(v), self.system
         power = self.contact.power(p, p_dot)
         spent = float(np.sum(system.model.damping_force(p, p_dot) * p_dot)) if system.is_damped else 0.0

@@ -46,7 +46,7 @@ class PressedArch:
 
 
 def pressed_arch(plates: int = 32, thickness: float = THICKNESS) -> PressedArch:
-    """Crown stiffness of the arch of plates, mid-surface radius 130 mm."""
+    """Crown stiffness [N/m] of the arch of plates of a ``thickness`` [m], mid-surface radius 130 mm."""
     preset = replace(thesis_preset(), rim_thickness=thickness, outer_radius=RADIUS + 0.5 * thickness)
     angle = 0.5 * np.pi / plates
     ends = [RADIUS * ground_direction_h(phi)[[0, 2]] for phi in (0.0, 0.5 * np.pi)]

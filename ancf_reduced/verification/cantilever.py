@@ -74,8 +74,8 @@ def cantilever_path(
 
     Parameters
     ----------
-    targets : load factors, of those in the table; all of them if left out
-    thickness : of the strip; the load stays
+    targets : load factors [-], of those in the table; all of them but zero if left out
+    thickness : of the strip, in the paper's unit of length; the load stays
     follows : whether the moment turns with the strip's end
     """
     length, table = LENGTH[load], cantilever_table(load)

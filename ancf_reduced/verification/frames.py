@@ -39,7 +39,7 @@ class LoadedFrame:
 
 
 def loaded_frame(angles_deg: tuple[float, ...], plates: int = 8, thickness: float = THICKNESS) -> LoadedFrame:
-    """Linear drop of the first arm's end under the force; one arm for each angle, ``plates`` a leg."""
+    """Linear drop [m] of the first arm's end under the force; one arm for each angle [deg], ``plates`` a leg."""
     patches = strip(0.0 * Z, HEIGHT * Z, WIDTH * Y, thickness, plates, "stem")
     ways = [LENGTH * (np.cos(a) * X + np.sin(a) * Z) for a in np.deg2rad(angles_deg)]
     for way in ways:

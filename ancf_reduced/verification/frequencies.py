@@ -54,7 +54,7 @@ class Frequencies:
 
 
 def cantilever_frequencies(plates: int = 24, thickness: float = THICKNESS) -> Frequencies:
-    """The two lowest frequencies of bending in the plane of thickness and length."""
+    """The two lowest frequencies [Hz] of bending in the plane of ``thickness`` [m] and length."""
     mesh = build_plate_mesh(strip(0.0 * X, SIZE * X, 1e-3 * Y, thickness, plates))
     model = build_plate_model(mesh, young_modulus=YOUNG, poisson_ratio=0.0, density=DENSITY)
     held = np.repeat((mesh.points[:, 0] < 1e-9)[:, None], 4, axis=1)
@@ -65,7 +65,7 @@ def cantilever_frequencies(plates: int = 24, thickness: float = THICKNESS) -> Fr
 
 
 def ring_frequencies(plates: int = 48, thickness: float = RING_THICKNESS) -> Frequencies:
-    """Frequencies of the free ring that bend it in its plane, two for each n = 2, 3."""
+    """Frequencies [Hz] of the free ring of a ``thickness`` [m] that bend it in its plane, two for each n = 2, 3."""
     preset = replace(
         thesis_preset(),
         outer_radius=SIZE + 0.5 * thickness,

@@ -41,7 +41,7 @@ class BentCantilever:
 def bent_cantilever(
     poisson_ratio: float, locking: PoissonLocking, plates: int = 32, *, held_flat: bool = False
 ) -> BentCantilever:
-    """Linear deflection under the force, which is spread over the two end nodes."""
+    """Linear deflection [m] under the force, which is spread over the two end nodes."""
     mesh = build_plate_mesh(strip(0.0 * X, LENGTH * X, WIDTH * Y, THICKNESS, plates))
     model = build_plate_model(
         mesh, young_modulus=YOUNG, poisson_ratio=poisson_ratio, density=1.0, poisson_locking=locking

@@ -59,7 +59,7 @@ class PendulumFall:
 
 
 def pendulum_fall(quadrature: tuple[int, int, int] = (5, 5, 3), fraction: float = 0.125) -> PendulumFall:
-    """Fall for 0.4 s with steps of a ``fraction`` of the stable one."""
+    """Fall for 0.4 s with steps of a ``fraction`` [-] of the stable one, ``quadrature`` points along x1, x2, x3."""
     table, system = published_table("ancf_plate_pendulum_4x2_nu0.3"), _pendulum(quadrature)
     start = system.reference()
     step = fraction * stable_step(system, start)

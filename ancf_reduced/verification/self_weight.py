@@ -43,7 +43,7 @@ class HangingPlate:
 
 
 def hanging_plate(plates: int = 32, young_modulus: float = YOUNG) -> HangingPlate:
-    """Let a row of plates sink in five steps of the weight."""
+    """Let a row of plates of a modulus [Pa] sink in five steps of the weight."""
     mesh = build_plate_mesh(strip(0.0 * X, SIDE * X, SIDE * Y, THICKNESS, plates))
     model = build_plate_model(mesh, young_modulus=young_modulus, poisson_ratio=0.0, density=DENSITY)
     weight = gravity_force(model, -GRAVITY * Z)
