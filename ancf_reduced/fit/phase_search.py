@@ -86,6 +86,9 @@ def fit_from_phases(
     if phase is None:
         raise InputError("phase starts", starts, "need the phase to be free", "add it, or begin once")
     begun = phases_over_a_turn(start.phase, start.spokes, starts, (phase.lower, phase.upper))
+    if not begun:
+        rule = f"leave no phase of the tire between {phase.lower:g} and {phase.upper:g} rad"
+        raise InputError("phase starts", starts, rule, "begin at least once, or widen the bounds")
     fits, failures = list[CurveFit | None](), list[ConvergenceError]()
     for p in begun:
         try:

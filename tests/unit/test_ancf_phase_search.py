@@ -60,3 +60,9 @@ def test_one_start_is_the_plain_fit() -> None:
 def test_starts_without_a_free_phase_are_refused() -> None:
     with pytest.raises(InputError, match="need the phase to be free"):
         fit_from_phases(TRUTH, [MODULUS], DATA, 2)
+
+
+@pytest.mark.parametrize(("starts", "lower", "upper"), [(2, 1.0, 1.1), (0, -1.0, 1.0), (-1, -1.0, 1.0)])
+def test_starts_that_leave_no_phase_are_refused(starts: int, lower: float, upper: float) -> None:
+    with pytest.raises(InputError, match="leave no phase of the tire"):
+        fit_from_phases(TRUTH, [replace(PHASE, lower=lower, upper=upper)], DATA, starts)
