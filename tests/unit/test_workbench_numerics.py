@@ -10,8 +10,8 @@ import pytest
 from contracts.curves import StiffnessCurve
 from contracts.errors import IncrementRecord
 from workbench.questions.model_curves import ModelCurves, RunNumbers
-from workbench.questions.numerics.results import Numerics
-from workbench.questions.wheel.results import WheelMeshes
+from workbench.questions.numerics.question import Numerics
+from workbench.questions.wheel.question import WheelMeshes
 
 D = np.linspace(0.0, 0.02, 5)
 INCREMENTS = (

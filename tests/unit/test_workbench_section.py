@@ -12,8 +12,7 @@ from contracts.errors import IncrementRecord, InputError
 from workbench.execution.task import task_keys
 from workbench.questions.model_curves import ModelCurves, RunNumbers
 from workbench.questions.registry import questions_of
-from workbench.questions.section.checks import largest_difference, section_checks
-from workbench.questions.section.question import SectionRuns
+from workbench.questions.section.question import SectionRuns, largest_difference, section_checks
 from workbench.questions.study_graph import report_tasks, stiffness_tasks
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study

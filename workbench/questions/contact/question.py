@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -11,15 +11,51 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.contact.checks import AUGMENTED, penalty_check, penetration_check
 from workbench.questions.fe.graph import INNER_STIFFNESS, fe_inputs, fe_task, without_fields
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
+from workbench.verdict.rules import Claim, at_most
 
-__all__ = ["CONTACT", "ContactRun", "PenaltyStudy"]
+__all__ = ["AUGMENTED", "CONTACT", "ContactRun", "PenaltyStudy", "largest_change", "penalty_check", "penetration_check"]
+
+AUGMENTED = "augmented_lagrangian"
+_LIMIT = 0.005
+_DEEPEST = 1e-6
+
+
+def largest_change(loads: Mapping[str, float]) -> float:
+    """Largest |F / F_al - 1| of the study's penalty and ten times it, F_al with the augmented Lagrangian [-]."""
+    return max(abs(loads[name] / loads[AUGMENTED] - 1.0) for name in ("1", "10"))
+
+
+def penalty_check(loads: Callable[[], Mapping[str, float]], where: str) -> Check:
+    """``loads`` gives loads [N] by factor on the penalty (``"0.1"``, ``"1"``, ``"10"``) and by `AUGMENTED`."""
+    claim = Claim(
+        id="fe.penalty_study",
+        title=f"FE: load with the penalty, once and ten times, against the augmented Lagrangian, {where}",
+        quantity="change of load",
+        unit="-",
+        role="gate",
+        source="augmented Lagrangian, Simo & Laursen 1992, Comput. Struct. 42, 97-116; the limit is ours",
+    )
+    return at_most(claim, lambda: largest_change(loads()), _LIMIT)
+
+
+def penetration_check(depth: Callable[[], float], where: str) -> Check:
+    """``depth`` gives the largest penetration [m] that the augmented Lagrangian leaves anywhere on the faces."""
+    claim = Claim(
+        id="fe.penetration",
+        title=f"FE: largest penetration anywhere on the faces with the augmented Lagrangian, up to {where}",
+        quantity="penetration",
+        unit="m",
+        role="gate",
+        source="Signorini's condition (Wriggers 2006): no point below the ground; the limit is ours",
+    )
+    return at_most(claim, depth, _DEEPEST)
+
 
 _FACTORS = ("0.1", "1", "10")
 _NO_LIMIT = 1e6

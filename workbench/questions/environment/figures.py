@@ -6,7 +6,7 @@ from contracts.materials_tables import KELVIN_AT_ZERO_CELSIUS
 from workbench.charts.curves import named
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import INK, ORIENTATION_COLOURS
-from workbench.questions.environment.checks import Series
+from workbench.questions.environment.question import Series
 
 __all__ = ["environment_figures"]
 

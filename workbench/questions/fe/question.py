@@ -10,9 +10,14 @@ from collections.abc import Mapping, Sequence
 from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.fe.checks import band_checks, reach_check, spread_checks
+from workbench.questions.fe.checks import (
+    band_checks,
+    circumferential_tangent_check,
+    overlap_checks,
+    reach_check,
+    spread_checks,
+)
 from workbench.questions.fe.graph import fe_curve_tasks
-from workbench.questions.fe.limits import circumferential_tangent_check, overlap_checks
 from workbench.questions.fe.results import ContinuumCurves, read_continuum
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from workbench.charts.interactive import figure_html
+from workbench.charts.interactive import figure_html, log_axes, low_figure
 from workbench.charts.palette import ORIENTATION_COLOURS
-from workbench.questions.verification.published import log_axes, low_figure
 
 if TYPE_CHECKING:
-    from workbench.questions.multibody.results import WorkRow
+    from workbench.questions.multibody.question import WorkRow
 
 __all__ = ["work_figures"]
 

@@ -1,21 +1,176 @@
 """Question: did every run of the finite elements come to its end in equilibrium, and on what mesh?
 
-Verified by tests/unit/test_workbench_checks.py and tests/end_to_end/test_partial_curve.py.
+Verified by tests/unit/test_workbench_checks.py, tests/unit/test_workbench_numerics.py and
+tests/end_to_end/test_partial_curve.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 
+import numpy as np
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from contracts.records import Check
-from workbench.questions.numerics.checks import solver_checks
-from workbench.questions.numerics.completeness import completeness_check
+from workbench.execution.result_files import early_ends
+from workbench.questions.mesh_study.question import mesh_study_of
+from workbench.questions.mesh_study.results import MeshRun
+from workbench.questions.model_curves import ModelCurves, RunNumbers, model_curves
 from workbench.questions.numerics.energy import energy_check
-from workbench.questions.numerics.results import Numerics, read_numerics
 from workbench.questions.question import Question
+from workbench.questions.wheel.question import WheelMeshes, read_wheel
 from workbench.study.model import Study
+from workbench.study.sections import ToleranceSection
+from workbench.verdict.rules import Claim, at_most, stated
+from workbench.verdict.status import COMPLETE
 
-__all__ = ["NUMERICS"]
+__all__ = [
+    "NUMERICS",
+    "Numerics",
+    "SolverRow",
+    "completeness_check",
+    "largest_residual",
+    "read_numerics",
+    "solver_checks",
+]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SolverRow:
+    """One orientation [deg] in the table of increments.
+
+    Attributes
+    ----------
+    increments, cuts, iterations : converged, cut back; Newton iterations of all
+    partial, missing : the run ended before its target; no point of it converged
+    residual : largest relative residual at the end of a converged increment [-]; None without any
+    imbalance, moment_imbalance : largest of any point, over the contact force, and over that times the radius [-]
+    deflection, load : where the curve ends [m, N]
+    dofs, solve_s : unknowns, wall time [s]
+    """
+
+    orientation: float
+    increments: int
+    cuts: int
+    iterations: int
+    partial: bool
+    missing: bool
+    residual: float | None
+    imbalance: float
+    moment_imbalance: float
+    deflection: float
+    load: float
+    dofs: int
+    solve_s: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Numerics:
+    """Runs of every orientation and of the mesh study, the meshes, and task -> why its run ended early."""
+
+    fe: ModelCurves
+    others: tuple[MeshRun, ...]
+    meshes: WheelMeshes
+    early_ends: Mapping[str, str]
+
+    @property
+    def rows(self) -> list[SolverRow]:
+        """In the order of the orientations."""
+        return [self._row(orientation) for orientation in self.fe.by_orientation]
+
+    def _row(self, orientation: float) -> SolverRow:
+        curve, run = self.fe.by_orientation[orientation], self.fe.runs[orientation]
+        return SolverRow(
+            orientation=orientation,
+            increments=len(run.converged),
+            cuts=len(run.increments) - len(run.converged),
+            iterations=run.iterations,
+            partial=curve.partial,
+            missing=curve.unloaded,
+            residual=max((one.residuals[-1] for one in run.converged), default=None),
+            imbalance=float(abs(curve.columns["force_imbalance"]).max()),
+            moment_imbalance=float(abs(curve.columns["moment_imbalance"]).max()),
+            deflection=float(curve.deflection[-1]),
+            load=float(curve.load[-1]),
+            dofs=run.dofs,
+            solve_s=run.solve_s,
+        )
+
+
+def read_numerics(study: Study, folders: Mapping[str, Path]) -> Numerics:
+    """Everything about the runs from the folders of their tasks."""
+    mesh_study = mesh_study_of(study, folders)
+    return Numerics(
+        fe=model_curves("fe", folders),
+        others=() if mesh_study is None else mesh_study.runs,
+        meshes=read_wheel(study, folders),
+        early_ends=early_ends(folders),
+    )
+
+
+_EQUILIBRIUM = "equilibrium of the discrete weak form, Bonet & Wood 2008, ch. 8; the limit is the solver's own"
+_SUMS = "Euler's laws of motion at rest; the limit is ours"
+
+
+def solver_checks(fe: ModelCurves, others: Sequence[MeshRun], tol: ToleranceSection) -> list[Check]:
+    """Residual and balance of every run, those of the mesh study included."""
+    curves = [*fe.by_orientation.values(), *(run.curve for run in others)]
+    numbers = [*fe.runs.values(), *(run.numbers for run in others)]
+    moments = "FE: largest imbalance of moments about the hub's centre over contact force times radius"
+    residual = "FE: largest residual of any converged increment, relative to the nodal support and contact forces"
+    return [
+        at_most(
+            _gate("fe.residual", residual, "residual", _EQUILIBRIUM),
+            lambda: largest_residual(numbers),
+            tol.fe_residual,
+        ),
+        at_most(
+            _gate("fe.balance", "FE: largest imbalance of forces over contact force", "imbalance", _SUMS),
+            partial(_largest, curves, "force_imbalance"),
+            tol.fe_balance,
+        ),
+        at_most(
+            _gate("fe.moment_balance", moments, "imbalance", _SUMS),
+            partial(_largest, curves, "moment_imbalance"),
+            tol.fe_balance,
+        ),
+    ]
+
+
+def _largest(curves: Sequence[StiffnessCurve], column: str) -> float:
+    """Largest absolute value of a column on any curve that carries load; NaN without any."""
+    return max((float(np.abs(c.columns[column]).max()) for c in curves if not c.unloaded), default=math.nan)
+
+
+def largest_residual(runs: Sequence[RunNumbers]) -> float:
+    """Largest relative residual at the end of any converged increment of any run [-]."""
+    found = [one.residuals[-1] for run in runs for one in run.converged]
+    if not found:
+        raise InputError("increments", 0, "converged", "see the runs' messages")
+    return max(found)
+
+
+def _gate(id: str, title: str, quantity: str, source: str) -> Claim:
+    return Claim(id=id, title=title, quantity=quantity, unit="-", role="gate", source=source)
+
+
+def completeness_check(early_ends: Mapping[str, str]) -> Check:
+    """A gate: no finite element run ended before its target. ``early_ends``: task name -> reason."""
+    named = f": {', '.join(early_ends)}; what rests on them is partial" if early_ends else ""
+    claim = Claim(
+        id=COMPLETE,
+        title=f"FE: runs that did not converge to their end{named}",
+        quantity="runs",
+        unit="-",
+        role="gate",
+        source="no publication: guards every other number against resting on a curve that ended early",
+    )
+    return stated(claim, float(len(early_ends)), 0.0, "none", "error" if early_ends else "pass")
 
 
 def _checks(study: Study, results: Numerics) -> Sequence[Check]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import ORIENTATION_COLOURS
-from workbench.questions.orientations.results import OrientationMap
+from workbench.questions.orientations.question import OrientationMap
 
 __all__ = ["orientation_figures"]
 

@@ -20,7 +20,7 @@ from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from workbench.execution.result_files import FAILURE, read_result
 from workbench.execution.task import Task
 from workbench.questions.question import Question
-from workbench.questions.rover_mission.checks import MISSION_SOURCE
+from workbench.questions.rover_mission.requirements import MISSION_SOURCE
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_brush, rover_on_brush
 from workbench.verdict.rules import Claim, at_least, at_most, near

@@ -19,7 +19,7 @@ from workbench.questions.model_curves import model_curves
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import Drive, read_drive
 from workbench.questions.rover_ancf.results import OBSERVED, AncfRover
-from workbench.questions.rover_mission.checks import mission_checks
+from workbench.questions.rover_mission.requirements import mission_checks
 from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, on_tire_of_thesis, rover_ancf, rover_on_ancf
 from workbench.study.rover import runs_on_ancf_tires

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.charts.interactive import empty_figure, figure_html
+from workbench.charts.interactive import empty_figure, figure_html, log_axis
 from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.rover_closer.results import GROUNDS, CloserLook
 
@@ -63,6 +63,5 @@ def _spectra(found: CloserLook, ground: str) -> str:
             line = {"color": MODEL_COLOURS[tire], "width": 1.8}
             seen = np.maximum(one.amplitude[1:], _LOWEST)
             figure.add_scatter(x=one.frequency[1:], y=seen, name=f"{tire} tires", mode="lines", line=line)
-    figure.update_yaxes(type="log", rangemode="normal", exponentformat="power", dtick=1, title_standoff=12)
-    figure.update_layout(margin_l=84)
+    log_axis(figure)
     return figure_html(figure, f"closer-spectrum-{ground}")

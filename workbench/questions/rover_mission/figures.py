@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS
-from workbench.questions.rover_mission.row import TITLES
+from workbench.questions.rover_mission.requirements import TITLES
 
 if TYPE_CHECKING:
-    from workbench.questions.rover_mission.row import Mission
+    from workbench.questions.rover_mission.question import Mission
 
 __all__ = ["mission_figures"]
 

@@ -16,11 +16,8 @@ from contracts.records import Check
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
 from workbench.questions.section.graph import without_planar_model
-from workbench.questions.speed.aim import Aim
-from workbench.questions.speed.ancf import ARITHMETIC, CHRONO, TIRE, ancf_aims
-from workbench.questions.speed.flexible import flexible_aims
+from workbench.questions.speed.aims import ARITHMETIC, CHRONO, TIRE, Aim, ancf_aims, flexible_aims, rover_aims
 from workbench.questions.speed.record import BenchmarkRecord, BenchmarkRow, read_record
-from workbench.questions.speed.rover import rover_aims
 from workbench.questions.verification.question import VERIFICATION
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_most

@@ -83,8 +83,7 @@ def _checks(study: Study, results: Verification) -> Sequence[Check]:
 
 
 def _figures(study: Study, results: Verification) -> Mapping[str, str]:
-    from workbench.questions.verification.figures import verification_figures
-    from workbench.questions.verification.figures_ancf import ancf_verification_figures
+    from workbench.questions.verification.figures import ancf_verification_figures, verification_figures
 
     return verification_figures(results.fe.numbers) | ancf_verification_figures(results.ancf.numbers)
 
