@@ -18,6 +18,7 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
+from workbench.questions.ancf.figures import ancf_figures
 from workbench.questions.ancf.preset_table import COLUMNS, preset_table
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
@@ -195,12 +196,6 @@ def _curves(study: Study, results: AncfTireResults) -> Sequence[StiffnessCurve]:
     return [*results.ancf.by_orientation.values(), results.ancf.average]
 
 
-def _figures(study: Study, results: AncfTireResults) -> Mapping[str, str]:
-    from workbench.questions.ancf.figures import ancf_figure
-
-    return {"ancf": ancf_figure(results.fe_average, results.ancf)}
-
-
 ANCF = Question(
     name="ancf",
     title="ANCF",
@@ -208,7 +203,7 @@ ANCF = Question(
     tasks=_tasks,
     read=read_ancf,
     checks=_checks,
-    figures=_figures,
+    figures=ancf_figures,
     curves=_curves,
     applies=lambda study: study.ancf is not None,
 )

@@ -9,6 +9,7 @@ from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 
 if TYPE_CHECKING:
     from workbench.questions.ancf_fit.question import AncfFits
+    from workbench.study.model import Study
 
 __all__ = ["fit_figures"]
 
@@ -16,7 +17,7 @@ _DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 _MARKERS = ("circle", "square", "diamond", "triangle-up", "cross", "x")
 
 
-def fit_figures(fits: AncfFits) -> dict[str, str]:
+def fit_figures(study: Study, fits: AncfFits) -> dict[str, str]:
     """Averages of all tires with the FE's, and the kept tire at each orientation with the FE's points."""
     best, averages, fe = fits.best, empty_figure(), fits.fe.average
     averages.add_scatter(x=1e3 * fe.deflection, y=fe.load, name="FE average", mode="lines",

@@ -16,6 +16,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.task import Task
+from workbench.questions.ancf_fit.figures import fit_figures
 from workbench.questions.ancf_fit.fit import FittedTire, read_fit
 from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
 from workbench.questions.model_curves import ModelCurves, model_curves
@@ -118,12 +119,6 @@ def _check(tire: FittedTire[Fitted], limit: float) -> Check:
     return at_most(claim, lambda: abs(tire.numbers.average.largest), limit)
 
 
-def _figures(study: Study, fits: AncfFits) -> Mapping[str, str]:
-    from workbench.questions.ancf_fit.figures import fit_figures
-
-    return fit_figures(fits)
-
-
 def _curves(study: Study, fits: AncfFits) -> Sequence[StiffnessCurve]:
     return [curve for tire in fits.fitted for curve in (*tire.curves.values(), tire.average)]
 
@@ -139,7 +134,7 @@ ANCF_FIT = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=fit_figures,
     curves=_curves,
     applies=_wanted,
 )

@@ -21,6 +21,7 @@ from contracts.materials_tables import KELVIN_AT_ZERO_CELSIUS
 from contracts.materials_temperature import REFERENCE_TEMPERATURE, TEMPERATURE_DATA
 from contracts.records import Check
 from workbench.execution.task import Task
+from workbench.questions.environment.figures import environment_figures
 from workbench.questions.fe.graph import curve_deflections, fe_inputs, fe_task, material_inputs, without_fields
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
@@ -277,12 +278,6 @@ def _curves(study: Study, results: tuple[Series, ...]) -> list[StiffnessCurve]:
     ]
 
 
-def _figures(study: Study, results: tuple[Series, ...]) -> dict[str, str]:
-    from workbench.questions.environment.figures import environment_figures
-
-    return environment_figures(results)
-
-
 ENVIRONMENT: Question = Question(
     name="environment",
     title="Temperature",
@@ -290,7 +285,7 @@ ENVIRONMENT: Question = Question(
     tasks=environment_tasks,
     read=_read,
     checks=environment_checks,
-    figures=_figures,
+    figures=environment_figures,
     curves=_curves,
     applies=lambda study: study.environment is not None,
 )

@@ -14,6 +14,7 @@ from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.execution.task import Task
 from workbench.questions.fe.graph import fe_inputs, fe_task, without_fields
+from workbench.questions.mesh_study.figures import mesh_study_figures
 from workbench.questions.mesh_study.results import MeshStudy, mesh_run_name, read_mesh_study
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
@@ -90,12 +91,6 @@ def _curves(study: Study, results: MeshStudy) -> list[StiffnessCurve]:
     return [replace(run.curve, model=f"fe_x{run.factor:g}") for run in runs]
 
 
-def _figures(study: Study, results: MeshStudy) -> Mapping[str, str]:
-    from workbench.questions.mesh_study.figures import mesh_study_figure
-
-    return {"mesh_study": mesh_study_figure(results)}
-
-
 MESH_STUDY = Question(
     name="mesh_study",
     title="Mesh uncertainty",
@@ -103,7 +98,7 @@ MESH_STUDY = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=mesh_study_figures,
     curves=_curves,
     applies=lambda study: study.mesh_study is not None,
 )

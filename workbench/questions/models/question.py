@@ -21,6 +21,7 @@ from workbench.questions.fe.results import ContinuumCurves, read_continuum
 from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves
 from workbench.questions.models.agreement import Agreement, agreements, noted
 from workbench.questions.models.curves import brush_curve
+from workbench.questions.models.figures import models_figures
 from workbench.questions.models.graph import brush_task, metrics_task
 from workbench.questions.models.metrics import CurveMetrics
 from workbench.questions.question import Question
@@ -212,21 +213,6 @@ def _curves(study: Study, results: ComparedModels) -> Sequence[StiffnessCurve]:
     return () if results.brush is None else (results.brush,)
 
 
-def _figures(study: Study, results: ComparedModels) -> Mapping[str, str]:
-    from workbench.questions.models.figures import models_figure
-
-    continuum = results.continuum
-    figure = models_figure(
-        continuum.fe.average,
-        continuum.mesh_study,
-        continuum.users,
-        study.reference,
-        ancf=None if results.ancf is None else results.ancf.average,
-        brush=results.brush,
-    )
-    return {"models": figure}
-
-
 MODELS = Question(
     name="models",
     title="Models compared",
@@ -234,6 +220,6 @@ MODELS = Question(
     tasks=_tasks,
     read=read_models,
     checks=_checks,
-    figures=_figures,
+    figures=models_figures,
     curves=_curves,
 )

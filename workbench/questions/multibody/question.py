@@ -14,6 +14,7 @@ from contracts.errors import InputError
 from contracts.records import Check, Role
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
+from workbench.questions.multibody.figures import work_figures
 from workbench.questions.question import Question
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_least, at_most
@@ -136,12 +137,6 @@ def _gained(results: MultibodyResults, problem: str) -> Callable[[], float]:
     return lambda: results.of(problem, "implicit", 1e-4).error / results.of(problem, "implicit", 1e-6).error
 
 
-def _figures(study: Study, results: MultibodyResults) -> Mapping[str, str]:
-    from workbench.questions.multibody.figures import work_figures
-
-    return work_figures(results.rows)
-
-
 def _applies(study: Study) -> bool:
     return study.verification is not None and study.verification.enabled
 
@@ -153,6 +148,6 @@ MULTIBODY = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=work_figures,
     applies=_applies,
 )

@@ -16,6 +16,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.model_curves import model_curves
+from workbench.questions.orientations.figures import orientation_figures
 from workbench.questions.question import Question
 from workbench.study.full import is_mirrored, rotational_period
 from workbench.study.model import Study
@@ -116,18 +117,12 @@ def _checks(study: Study, results: OrientationMap) -> Sequence[Check]:
     return [at_most(claim, results.mirror_error, _MIRROR_LIMIT)]
 
 
-def _figures(study: Study, results: OrientationMap) -> Mapping[str, str]:
-    from workbench.questions.orientations.figures import orientation_figures
-
-    return orientation_figures(results)
-
-
 ORIENTATIONS = Question(
     name="orientations",
     title="Load over orientation",
     group="Wheel",
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=orientation_figures,
     applies=lambda study: len(study.fe.orientations) >= _FEWEST,
 )

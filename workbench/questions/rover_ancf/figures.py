@@ -13,6 +13,7 @@ from workbench.questions.rover.oscillation import spectrum
 
 if TYPE_CHECKING:
     from workbench.questions.rover_ancf.results import AncfRover
+    from workbench.study.model import Study
 
 __all__ = ["rover_ancf_figures"]
 
@@ -20,7 +21,7 @@ FloatArray = NDArray[np.float64]
 _WHEEL = "front_right"
 
 
-def rover_ancf_figures(results: AncfRover) -> dict[str, str]:
+def rover_ancf_figures(study: Study, results: AncfRover) -> dict[str, str]:
     """HTML by name, after the thesis' figures."""
     return {
         "rover_ancf_fig18": _both(results, "drop", f"{_WHEEL}_load_N", "wheel load, front right [N]", until=1.0),

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from workbench.charts.interactive import empty_figure, figure_html, log_axis
 from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.rover_closer.results import GROUNDS, CloserLook
+
+if TYPE_CHECKING:
+    from workbench.study.model import Study
 
 __all__ = ["closer_figures"]
 
@@ -14,7 +19,7 @@ _LOWEST = 1e-6
 """Amplitudes below this one are not drawn [m/s^2]."""
 
 
-def closer_figures(found: CloserLook) -> dict[str, str]:
+def closer_figures(study: Study, found: CloserLook) -> dict[str, str]:
     """HTML by name: pressure at each moment, strains, spectra."""
     return {
         **{f"closer_pressure_{k}": text for k, text in enumerate(_pressures(found))},

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import BAND, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.rover_crosscheck.results import ALLOWED, CrossCheck, lattice
+
+if TYPE_CHECKING:
+    from workbench.study.model import Study
 
 __all__ = ["crosscheck_figures"]
 
@@ -14,7 +19,7 @@ _MARKERS = ("circle", "square", "diamond")
 _DASHES = ("solid", "dash", "dot")
 
 
-def crosscheck_figures(found: CrossCheck) -> dict[str, str]:
+def crosscheck_figures(study: Study, found: CrossCheck) -> dict[str, str]:
     """Deflection of the standing rover around the wheel, and the load sweep."""
     return {
         "crosscheck_around": _around(found),

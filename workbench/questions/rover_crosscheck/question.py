@@ -21,6 +21,7 @@ from workbench.questions.mesh_study.question import mesh_study_inputs
 from workbench.questions.mesh_study.results import read_mesh_study
 from workbench.questions.model_curves import CURVE, model_curves
 from workbench.questions.question import Question
+from workbench.questions.rover_crosscheck.figures import crosscheck_figures
 from workbench.questions.rover_crosscheck.results import (
     ALLOWED,
     CrossCheck,
@@ -160,12 +161,6 @@ def _raiser(error: InputError) -> Callable[[], float]:
     return number
 
 
-def _figures(study: Study, results: CrossCheck) -> Mapping[str, str]:
-    from workbench.questions.rover_crosscheck.figures import crosscheck_figures
-
-    return crosscheck_figures(results)
-
-
 def _applies(study: Study) -> bool:
     asked = study.rover is not None and study.ancf_fit is not None
     return asked and study.fe.max_deflection >= _REACH and fits_rover(study)
@@ -178,6 +173,6 @@ ROVER_CROSSCHECK = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=crosscheck_figures,
     applies=_applies,
 )

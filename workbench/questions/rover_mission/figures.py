@@ -10,13 +10,14 @@ from workbench.questions.rover_mission.requirements import TITLES
 
 if TYPE_CHECKING:
     from workbench.questions.rover_mission.question import Mission
+    from workbench.study.model import Study
 
 __all__ = ["mission_figures"]
 
 _SIDES = ("front_left", "front_right", "rear_left", "rear_right")
 
 
-def mission_figures(results: Mission) -> dict[str, str]:
+def mission_figures(study: Study, results: Mission) -> dict[str, str]:
     """Of each run that moved, by name: the heaviest of four wheels' loads, and the speed ahead, on both tires."""
     return {
         f"mission_{name}_{column}": _both(results, name, column)

@@ -16,6 +16,7 @@ from workbench.questions.ancf_fit.graph import fit_name
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import Drive, read_drive
 from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
+from workbench.questions.rover_mission.figures import mission_figures
 from workbench.questions.rover_mission.requirements import MissionRow, mission_checks, mission_rows
 from workbench.study.model import Study
 from workbench.study.rover import runs_on_ancf_tires
@@ -83,12 +84,6 @@ def _checks(study: Study, results: Mission) -> Sequence[Check]:
     return mission_checks(results.rows, "rover_mission.", "fitted ANCF tires")
 
 
-def _figures(study: Study, results: Mission) -> Mapping[str, str]:
-    from workbench.questions.rover_mission.figures import mission_figures
-
-    return mission_figures(results)
-
-
 def _series(study: Study, results: Mission) -> Sequence[TimeSeries]:
     return [drive.series for drive in results.fitted.values() if drive.series is not None]
 
@@ -100,7 +95,7 @@ ROVER_MISSION = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=mission_figures,
     series=_series,
     applies=lambda study: bool(_runs(study)) and ROVER_CROSSCHECK.applies(study),
 )

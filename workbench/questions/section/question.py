@@ -14,6 +14,7 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.model_curves import ModelCurves, mean_curve, model_curves
 from workbench.questions.question import Question
+from workbench.questions.section.figures import section_figures
 from workbench.questions.section.graph import section_tasks, without_planar_model
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
@@ -131,12 +132,6 @@ def _checks(study: Study, runs: SectionRuns) -> Sequence[Check]:
     return section_checks(runs.section, runs.fe, study.tolerances)
 
 
-def _figures(study: Study, runs: SectionRuns) -> Mapping[str, str]:
-    from workbench.questions.section.figures import section_figure
-
-    return {"section": section_figure(runs.section, runs.fe)}
-
-
 def _curves(study: Study, runs: SectionRuns) -> Sequence[StiffnessCurve]:
     return [*runs.section.by_orientation.values(), runs.section.average]
 
@@ -152,7 +147,7 @@ SECTION = Question(
     tasks=section_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=section_figures,
     curves=_curves,
     applies=_planar,
 )

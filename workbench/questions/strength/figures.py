@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import INK, ORIENTATION_COLOURS
 from workbench.questions.strength.yielding import StrengthResults, utilisation
 
+if TYPE_CHECKING:
+    from workbench.study.model import Study
+
 __all__ = ["strength_figures"]
 
 
-def strength_figures(results: StrengthResults) -> dict[str, str]:
+def strength_figures(study: Study, results: StrengthResults) -> dict[str, str]:
     """Utilisation of the most stressed part at each orientation, and of each part at its worst orientation."""
     around = empty_figure("load on the wheel [N]", "largest stress / yield strength")
     for i, (orientation, curve) in enumerate(results.curves.items()):

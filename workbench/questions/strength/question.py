@@ -14,6 +14,7 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
+from workbench.questions.strength.figures import strength_figures
 from workbench.questions.strength.yielding import (
     StrengthResults,
     first_yield,
@@ -99,12 +100,6 @@ def _checks(study: Study, results: StrengthResults) -> list[Check]:
     return [yield_check(results.fe, yield_strengths(study), up_to), at_least(claim, smallest, up_to)]
 
 
-def _figures(study: Study, results: StrengthResults) -> dict[str, str]:
-    from workbench.questions.strength.figures import strength_figures
-
-    return strength_figures(results)
-
-
 STRENGTH: Question = Question(
-    name="strength", title="Strength", group="Wheel", read=_read, checks=_checks, figures=_figures
+    name="strength", title="Strength", group="Wheel", read=_read, checks=_checks, figures=strength_figures
 )
