@@ -160,10 +160,7 @@ def ancf_checks(ancf: ModelCurves, tolerances: ToleranceSection) -> list[Check]:
         source="Samarini 2020, Table I",
     )
     first = next(iter(ancf.runs.values()))
-    return [
-        *checks,
-        near(mass, lambda: first.flexible_mass, _THESIS_WHEEL_MASS, tolerances.flexible_mass),
-    ]
+    return [*checks, near(mass, lambda: first.flexible_mass, _THESIS_WHEEL_MASS, tolerances.flexible_mass)]
 
 
 def surfaces_check(distance: Callable[[], float], tolerances: ToleranceSection) -> Check:
@@ -182,10 +179,6 @@ def surfaces_check(distance: Callable[[], float], tolerances: ToleranceSection) 
     )
 
 
-def _tasks(study: Study) -> Sequence[Task]:
-    return [*ancf_curve_tasks(study), report_surfaces_task(study)]
-
-
 def _checks(study: Study, results: AncfTireResults) -> Sequence[Check]:
     tolerances = study.tolerances
     preset = ancf_checks(results.ancf, tolerances) if stated(study.ancf, "ancf").thesis_preset else []
@@ -200,7 +193,7 @@ ANCF = Question(
     name="ancf",
     title="ANCF",
     group="ANCF tire",
-    tasks=_tasks,
+    tasks=lambda study: [*ancf_curve_tasks(study), report_surfaces_task(study)],
     read=read_ancf,
     checks=_checks,
     figures=ancf_figures,

@@ -15,14 +15,13 @@ import numpy as np
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
-from workbench.execution.task import Task
 from workbench.questions.ancf_fit.figures import fit_figures
 from workbench.questions.ancf_fit.fit import FittedTire, read_fit
 from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
 from workbench.study.full import rotational_period
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.verdict.rules import Claim, at_most
 
 if TYPE_CHECKING:
@@ -83,15 +82,10 @@ def _difference(one: StiffnessCurve, other: StiffnessCurve) -> float:
     return float(np.linalg.norm(a - b) / np.linalg.norm(0.5 * (a + b)))
 
 
-def _tasks(study: Study) -> Sequence[Task]:
-    return fit_tasks(study)
-
-
 def _read(study: Study, folders: Mapping[str, Path]) -> AncfFits:
     from workbench.questions.ancf_fit.records import Fitted, Held
 
-    section = study.ancf_fit
-    assert section is not None  # the question applies
+    section = stated(study.ancf_fit, "ancf_fit")
     fe, period, kept = model_curves("fe", folders), rotational_period(study), section.kept.name
     try:
         own = read_fit("own", folders[AS_IT_IS], Held)
@@ -123,18 +117,14 @@ def _curves(study: Study, fits: AncfFits) -> Sequence[StiffnessCurve]:
     return [curve for tire in fits.fitted for curve in (*tire.curves.values(), tire.average)]
 
 
-def _wanted(study: Study) -> bool:
-    return study.ancf_fit is not None
-
-
 ANCF_FIT = Question(
     name="ancf_fit",
     title="Fit of the ANCF tire",
     group="ANCF tire",
-    tasks=_tasks,
+    tasks=fit_tasks,
     read=_read,
     checks=_checks,
     figures=fit_figures,
     curves=_curves,
-    applies=_wanted,
+    applies=lambda study: study.ancf_fit is not None,
 )

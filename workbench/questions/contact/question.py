@@ -15,7 +15,7 @@ from workbench.questions.fe.graph import INNER_STIFFNESS, fe_inputs, fe_task, wi
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees
 from workbench.verdict.rules import Claim, at_most
 
@@ -111,17 +111,12 @@ class PenaltyStudy:
         return run.load / self.runs[-1].load - 1.0
 
 
-def _applies(study: Study) -> bool:
-    return study.penalty_study is not None and study.fe.contact_stiffness is not None
-
-
 def _task_name(run: str) -> str:
     return f"fe_penalty_{run}"
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    section, stiffness = study.penalty_study, study.fe.contact_stiffness
-    assert section is not None
+    section, stiffness = stated(study.penalty_study, "penalty_study"), study.fe.contact_stiffness
     assert stiffness is not None
     mesh = mesh_task(study, "mesh_penalty", {"axial_size": 2.0 * study.mesh.axial_size})
     end = round(section.deflection, 12)
@@ -139,8 +134,7 @@ def _scaled(factor: float, stiffness: float) -> dict[str, Any]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> PenaltyStudy:
-    section, stiffness = study.penalty_study, study.fe.contact_stiffness
-    assert section is not None
+    section, stiffness = stated(study.penalty_study, "penalty_study"), study.fe.contact_stiffness
     assert stiffness is not None
     orientation, runs = degrees(section.orientation), []
     for name in (*_FACTORS, AUGMENTED):
@@ -170,5 +164,5 @@ CONTACT = Question(
     read=_read,
     checks=_checks,
     curves=_curves,
-    applies=_applies,
+    applies=lambda study: study.penalty_study is not None and study.fe.contact_stiffness is not None,
 )

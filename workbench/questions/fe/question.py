@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.execution.task import Task
 from workbench.questions.fe.checks import (
@@ -56,10 +55,6 @@ def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
     return checks
 
 
-def _curves(study: Study, results: ContinuumCurves) -> Sequence[StiffnessCurve]:
-    return results.curves
-
-
 def _figures(study: Study, results: ContinuumCurves) -> Mapping[str, str]:
     from workbench.charts.packing import picture_link
     from workbench.questions.fe.figures import fe_figure, stress_figure
@@ -83,5 +78,5 @@ FE = Question(
     read=read_continuum,
     checks=_checks,
     figures=_figures,
-    curves=_curves,
+    curves=lambda study, results: results.curves,
 )

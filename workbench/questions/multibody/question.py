@@ -16,6 +16,7 @@ from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
 from workbench.questions.multibody.figures import work_figures
 from workbench.questions.question import Question
+from workbench.questions.verification.question import VERIFICATION
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_least, at_most
 
@@ -137,10 +138,6 @@ def _gained(results: MultibodyResults, problem: str) -> Callable[[], float]:
     return lambda: results.of(problem, "implicit", 1e-4).error / results.of(problem, "implicit", 1e-6).error
 
 
-def _applies(study: Study) -> bool:
-    return study.verification is not None and study.verification.enabled
-
-
 MULTIBODY = Question(
     name="multibody",
     title="Multibody engine",
@@ -149,5 +146,5 @@ MULTIBODY = Question(
     read=_read,
     checks=_checks,
     figures=work_figures,
-    applies=_applies,
+    applies=VERIFICATION.applies,
 )

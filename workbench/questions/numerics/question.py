@@ -42,31 +42,25 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SolverRow:
-    """One orientation [deg] in the table of increments.
-
-    Attributes
-    ----------
-    increments, cuts, iterations : converged, cut back; Newton iterations of all
-    partial, missing : the run ended before its target; no point of it converged
-    residual : largest relative residual at the end of a converged increment [-]; None without any
-    imbalance, moment_imbalance : largest of any point, over the contact force, and over that times the radius [-]
-    deflection, load : where the curve ends [m, N]
-    dofs, solve_s : unknowns, wall time [s]
-    """
+    """One orientation [deg] in the table of increments: its curve, and the run that gave it."""
 
     orientation: float
-    increments: int
-    cuts: int
-    iterations: int
-    partial: bool
-    missing: bool
-    residual: float | None
-    imbalance: float
-    moment_imbalance: float
-    deflection: float
-    load: float
-    dofs: int
-    solve_s: float
+    curve: StiffnessCurve
+    run: RunNumbers
+
+    @property
+    def cuts(self) -> int:
+        """Increments that were cut back."""
+        return len(self.run.increments) - len(self.run.converged)
+
+    @property
+    def residual(self) -> float | None:
+        """Largest relative residual at the end of a converged increment [-]; None without any."""
+        return max((one.residuals[-1] for one in self.run.converged), default=None)
+
+    def largest(self, column: str) -> float:
+        """Largest absolute value of a column of the curve."""
+        return float(abs(self.curve.columns[column]).max())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,25 +75,8 @@ class Numerics:
     @property
     def rows(self) -> list[SolverRow]:
         """In the order of the orientations."""
-        return [self._row(orientation) for orientation in self.fe.by_orientation]
-
-    def _row(self, orientation: float) -> SolverRow:
-        curve, run = self.fe.by_orientation[orientation], self.fe.runs[orientation]
-        return SolverRow(
-            orientation=orientation,
-            increments=len(run.converged),
-            cuts=len(run.increments) - len(run.converged),
-            iterations=run.iterations,
-            partial=curve.partial,
-            missing=curve.unloaded,
-            residual=max((one.residuals[-1] for one in run.converged), default=None),
-            imbalance=float(abs(curve.columns["force_imbalance"]).max()),
-            moment_imbalance=float(abs(curve.columns["moment_imbalance"]).max()),
-            deflection=float(curve.deflection[-1]),
-            load=float(curve.load[-1]),
-            dofs=run.dofs,
-            solve_s=run.solve_s,
-        )
+        curves = self.fe.by_orientation.items()
+        return [SolverRow(orientation=o, curve=curve, run=self.fe.runs[o]) for o, curve in curves]
 
 
 def read_numerics(study: Study, folders: Mapping[str, Path]) -> Numerics:

@@ -116,7 +116,7 @@ def _checks(study: Study, results: AncfRover) -> Sequence[Check]:
         *checks,
         *_account_checks(results),
         *_sweep_checks(results),
-        *mission_checks(results.requirements, "rover_ancf.mission_", "ANCF tires"),
+        *mission_checks(results.requirements, "rover_ancf.mission_", "Rover on ANCF tires"),
     ]
 
 

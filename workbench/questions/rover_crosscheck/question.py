@@ -33,7 +33,7 @@ from workbench.questions.rover_crosscheck.results import (
 )
 from workbench.questions.section.graph import section_task, without_planar_model
 from workbench.study.full import is_mirrored, rotational_period
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.model_parameters import fits_rover
 from workbench.study.orientation import degrees, orientation_name
 from workbench.verdict.rules import Claim, at_most
@@ -50,8 +50,7 @@ _REACH = 0.03
 
 def _tasks(study: Study) -> Sequence[Task]:
     """One for each fitted tire, the kept one with the load sweep; planar models of orientations without a solid one."""
-    section = study.ancf_fit
-    assert section is not None  # the question applies
+    section = stated(study.ancf_fit, "ancf_fit")
     tasks = [
         Task(
             name=f"rover_stands_{tire.name}",
@@ -87,8 +86,7 @@ def _section_orientations(study: Study) -> list[float]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> CrossCheck:
-    section, fe = study.ancf_fit, model_curves("fe", folders)
-    assert section is not None
+    section, fe = stated(study.ancf_fit, "ancf_fit"), model_curves("fe", folders)
     planar = {
         o: read_curve(folders[_section_name(o)] / CURVE, model="section", orientation_deg=o)
         for o in _section_orientations(study)

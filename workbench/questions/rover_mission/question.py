@@ -18,7 +18,7 @@ from workbench.questions.rover.drive import Drive, read_drive
 from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
 from workbench.questions.rover_mission.figures import mission_figures
 from workbench.questions.rover_mission.requirements import MissionRow, mission_checks, mission_rows
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.rover import runs_on_ancf_tires
 
 __all__ = ["ROVER_MISSION", "Mission"]
@@ -51,8 +51,7 @@ def _runs(study: Study) -> Sequence[str]:
 
 
 def _kept(study: Study) -> str:
-    assert study.ancf_fit is not None  # the question applies
-    return study.ancf_fit.kept.name
+    return stated(study.ancf_fit, "ancf_fit").kept.name
 
 
 def _tasks(study: Study) -> Sequence[Task]:
@@ -81,7 +80,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> Mission:
 
 def _checks(study: Study, results: Mission) -> Sequence[Check]:
     """Findings: what the mission asks for, met or not."""
-    return mission_checks(results.rows, "rover_mission.", "fitted ANCF tires")
+    return mission_checks(results.rows, "rover_mission.", "Rover on fitted ANCF tires")
 
 
 def _series(study: Study, results: Mission) -> Sequence[TimeSeries]:

@@ -70,10 +70,10 @@ def mission_rows(driven: Mapping[str, Drive], brush: Mapping[str, Drive]) -> lis
 MISSION_SOURCE = "mission requirements, Samarini 2020, section 1, after Poulakis et al. 2015"
 
 
-def mission_checks(rows: Iterable[MissionRow], prefix: str, tires: str) -> list[Check]:
+def mission_checks(rows: Iterable[MissionRow], prefix: str, rover: str) -> list[Check]:
     """Findings, named after their scenario: ``{prefix}step``, ``{prefix}step_2``, and so on.
 
-    ``tires`` says in words what the rover drives on, ``"ANCF tires"``.
+    ``rover`` says in words which it is, ``"Rover on ANCF tires"``.
     """
     before: Counter[str] = Counter()
     checks = []
@@ -82,7 +82,7 @@ def mission_checks(rows: Iterable[MissionRow], prefix: str, tires: str) -> list[
         end = f"_{before[row.name]}" if before[row.name] > 1 else ""
         claim = Claim(
             id=f"{prefix}{row.name}{end}",
-            title=f"Rover on {tires}, {row.title}: {row.quantity}",
+            title=f"{rover}, {row.title}: {row.quantity}",
             quantity=row.quantity if row.ours else "run",
             unit=row.ours.unit if row.ours else "-",
             role="finding",

@@ -12,7 +12,7 @@ import numpy as np
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
-from workbench.questions.model_curves import ModelCurves, mean_curve, model_curves
+from workbench.questions.model_curves import ModelCurves, RunNumbers, mean_curve, model_curves
 from workbench.questions.question import Question
 from workbench.questions.section.figures import section_figures
 from workbench.questions.section.graph import section_tasks, without_planar_model
@@ -76,17 +76,14 @@ def _where(curve: StiffnessCurve) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SectionRow:
-    """One orientation in the table: unknowns and wall time [s] of both models, iterations, largest difference [-].
+    """One orientation in the table: runs of both models, largest difference of their curves [-].
 
     The difference is None where a partial curve leaves no common point.
     """
 
     orientation: float
-    dofs: int
-    solve_s: float
-    iterations: int
-    solid_dofs: int
-    solid_s: float
+    section: RunNumbers
+    fe: RunNumbers
     difference: float | None
 
 
@@ -100,21 +97,17 @@ class SectionRuns:
     @property
     def rows(self) -> list[SectionRow]:
         """Orientations that both models have."""
-        both = [o for o in self.section.by_orientation if o in self.fe.by_orientation]
-        return [self._row(orientation) for orientation in both]
-
-    def _row(self, orientation: float) -> SectionRow:
-        ours, solid = self.section.runs[orientation], self.fe.runs[orientation]
-        curves = self.section.by_orientation[orientation], self.fe.by_orientation[orientation]
-        return SectionRow(
-            orientation=orientation,
-            dofs=ours.dofs,
-            solve_s=ours.solve_s,
-            iterations=ours.iterations,
-            solid_dofs=solid.dofs,
-            solid_s=solid.solve_s,
-            difference=_difference(*curves),
-        )
+        solid = self.fe.by_orientation
+        return [
+            SectionRow(
+                orientation=o,
+                section=self.section.runs[o],
+                fe=self.fe.runs[o],
+                difference=_difference(curve, solid[o]),
+            )
+            for o, curve in self.section.by_orientation.items()
+            if o in solid
+        ]
 
 
 def _difference(curve: StiffnessCurve, solid: StiffnessCurve) -> float | None:
@@ -136,10 +129,6 @@ def _curves(study: Study, runs: SectionRuns) -> Sequence[StiffnessCurve]:
     return [*runs.section.by_orientation.values(), runs.section.average]
 
 
-def _planar(study: Study) -> bool:
-    return without_planar_model(study) is None
-
-
 SECTION = Question(
     name="section",
     title="Section model",
@@ -149,5 +138,5 @@ SECTION = Question(
     checks=_checks,
     figures=section_figures,
     curves=_curves,
-    applies=_planar,
+    applies=lambda study: without_planar_model(study) is None,
 )

@@ -1,7 +1,7 @@
 """Question: what a Newton iteration, an orientation, an ANCF plate and a rover's motion cost, and the aims.
 
 Times beside other codes, on two processes, of the ANCF loops and of the rover come from kept benchmark runs
-(`benchmark_record`), those of the study's own curves from their stored results. Verified by
+(`workbench.questions.speed.record`), those of the study's own curves from their stored results. Verified by
 tests/unit/test_workbench_speed.py.
 """
 
@@ -24,12 +24,8 @@ from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["SPEED", "CurveCost", "SpeedResults", "kept_runs"]
 
-ITERATION, ITERATIONS, WHOLE, MEMORY = (
-    "time per Newton iteration",
-    "Newton iterations to 20 mm",
-    "time to 20 mm",
-    "peak memory",
-)
+ITERATION, ITERATIONS = "time per Newton iteration", "Newton iterations to 20 mm"
+WHOLE, MEMORY = "time to 20 mm", "peak memory"
 EQUAL_ACCURACY = "half-cylinder-equal-accuracy against CalculiX"
 SAME_ELEMENT = tuple(f"half-cylinder-{n} against CalculiX" for n in (40, 120, 220))
 RANKS = "wall time of a Newton iteration"
@@ -106,11 +102,8 @@ class SpeedResults:
         planar = [c.solve_s for c in self.curves if c.model == "section"]
         aims = []
         if solid:
-            title, found = (
-                "Newton iterations for 20 points of a curve, dearest orientation of this report",
-                self.dearest,
-            )
-            aims.append(Aim(title=title, found=found, limit=CURVE_ITERATIONS, unit="", rule="at most"))
+            title = "Newton iterations for 20 points of a curve, dearest orientation of this report"
+            aims.append(Aim(title=title, found=self.dearest, limit=CURVE_ITERATIONS, unit="", rule="at most"))
         if planar:
             title = "An orientation of the planar model, slowest of this report"
             aims.append(Aim(title=title, found=max(planar), limit=PLANAR_SECONDS, unit="s", rule="at most"))
@@ -128,20 +121,19 @@ def _ratio(record: BenchmarkRecord, metric: str) -> float:
 
 
 def _costs(model: str, curves: ModelCurves) -> list[CurveCost]:
-    return [_cost(model, orientation, curves) for orientation in curves.loaded]
-
-
-def _cost(model: str, orientation: float, curves: ModelCurves) -> CurveCost:
-    run = curves.runs[orientation]
-    return CurveCost(
-        model=model,
-        orientation=orientation,
-        dofs=run.dofs,
-        points=int((curves.by_orientation[orientation].deflection > 0.0).sum()),
-        increments=len(run.converged),
-        iterations=run.iterations,
-        solve_s=run.solve_s,
-    )
+    return [
+        CurveCost(
+            model=model,
+            orientation=orientation,
+            dofs=run.dofs,
+            points=int((curve.deflection > 0.0).sum()),
+            increments=len(run.converged),
+            iterations=run.iterations,
+            solve_s=run.solve_s,
+        )
+        for orientation, curve in curves.loaded.items()
+        for run in [curves.runs[orientation]]
+    ]
 
 
 def kept_runs() -> dict[str, BenchmarkRecord]:

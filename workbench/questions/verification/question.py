@@ -87,10 +87,6 @@ def _figures(study: Study, results: Verification) -> Mapping[str, str]:
     return verification_figures(results.fe.numbers) | ancf_verification_figures(results.ancf.numbers)
 
 
-def _applies(study: Study) -> bool:
-    return study.verification is not None and study.verification.enabled
-
-
 VERIFICATION = Question(
     name="verification",
     title="Verification",
@@ -99,5 +95,5 @@ VERIFICATION = Question(
     read=_read,
     checks=_checks,
     figures=_figures,
-    applies=_applies,
+    applies=lambda study: study.verification is not None and study.verification.enabled,
 )

@@ -9,11 +9,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from contracts.records import Check, Role
+from contracts.records import Check
 from geometry.measures import MeshQuality
 from geometry.summary import PartSummary
 from workbench.execution.result_files import read_result
-from workbench.execution.task import Task
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import MESH, MESH_WHOLE, wheel_meshes
 from workbench.study.model import Study
@@ -80,50 +79,27 @@ def read_wheel(study: Study, folders: Mapping[str, Path]) -> WheelMeshes:
     )
 
 
-_SHAPE = "scaled Jacobian of a hexahedron, Stimpson et al. 2007, SAND2007-1751; the limit is ours"
-
-
 def mesh_checks(mesh: MeshNumbers, whole: MeshNumbers, tolerances: ToleranceSection) -> list[Check]:
     """Volume and mass of the whole wheel against closed form; the worst cell of both meshes."""
-    form = "closed form of the design"
-
-    def worst() -> float:
-        return min(m.quality.min_scaled_jacobian for m in (mesh, whole))
-
+    form, whole_wheel = "closed form of the design", "Mesh of the whole wheel"
+    volume = Claim(
+        id="mesh.volume", title=f"{whole_wheel}: volume", quantity="volume", unit="m^3", role="gate", source=form
+    )
+    mass = Claim(id="mesh.mass", title=f"{whole_wheel}: mass", quantity="mass", unit="kg", role="gate", source=form)
+    shape = Claim(
+        id="mesh.min_scaled_jacobian",
+        title="Smallest scaled Jacobian of any cell",
+        quantity="scaled Jacobian",
+        unit="-",
+        role="gate",
+        source="scaled Jacobian of a hexahedron, Stimpson et al. 2007, SAND2007-1751; the limit is ours",
+    )
+    worst = min(m.quality.min_scaled_jacobian for m in (mesh, whole))
     return [
-        near(
-            _claim("mesh.volume", "Mesh of the whole wheel: volume", "volume", "m^3", "gate", form),
-            lambda: whole.volume,
-            whole.volume_closed_form,
-            tolerances.mesh_mass,
-        ),
-        near(
-            _claim("mesh.mass", "Mesh of the whole wheel: mass", "mass", "kg", "gate", form),
-            lambda: whole.mass,
-            whole.mass_closed_form,
-            tolerances.mesh_mass,
-        ),
-        at_least(
-            _claim(
-                "mesh.min_scaled_jacobian",
-                "Smallest scaled Jacobian of any cell",
-                "scaled Jacobian",
-                "-",
-                "gate",
-                _SHAPE,
-            ),
-            worst,
-            tolerances.min_scaled_jacobian,
-        ),
+        near(volume, lambda: whole.volume, whole.volume_closed_form, tolerances.mesh_mass),
+        near(mass, lambda: whole.mass, whole.mass_closed_form, tolerances.mesh_mass),
+        at_least(shape, lambda: worst, tolerances.min_scaled_jacobian),
     ]
-
-
-def _claim(id: str, title: str, quantity: str, unit: str, role: Role, source: str) -> Claim:
-    return Claim(id=id, title=title, quantity=quantity, unit=unit, role=role, source=source)
-
-
-def _tasks(study: Study) -> Sequence[Task]:
-    return wheel_meshes(study)
 
 
 def _checks(study: Study, results: WheelMeshes) -> Sequence[Check]:
@@ -138,5 +114,5 @@ def _figures(study: Study, results: WheelMeshes) -> Mapping[str, str]:
 
 
 WHEEL = Question(
-    name="wheel", title="Wheel", group="Wheel", tasks=_tasks, read=read_wheel, checks=_checks, figures=_figures
+    name="wheel", title="Wheel", group="Wheel", tasks=wheel_meshes, read=read_wheel, checks=_checks, figures=_figures
 )
