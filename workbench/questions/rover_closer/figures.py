@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from workbench.charts.curves import add_plain
 from workbench.charts.interactive import empty_figure, figure_html, log_axis
 from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.rover_closer.results import GROUNDS, CloserLook
@@ -65,8 +66,7 @@ def _spectra(found: CloserLook, ground: str) -> str:
     figure = empty_figure("frequency [Hz]", "vertical acceleration of the body [m/s²]")
     for words, tire, one in found.vibrations:
         if words == GROUNDS[ground]:
-            line = {"color": MODEL_COLOURS[tire], "width": 1.8}
             seen = np.maximum(one.amplitude[1:], _LOWEST)
-            figure.add_scatter(x=one.frequency[1:], y=seen, name=f"{tire} tires", mode="lines", line=line)
+            add_plain(figure, one.frequency[1:], seen, f"{tire} tires", MODEL_COLOURS[tire], width=1.8)
     log_axis(figure)
     return figure_html(figure, f"closer-spectrum-{ground}")

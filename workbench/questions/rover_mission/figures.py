@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from workbench.charts.curves import add_plain
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS
 from workbench.questions.rover_mission.requirements import TITLES
@@ -39,8 +40,7 @@ def _both(results: Mission, name: str, column: str) -> str:
         for wheel in _SIDES[1:]:
             heaviest = heaviest.clip(min=series[f"{wheel}_load_N"])
         words = "brush tires" if tire == "brush" else "fitted ANCF tires"
-        line = {"color": MODEL_COLOURS[tire], "width": 2.0}
         y = heaviest if column == "load" else way
-        figure.add_scatter(x=series.time, y=y, name=f"{words}, {TITLES[name]}", mode="lines", line=line)
+        add_plain(figure, series.time, y, f"{words}, {TITLES[name]}", MODEL_COLOURS[tire])
     figure.update_yaxes(rangemode="normal")
     return figure_html(figure, f"mission-{name}-{column}".replace("_", "-"))

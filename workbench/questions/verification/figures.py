@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 
 from contracts.published import published_table
+from workbench.charts.curves import add_area
 from workbench.charts.interactive import figure_html, log_axes, log_axis, low_figure
-from workbench.charts.palette import BAND, INK, ORIENTATION_COLOURS
+from workbench.charts.palette import INK, ORIENTATION_COLOURS
 
 __all__ = ["ancf_verification_figures", "verification_figures"]
 
@@ -49,7 +50,7 @@ def _ring(numbers: Mapping[str, Any]) -> Any:
     beyond = np.linspace(c[-1], 0.62, 30)[1:]
     c, p = np.append(c, beyond), np.append(p, p[-1] * ((1.0 - c[-1]) / (1.0 - beyond)) ** 2)
     figure = low_figure("compression of the diameter [%]", "P R² / EI")
-    _add_band(figure, 100.0 * c, p, 0.01, "elastica ± 1 %")
+    add_area(figure, 100.0 * c, 0.99 * p, 1.01 * p, "elastica ± 1 %")
     _add_line(figure, 100.0 * c, p, "elastica", INK)
     _add_points(figure, 100.0 * np.array(numbers["compression"]), numbers["load"], "27-node hexahedra", _BLUE, "circle")
     return figure
@@ -152,16 +153,3 @@ def _add_points(figure: Any, x: Any, y: Any, name: str, colour: str, symbol: str
     """Single points."""
     marker = {"color": colour, "symbol": symbol, "size": 8}
     figure.add_scatter(x=x, y=y, name=name, mode="markers", marker=marker, hovertemplate="%{y:.4g}")
-
-
-def _add_band(figure: Any, x: Any, y: Any, share: float, name: str) -> None:
-    """Tolerance band of a share of y."""
-    figure.add_scatter(
-        x=np.append(x, x[::-1]),
-        y=np.append(y * (1.0 - share), (y * (1.0 + share))[::-1]),
-        fill="toself",
-        fillcolor=BAND,
-        line={"width": 0},
-        name=name,
-        hoverinfo="skip",
-    )
