@@ -11,7 +11,7 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.fe.graph import INNER_STIFFNESS, fe_inputs, fe_task, without_fields
+from workbench.questions.fe.graph import INNER_STIFFNESS, fe_inputs, fe_task, without_end
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
@@ -58,8 +58,6 @@ def penetration_check(depth: Callable[[], float], where: str) -> Check:
 
 
 _FACTORS = ("0.1", "1", "10")
-_NO_LIMIT = 1e6
-"""Load [N] that ends no run."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -120,8 +118,7 @@ def _tasks(study: Study) -> Sequence[Task]:
     assert stiffness is not None
     mesh = mesh_task(study, "mesh_penalty", {"axial_size": 2.0 * study.mesh.axial_size})
     end = round(section.deflection, 12)
-    inputs = fe_inputs(study, degrees(section.orientation), (0.5 * end, end))
-    inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
+    inputs = without_end(fe_inputs(study, degrees(section.orientation), (0.5 * end, end)))
     changes: dict[str, dict[str, Any]] = {f: _scaled(float(f), stiffness) for f in _FACTORS}
     changes[AUGMENTED] = {"contact_stiffness": stiffness, "contact_method": AUGMENTED}
     return [mesh, *(fe_task(_task_name(name), inputs | change, mesh.name) for name, change in changes.items())]

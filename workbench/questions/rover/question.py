@@ -83,18 +83,9 @@ class RoverResults:
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    still = Task(
-        name="rover_still",
-        function="workbench.questions.rover.still:draw",
-        inputs={},
-        cost=5.0,
-    )
-    return [still, *_scenario_tasks(study)]
-
-
-def _scenario_tasks(study: Study) -> list[Task]:
+    still = Task(name="rover_still", function="workbench.questions.rover.still:draw", inputs={}, cost=5.0)
     tires = rover_on_brush(study)
-    return [
+    scenarios = [
         Task(
             name=f"rover_{name}",
             function="workbench.questions.rover.task:drive_rover",
@@ -103,6 +94,7 @@ def _scenario_tasks(study: Study) -> list[Task]:
         )
         for name in (*THESIS, *MISSION)
     ]
+    return [still, *scenarios]
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> RoverResults:
@@ -116,17 +108,11 @@ def _claim(name: str, title: str, outcome: str, unit: str, source: str, *, gate:
     return Claim(id=f"rover.{name}", title=f"Rover, {title}", quantity=outcome, unit=unit, role=role, source=source)
 
 
+_ONE_WHEEL = "one wheel integrated apart"
 CLOSED_FORMS = (
     ("load", "static", "mean wheel load at the end", "static equilibrium", "320 kg on Mars, six wheels", 1e-3),
-    ("drop", "drop", "largest wheel load", "drop of 10 mm, damper that builds up", "one wheel integrated apart", 1e-3),
-    (
-        "drop_printed",
-        "drop_printed",
-        "largest wheel load",
-        "drop, damper as printed",
-        "one wheel integrated apart",
-        0.01,
-    ),
+    ("drop", "drop", "largest wheel load", "drop of 10 mm, damper that builds up", _ONE_WHEEL, 1e-3),
+    ("drop_printed", "drop_printed", "largest wheel load", "drop, damper as printed", _ONE_WHEEL, 0.01),
     ("traction", "traction", "mean tractive force", "3.5 N m on each drive", "balance of wheels and rover", 5e-4),
     (
         "traction_wheel",

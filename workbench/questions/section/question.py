@@ -100,10 +100,7 @@ class SectionRuns:
         solid = self.fe.by_orientation
         return [
             SectionRow(
-                orientation=o,
-                section=self.section.runs[o],
-                fe=self.fe.runs[o],
-                difference=_difference(curve, solid[o]),
+                orientation=o, section=self.section.runs[o], fe=self.fe.runs[o], difference=_difference(curve, solid[o])
             )
             for o, curve in self.section.by_orientation.items()
             if o in solid

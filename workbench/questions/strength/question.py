@@ -31,7 +31,7 @@ __all__ = ["STRENGTH", "yield_check"]
 def yield_check(fe: ModelCurves, yield_strength: Mapping[str, float], up_to: float) -> Check:
     """Largest von Mises stress over yield strength in any part, up to a load [N]."""
 
-    def utilisation() -> float:
+    def largest() -> float:
         lowest = min(float(curve.load.max()) for curve in fe.by_orientation.values())
         if lowest < up_to:
             rule = f"does not reach {up_to:g} N at every orientation"
@@ -43,16 +43,15 @@ def yield_check(fe: ModelCurves, yield_strength: Mapping[str, float], up_to: flo
             if f"max_von_mises_{part}_Pa" in curve.columns
         )
 
-    title = f"FE: largest von Mises stress over yield strength up to {up_to:g} N"
     claim = Claim(
         id="fe.yield",
-        title=title,
+        title=f"FE: largest von Mises stress over yield strength up to {up_to:g} N",
         quantity="stress / yield",
         unit="-",
         role="finding",
         source="yield strengths of the study's materials",
     )
-    return at_most(claim, utilisation, 1.0)
+    return at_most(claim, largest, 1.0)
 
 
 def _largest_up_to(curve: StiffnessCurve, column: str, load: float) -> float:
