@@ -1,7 +1,7 @@
 """Speed of the ANCF plate loops: force, tangent and contact of the 8-plate tire, larger meshes, the arithmetic limit.
 
 ``make bench NAME=ancf_tire`` prints the table and writes ``build/bench/ancf_tire.json``; with ``ARGS=--record`` the
-run is kept for the report, whose aims are in ``workbench/questions/speed/ancf.py``. Each number is the shortest of many
+run is kept for the report, whose aims are in ``workbench/questions/speed/aims.py``. Each number is the shortest of many
 short runs, processor time of one thread, calls from Python included. No other code with this element is on the package
 registries, so there is no peer in the run. The arithmetic limit is the loop's own floating point operations over this
 core's measured rate of multiply-adds in vector registers.
@@ -33,7 +33,7 @@ from benchmarks.output.run import Run, add_option  # noqa: E402
 from contracts.height_field import sampled_terrain  # noqa: E402
 from contracts.terrain import Plane, Terrain  # noqa: E402
 from contracts.terrain_ridges import HalfRound, Sinusoid  # noqa: E402
-from workbench.questions.speed.ancf import ARITHMETIC, CURVES, FORCE, FORCE_AND_TANGENT, TIRE  # noqa: E402
+from workbench.questions.speed.aims import ARITHMETIC, CURVES, FORCE, FORCE_AND_TANGENT, TIRE  # noqa: E402
 
 WAVES = Sinusoid(amplitude=0.01, wavelength=0.2, yaw=0.3, base=-0.1375)
 GRID_LINES = np.linspace(-0.5, 0.5, 101)

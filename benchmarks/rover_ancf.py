@@ -25,7 +25,7 @@ from benchmarks.flexible_rows.motions import motion_rows  # noqa: E402
 from benchmarks.flexible_rows.sizes import plate_rows, point_rows  # noqa: E402
 from benchmarks.flexible_rows.thesis_way import thesis_rows  # noqa: E402
 from benchmarks.output.run import Run, add_option  # noqa: E402
-from workbench.questions.speed.flexible import STRAIGHT_PATH  # noqa: E402
+from workbench.questions.speed.aims import STRAIGHT_PATH  # noqa: E402
 
 END, TRACTION_END, PROFILED = 40.0, 2.0, 5.0
 """How long motions last, and that of the profile [s]."""

@@ -35,7 +35,7 @@ from rover_dynamics.multibody.motion_law import SpeedTrapezoid  # noqa: E402
 from rover_dynamics.rover.rover import Actuators, build_rover  # noqa: E402
 from rover_dynamics.rover.rover_file import read_rover  # noqa: E402
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle  # noqa: E402
-from workbench.questions.speed.rover import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME  # noqa: E402
+from workbench.questions.speed.aims import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME  # noqa: E402
 
 FloatArray = NDArray[np.float64]
 DESIGN = read_rover()

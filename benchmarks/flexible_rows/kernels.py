@@ -21,7 +21,7 @@ from rover_dynamics.flexible.hub_kernels import hub_wrenches
 from rover_dynamics.flexible.linear_solves import condense
 from rover_dynamics.multibody.generalised_alpha import generalised_alpha
 from rover_dynamics.multibody.tree_kernels import tree_motion
-from workbench.questions.speed.flexible import BARE
+from workbench.questions.speed.aims import BARE
 
 __all__ = ["kernel_rows", "kernel_times", "profile_rows"]
 

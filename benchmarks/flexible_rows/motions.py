@@ -6,7 +6,7 @@ import numpy as np
 
 from benchmarks.flexible_rows.cases import driven, row
 from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle
-from workbench.questions.speed.flexible import FASTER, TIME
+from workbench.questions.speed.aims import FASTER, TIME
 
 __all__ = ["TOLERANCE", "motion_rows"]
 

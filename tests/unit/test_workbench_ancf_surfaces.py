@@ -13,8 +13,7 @@ from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import InputError
 from workbench.commands.mesh import deflections_si, run_mesh_of
 from workbench.execution.result_files import read_result
-from workbench.questions.ancf.checks import surfaces_check
-from workbench.questions.ancf.surfaces import report_surfaces_task, surfaces_task
+from workbench.questions.ancf.question import report_surfaces_task, surfaces_check, surfaces_task
 from workbench.questions.ancf.surfaces_task import read_back_deviation, write_surfaces
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.sections import ToleranceSection

@@ -13,17 +13,16 @@ from contracts.curves import StiffnessCurve, average_curve
 from contracts.errors import IncrementRecord
 from contracts.records import Check
 from geometry.measures import MeshQuality
-from workbench.questions.ancf.checks import ancf_checks, preset_error
 from workbench.questions.ancf.preset_table import preset_table
+from workbench.questions.ancf.question import ancf_checks, preset_error
 from workbench.questions.fe.checks import band_checks, reach_check, spread_checks
 from workbench.questions.mesh_study.results import MeshRun
 from workbench.questions.model_curves import ModelCurves, RunNumbers, UserCurve
-from workbench.questions.models.checks import agreement_checks, user_checks
 from workbench.questions.models.metrics import CurveMetrics
-from workbench.questions.numerics.checks import solver_checks
-from workbench.questions.strength.checks import yield_check
-from workbench.questions.wheel.checks import mesh_checks
-from workbench.questions.wheel.results import MeshNumbers
+from workbench.questions.models.question import agreement_checks, user_checks
+from workbench.questions.numerics.question import solver_checks
+from workbench.questions.strength.question import yield_check
+from workbench.questions.wheel.question import MeshNumbers, mesh_checks
 from workbench.study.model import thesis_band
 from workbench.study.sections import ToleranceSection
 from workbench.verdict.status import exit_status, overall_status

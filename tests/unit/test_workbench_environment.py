@@ -15,8 +15,13 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import StudyError
 from contracts.materials import AISI_301, TI_6AL_4V, Material
 from contracts.materials_temperature import REFERENCE_TEMPERATURE
-from workbench.questions.environment.checks import EnvironmentRun, Series, environment_checks
-from workbench.questions.environment.question import chosen_points, environment_tasks
+from workbench.questions.environment.question import (
+    EnvironmentRun,
+    Series,
+    chosen_points,
+    environment_checks,
+    environment_tasks,
+)
 from workbench.study.reading import built_in_study, read_study, read_study_table, study_of
 
 COLD = 130.15

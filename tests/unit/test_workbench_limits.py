@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve, average_curve
-from workbench.questions.fe.limits import GAP, circumferential_tangent_check, overlap_checks
+from workbench.questions.fe.checks import GAP, circumferential_tangent_check, overlap_checks
 from workbench.questions.model_curves import ModelCurves
 
 BAND: Any = SimpleNamespace(initial_tangent=8000.0, source="test")

@@ -13,10 +13,10 @@ from contracts.curves import StiffnessCurve, read_curve, write_curve
 from contracts.errors import IncrementRecord
 from workbench.questions.fe.checks import spread_checks
 from workbench.questions.model_curves import ModelCurves, RunNumbers, mean_curve
-from workbench.questions.models.checks import agreement_checks
-from workbench.questions.numerics.checks import solver_checks
+from workbench.questions.models.question import agreement_checks
 from workbench.questions.numerics.energy import energy_check
-from workbench.questions.section.checks import section_checks
+from workbench.questions.numerics.question import solver_checks
+from workbench.questions.section.question import section_checks
 from workbench.study.sections import ToleranceSection
 
 TOLERANCES = ToleranceSection(reference_wheel=True)

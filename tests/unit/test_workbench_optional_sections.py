@@ -14,7 +14,7 @@ import tomlkit
 from contracts.errors import InputError, StudyError
 from workbench.commands.calibrate import run_calibrate
 from workbench.execution.runner import Computing
-from workbench.questions.fe.limits import overlap_checks
+from workbench.questions.fe.checks import overlap_checks
 from workbench.questions.model_curves import ModelCurves
 from workbench.questions.registry import questions_of
 from workbench.questions.study_graph import report_tasks, stiffness_tasks

@@ -12,8 +12,7 @@ from contracts.errors import IncrementRecord, InputError
 from workbench.execution.task import task_keys
 from workbench.questions.model_curves import ModelCurves, RunNumbers
 from workbench.questions.registry import questions_of
-from workbench.questions.section.checks import largest_difference, section_checks
-from workbench.questions.section.question import SectionRuns
+from workbench.questions.section.question import SectionRuns, largest_difference, section_checks
 from workbench.questions.study_graph import report_tasks, stiffness_tasks
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
@@ -63,7 +62,7 @@ def test_a_row_without_common_points_has_no_difference() -> None:
     record = IncrementRecord(target=0.0, step=0.0, converged=True, residuals=(1.0, 0.1, 0.01))
     run = RunNumbers(dofs=10, solve_s=1.0, increments=(record,))
     section, fe = (replace(curves(m, 1.02), runs=dict.fromkeys((0.0, 22.5), run)) for m in ("section", "fe"))
-    assert [row.iterations for row in SectionRuns(section=section, fe=fe).rows] == [2, 2]
+    assert [row.section.iterations for row in SectionRuns(section=section, fe=fe).rows] == [2, 2]
     solid = fe.by_orientation[0.0]
     short = replace(section, by_orientation={0.0: replace(solid, deflection=D[:2] * 1e-3, load=solid.load[:2])})
     assert [row.difference for row in SectionRuns(section=short, fe=fe).rows] == [None]

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from workbench.questions.verification.checks_ancf import ANCF_BENCHMARKS
-from workbench.questions.verification.figures_ancf import ancf_verification_figures
+from workbench.questions.verification.figures import ancf_verification_figures
 from workbench.questions.verification.lines import benchmark_lines
 from workbench.questions.verification.question import ModelVerification
 

@@ -19,7 +19,7 @@ from workbench.questions.models.curves import brush_curve
 from workbench.questions.study_graph import mesh_tasks, report_tasks, stiffness_tasks
 from workbench.questions.wheel.graph import mesh_task
 from workbench.questions.wheel.mesh_task import measure
-from workbench.questions.wheel.results import mesh_numbers
+from workbench.questions.wheel.question import mesh_numbers
 from workbench.study.model_parameters import brush_parameters
 from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.study.wheel_design import design_from

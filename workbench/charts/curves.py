@@ -1,14 +1,17 @@
-"""Stiffness curves as lines of an interactive figure. Verified by tests/end_to_end/test_report.py."""
+"""Lines and areas of an interactive figure; stiffness curves. Verified by tests/end_to_end/test_report.py."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from contracts.curves import StiffnessCurve
 from workbench.charts.interactive import Figure
-from workbench.charts.palette import ORIENTATION_COLOURS
+from workbench.charts.palette import BAND, ORIENTATION_COLOURS
 
-__all__ = ["DASHES", "MARKERS", "add_line", "add_orientations", "named"]
+__all__ = ["DASHES", "MARKERS", "add_area", "add_line", "add_orientations", "add_plain", "named"]
 
 _MANY = 8
 """More orientations than this are drawn alike."""
@@ -19,6 +22,28 @@ MARKERS = ("circle", "square", "diamond", "triangle-up", "cross", "x")
 def named(name: str, curve: StiffnessCurve) -> str:
     """Name in a legend, with what the curve lacks."""
     return name + (" (missing)" if curve.unloaded else " (partial)" if curve.partial else "")
+
+
+def add_plain(
+    figure: Figure, x: ArrayLike, y: ArrayLike, name: str, colour: str, width: float = 2.0, mode: str = "lines"
+) -> None:
+    """A line through any numbers."""
+    figure.add_scatter(x=x, y=y, name=name, mode=mode, line={"color": colour, "width": width})
+
+
+def add_area(
+    figure: Figure, x: NDArray[np.float64], there: ArrayLike, back: NDArray[np.float64], name: str, colour: str = BAND
+) -> None:
+    """The area between two lines over the same places."""
+    figure.add_scatter(
+        x=np.concatenate([x, x[::-1]]),
+        y=np.concatenate([there, back[::-1]]),
+        fill="toself",
+        fillcolor=colour,
+        line={"width": 0},
+        name=name,
+        hoverinfo="skip",
+    )
 
 
 def add_line(figure: Figure, curve: StiffnessCurve, name: str, colour: str, width: float, dash: str = "solid") -> None:

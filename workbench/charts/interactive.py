@@ -1,4 +1,6 @@
-"""Interactive figures of the page: axes, and the piece of HTML they become. The one module that imports Plotly.
+"""Interactive figures of the page: axes, and the piece of HTML they become.
+
+The one module that imports Plotly, not before there is a figure to make.
 
 Verified by tests/end_to_end/test_report.py.
 """
@@ -7,10 +9,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import plotly.graph_objects as go  # type: ignore[import-untyped]
-from plotly.io.json import to_json_plotly  # type: ignore[import-untyped]
-from plotly.offline import get_plotlyjs  # type: ignore[import-untyped]
-
 from contracts.text import for_html, for_plotly, for_script
 from workbench.charts.palette import INK
 
@@ -18,11 +16,15 @@ __all__ = [
     "Figure",
     "empty_figure",
     "figure_html",
+    "log_axes",
+    "log_axis",
+    "low_figure",
     "plotly_script",
     "plotly_source",
 ]
 
-Figure = go.Figure
+type Figure = Any
+"""Plotly's, which has no types."""
 _SHOWN = ("name", "text", "label")
 """Keys of a figure under which Plotly finds what it shows."""
 
@@ -35,6 +37,8 @@ _DRAW_ALL = """addEventListener("DOMContentLoaded", () => document.querySelector
 
 def plotly_source() -> str:
     """Plotly's JavaScript, for a page that draws its figures when they are seen."""
+    from plotly.offline import get_plotlyjs  # type: ignore[import-untyped]
+
     return str(get_plotlyjs())
 
 
@@ -43,8 +47,10 @@ def plotly_script() -> str:
     return f"{plotly_source()}\n{_DRAW_ALL}"
 
 
-def empty_figure(x: str = "radial deflection [mm]", y: str = "load on the wheel [N]") -> go.Figure:
+def empty_figure(x: str = "radial deflection [mm]", y: str = "load on the wheel [N]") -> Figure:
     """Axes in the page's style, with these titles; zero is shown."""
+    import plotly.graph_objects as go  # type: ignore[import-untyped]
+
     axis = {
         "showline": True,
         "linecolor": "#9aa0a6",
@@ -69,11 +75,32 @@ def empty_figure(x: str = "radial deflection [mm]", y: str = "load on the wheel 
     return go.Figure(layout=layout)
 
 
-def figure_html(figure: go.Figure, name: str) -> str:
+def low_figure(x: str, y: str) -> Figure:
+    """Lower axes: two of them stand side by side."""
+    figure = empty_figure(x, y)
+    figure.update_layout(height=430, legend={"font": {"size": 11}})
+    return figure
+
+
+def log_axes(figure: Figure, ticks: list[float]) -> None:
+    """Both axes logarithmic, with these ticks on the lower one."""
+    figure.update_xaxes(type="log", rangemode="normal", tickvals=ticks)
+    log_axis(figure)
+
+
+def log_axis(figure: Figure) -> None:
+    """The upward axis logarithmic."""
+    figure.update_yaxes(type="log", rangemode="normal", exponentformat="power", dtick=1, title_standoff=12)
+    figure.update_layout(margin_l=84)
+
+
+def figure_html(figure: Figure, name: str) -> str:
     """The figure as a piece of the page: a place with this id, and the numbers the page draws there when it is seen.
 
     Names, titles and notes are text: Plotly, which reads markup in them, gets them escaped.
     """
+    from plotly.io.json import to_json_plotly  # type: ignore[import-untyped]
+
     text = for_script(str(to_json_plotly(_escaped(figure.to_dict()))))
     height = int(figure.layout.height)
     titles = (figure.layout.xaxis.title.text, figure.layout.yaxis.title.text)

@@ -70,9 +70,7 @@ def calibrate(target: float, section: Tangent, solid: Tangent) -> Calibration:
     first = _trial(_factor(section, target, guess), section, solid)
     guess = first.factor * first.ratio ** (-1.0 / 3.0)
     return Calibration(
-        target=target,
-        first=first,
-        corrected=_trial(_factor(section, target / first.ratio, guess), section, solid),
+        target=target, first=first, corrected=_trial(_factor(section, target / first.ratio, guess), section, solid)
     )
 
 

@@ -27,23 +27,7 @@ def no_tasks(study: Study) -> Sequence[Task]:
     return ()
 
 
-def _always(study: Study) -> bool:
-    return True
-
-
-def _no_checks(study: Study, results: Any) -> Sequence[Check]:
-    return ()
-
-
-def _no_figures(study: Study, results: Any) -> Mapping[str, str]:
-    return {}
-
-
-def _no_curves(study: Study, results: Any) -> Sequence[StiffnessCurve]:
-    return ()
-
-
-def _no_series(study: Study, results: Any) -> Sequence[TimeSeries]:
+def _none(study: Study, results: Any) -> tuple[()]:
     return ()
 
 
@@ -72,8 +56,8 @@ class Question:
     group: Group
     read: Callable[[Study, Mapping[str, Path]], Any]
     tasks: Callable[[Study], Sequence[Task]] = no_tasks
-    checks: Callable[[Study, Any], Sequence[Check]] = _no_checks
-    figures: Callable[[Study, Any], Mapping[str, str]] = _no_figures
-    curves: Callable[[Study, Any], Sequence[StiffnessCurve]] = _no_curves
-    series: Callable[[Study, Any], Sequence[TimeSeries]] = _no_series
-    applies: Callable[[Study], bool] = _always
+    checks: Callable[[Study, Any], Sequence[Check]] = _none
+    figures: Callable[[Study, Any], Mapping[str, str]] = lambda study, results: {}
+    curves: Callable[[Study, Any], Sequence[StiffnessCurve]] = _none
+    series: Callable[[Study, Any], Sequence[TimeSeries]] = _none
+    applies: Callable[[Study], bool] = lambda study: True

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from workbench.execution.task import Task
-from workbench.questions.ancf.graph import ancf_curve_tasks
+from workbench.questions.ancf.question import ancf_curve_tasks
 from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import fe_curve_tasks
 from workbench.questions.models.graph import brush_task

@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-from contracts.series import TimeSeries
+from typing import TYPE_CHECKING
+
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import INK, MODEL_COLOURS
 
-__all__ = ["motion_figure"]
+if TYPE_CHECKING:
+    from contracts.series import TimeSeries
+    from workbench.questions.ancf_dynamics.question import AncfMotions
+    from workbench.study.model import Study
+
+__all__ = ["motion_figures"]
 
 
-def motion_figure(name: str, series: TimeSeries, radius: float) -> str:
+def motion_figures(study: Study, results: AncfMotions) -> dict[str, str]:
+    """One of each motion, by its name."""
+    return {motion.name: _figure(motion.name, motion.series, results.radius) for motion in results.motions}
+
+
+def _figure(name: str, series: TimeSeries, radius: float) -> str:
     """Height of the hub over the nominal radius [mm] and load of the ground [N] against time.
 
     series : with the columns hub_z_m and load_z_N

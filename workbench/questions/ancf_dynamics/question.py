@@ -16,6 +16,7 @@ from contracts.records import Check
 from contracts.series import TimeSeries, read_series
 from workbench.execution.result_files import read_record
 from workbench.execution.task import Task
+from workbench.questions.ancf_dynamics.figures import motion_figures
 from workbench.questions.question import Question
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, ancf_tire
@@ -150,12 +151,6 @@ def _closure(motion: AncfMotion) -> float:
     return motion.numbers.closure
 
 
-def _figures(study: Study, results: AncfMotions) -> Mapping[str, str]:
-    from workbench.questions.ancf_dynamics.figures import motion_figure
-
-    return {motion.name: motion_figure(motion.name, motion.series, results.radius) for motion in results.motions}
-
-
 def _series(study: Study, results: AncfMotions) -> Sequence[TimeSeries]:
     return [motion.series for motion in results.motions]
 
@@ -167,7 +162,7 @@ ANCF_DYNAMICS = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=motion_figures,
     series=_series,
     applies=lambda study: study.ancf is not None,
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -11,19 +11,53 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.contact.checks import AUGMENTED, penalty_check, penetration_check
-from workbench.questions.fe.graph import INNER_STIFFNESS, fe_inputs, fe_task, without_fields
+from workbench.questions.fe.graph import INNER_STIFFNESS, fe_inputs, fe_task, without_end
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees
+from workbench.verdict.rules import Claim, at_most
 
-__all__ = ["CONTACT", "ContactRun", "PenaltyStudy"]
+__all__ = ["AUGMENTED", "CONTACT", "ContactRun", "PenaltyStudy", "largest_change", "penalty_check", "penetration_check"]
+
+AUGMENTED = "augmented_lagrangian"
+_LIMIT = 0.005
+_DEEPEST = 1e-6
+
+
+def largest_change(loads: Mapping[str, float]) -> float:
+    """Largest |F / F_al - 1| of the study's penalty and ten times it, F_al with the augmented Lagrangian [-]."""
+    return max(abs(loads[name] / loads[AUGMENTED] - 1.0) for name in ("1", "10"))
+
+
+def penalty_check(loads: Callable[[], Mapping[str, float]], where: str) -> Check:
+    """``loads`` gives loads [N] by factor on the penalty (``"0.1"``, ``"1"``, ``"10"``) and by `AUGMENTED`."""
+    claim = Claim(
+        id="fe.penalty_study",
+        title=f"FE: load with the penalty, once and ten times, against the augmented Lagrangian, {where}",
+        quantity="change of load",
+        unit="-",
+        role="gate",
+        source="augmented Lagrangian, Simo & Laursen 1992, Comput. Struct. 42, 97-116; the limit is ours",
+    )
+    return at_most(claim, lambda: largest_change(loads()), _LIMIT)
+
+
+def penetration_check(depth: Callable[[], float], where: str) -> Check:
+    """``depth`` gives the largest penetration [m] that the augmented Lagrangian leaves anywhere on the faces."""
+    claim = Claim(
+        id="fe.penetration",
+        title=f"FE: largest penetration anywhere on the faces with the augmented Lagrangian, up to {where}",
+        quantity="penetration",
+        unit="m",
+        role="gate",
+        source="Signorini's condition (Wriggers 2006): no point below the ground; the limit is ours",
+    )
+    return at_most(claim, depth, _DEEPEST)
+
 
 _FACTORS = ("0.1", "1", "10")
-_NO_LIMIT = 1e6
-"""Load [N] that ends no run."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,22 +109,16 @@ class PenaltyStudy:
         return run.load / self.runs[-1].load - 1.0
 
 
-def _applies(study: Study) -> bool:
-    return study.penalty_study is not None and study.fe.contact_stiffness is not None
-
-
 def _task_name(run: str) -> str:
     return f"fe_penalty_{run}"
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    section, stiffness = study.penalty_study, study.fe.contact_stiffness
-    assert section is not None
+    section, stiffness = stated(study.penalty_study, "penalty_study"), study.fe.contact_stiffness
     assert stiffness is not None
     mesh = mesh_task(study, "mesh_penalty", {"axial_size": 2.0 * study.mesh.axial_size})
     end = round(section.deflection, 12)
-    inputs = fe_inputs(study, degrees(section.orientation), (0.5 * end, end))
-    inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
+    inputs = without_end(fe_inputs(study, degrees(section.orientation), (0.5 * end, end)))
     changes: dict[str, dict[str, Any]] = {f: _scaled(float(f), stiffness) for f in _FACTORS}
     changes[AUGMENTED] = {"contact_stiffness": stiffness, "contact_method": AUGMENTED}
     return [mesh, *(fe_task(_task_name(name), inputs | change, mesh.name) for name, change in changes.items())]
@@ -103,8 +131,7 @@ def _scaled(factor: float, stiffness: float) -> dict[str, Any]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> PenaltyStudy:
-    section, stiffness = study.penalty_study, study.fe.contact_stiffness
-    assert section is not None
+    section, stiffness = stated(study.penalty_study, "penalty_study"), study.fe.contact_stiffness
     assert stiffness is not None
     orientation, runs = degrees(section.orientation), []
     for name in (*_FACTORS, AUGMENTED):
@@ -134,5 +161,5 @@ CONTACT = Question(
     read=_read,
     checks=_checks,
     curves=_curves,
-    applies=_applies,
+    applies=lambda study: study.penalty_study is not None and study.fe.contact_stiffness is not None,
 )

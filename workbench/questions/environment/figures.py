@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from contracts.materials_tables import KELVIN_AT_ZERO_CELSIUS
 from workbench.charts.curves import named
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import INK, ORIENTATION_COLOURS
-from workbench.questions.environment.checks import Series
+
+if TYPE_CHECKING:
+    from workbench.questions.environment.question import Series
+    from workbench.study.model import Study
 
 __all__ = ["environment_figures"]
 
 
-def environment_figures(results: tuple[Series, ...]) -> dict[str, str]:
+def environment_figures(study: Study, results: tuple[Series, ...]) -> dict[str, str]:
     """Load at each temperature, and its ratio to that at 20 C with what the modulus alone would give."""
     loads = empty_figure()
     ratios = empty_figure(y="load / load at 20 °C")

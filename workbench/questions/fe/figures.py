@@ -7,11 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.charts.curves import DASHES, add_line, add_orientations
+from workbench.charts.curves import DASHES, add_area, add_line, add_orientations
 from workbench.charts.interactive import Figure, empty_figure, figure_html
 from workbench.charts.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.mesh_study.results import MeshStudy
@@ -58,16 +56,8 @@ def add_uncertainty(figure: Figure, average: StiffnessCurve, study: MeshStudy | 
         low, high = study.band(average)
     except InputError:
         return
-    d = average.deflection * 1e3
-    figure.add_scatter(
-        x=np.concatenate([d, d[::-1]]),
-        y=np.concatenate([high, low[::-1]]),
-        fill="toself",
-        fillcolor="rgba(26, 26, 26, 0.22)",
-        line={"width": 0},
-        name="numerical uncertainty of the FE average",
-        hoverinfo="skip",
-    )
+    name = "numerical uncertainty of the FE average"
+    add_area(figure, average.deflection * 1e3, high, low, name, "rgba(26, 26, 26, 0.22)")
 
 
 def add_band(figure: Figure, band: Band | None) -> None:

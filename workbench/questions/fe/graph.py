@@ -25,6 +25,7 @@ __all__ = [
     "fe_inputs",
     "fe_task",
     "material_inputs",
+    "without_end",
     "without_fields",
 ]
 
@@ -70,6 +71,11 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
 def without_fields(inputs: Mapping[str, Any]) -> dict[str, Any]:
     """The same run, its curve alone."""
     return {**inputs, "snapshot_loads": [], "keep_points": False}
+
+
+def without_end(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """The same run, its curve alone, which no load ends before its last deflection."""
+    return without_fields(inputs) | {"max_load": 1e6}
 
 
 def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh") -> Task:

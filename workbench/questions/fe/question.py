@@ -7,12 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.fe.checks import band_checks, reach_check, spread_checks
+from workbench.questions.fe.checks import (
+    band_checks,
+    circumferential_tangent_check,
+    overlap_checks,
+    reach_check,
+    spread_checks,
+)
 from workbench.questions.fe.graph import fe_curve_tasks
-from workbench.questions.fe.limits import circumferential_tangent_check, overlap_checks
 from workbench.questions.fe.results import ContinuumCurves, read_continuum
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths
@@ -51,10 +55,6 @@ def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
     return checks
 
 
-def _curves(study: Study, results: ContinuumCurves) -> Sequence[StiffnessCurve]:
-    return results.curves
-
-
 def _figures(study: Study, results: ContinuumCurves) -> Mapping[str, str]:
     from workbench.charts.packing import picture_link
     from workbench.questions.fe.figures import fe_figure, stress_figure
@@ -78,5 +78,5 @@ FE = Question(
     read=read_continuum,
     checks=_checks,
     figures=_figures,
-    curves=_curves,
+    curves=lambda study, results: results.curves,
 )

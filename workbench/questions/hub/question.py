@@ -15,19 +15,16 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Check
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.questions.fe.graph import HUB_PARTS, fe_inputs, fe_task, without_fields
+from workbench.questions.fe.graph import HUB_PARTS, fe_inputs, fe_task, without_end
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees
 from workbench.study.wheel_design import wheel_design
 from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["HUB", "HubRun", "HubStudy", "held_parts"]
-
-_NO_LIMIT = 1e6
-"""Load [N] that ends no run."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,28 +70,21 @@ def held_parts(study: Study) -> tuple[tuple[str, ...], ...]:
     return tuple(parts[i:] for i in range(len(parts) + 1))
 
 
-def _applies(study: Study) -> bool:
-    return study.hub_study is not None and study.wheel.inner_hub is not None
-
-
 def _run_name(held: Sequence[str]) -> str:
     return f"fe_hub_{len(held)}_rigid"
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    section = study.hub_study
-    assert section is not None
-    changes = {"parts": "all", "axial_size": 2.0 * study.mesh.axial_size}
-    mesh = mesh_task(study, "mesh_hub", changes)
-    inputs = fe_inputs(study, degrees(section.orientation), np.round(section.deflections, 12).tolist())
-    inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
+    section = stated(study.hub_study, "hub_study")
+    mesh = mesh_task(study, "mesh_hub", {"parts": "all", "axial_size": 2.0 * study.mesh.axial_size})
+    deflections = np.round(section.deflections, 12).tolist()
+    inputs = without_end(fe_inputs(study, degrees(section.orientation), deflections))
     runs = [(_run_name(held), inputs | {"rigid_parts": list(held)}) for held in held_parts(study)]
     return [mesh, *(fe_task(name, changed, mesh.name) for name, changed in runs)]
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> HubStudy:
-    section = study.hub_study
-    assert section is not None
+    section = stated(study.hub_study, "hub_study")
     orientation, steps = degrees(section.orientation), held_parts(study)
     runs = []
     for held in steps:
@@ -132,5 +122,5 @@ HUB = Question(
     read=_read,
     checks=_checks,
     curves=_curves,
-    applies=_applies,
+    applies=lambda study: study.hub_study is not None and study.wheel.inner_hub is not None,
 )

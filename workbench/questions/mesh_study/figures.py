@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from contracts.errors import InputError
@@ -10,16 +12,19 @@ from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import ORIENTATION_COLOURS
 from workbench.questions.mesh_study.results import MeshStudy
 
-__all__ = ["mesh_study_figure"]
+if TYPE_CHECKING:
+    from workbench.study.model import Study
+
+__all__ = ["mesh_study_figures"]
 
 
-def mesh_study_figure(study: MeshStudy) -> str:
+def mesh_study_figures(study: Study, results: MeshStudy) -> dict[str, str]:
     """Load over the extrapolated load, or over the finest mesh's, against the square of the element size."""
     figure = empty_figure("(element size / that of the coarsest mesh)²", "load / extrapolated load - 1 [%]")
-    sizes = np.array([run.size / study.runs[-1].size for run in study.runs])
-    for i, deflection in enumerate(study.deflections):
+    sizes = np.array([run.size / results.runs[-1].size for run in results.runs])
+    for i, deflection in enumerate(results.deflections):
         try:
-            found = study.convergence(deflection)
+            found = results.convergence(deflection)
         except InputError:
             continue
         base = found.extrapolated if found.extrapolated is not None else found.values[0]
@@ -34,4 +39,4 @@ def mesh_study_figure(study: MeshStudy) -> str:
             marker={"symbol": MARKERS[i % 6], "size": 9},
             hovertemplate="%{y:.3f} %",
         )  # fmt: skip
-    return figure_html(figure, "mesh-study")
+    return {"mesh_study": figure_html(figure, "mesh-study")}

@@ -13,7 +13,8 @@ from typing import Any
 from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.fe.graph import fe_inputs, fe_task, without_fields
+from workbench.questions.fe.graph import fe_inputs, fe_task, without_end
+from workbench.questions.mesh_study.figures import mesh_study_figures
 from workbench.questions.mesh_study.results import MeshStudy, mesh_run_name, read_mesh_study
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
@@ -23,9 +24,6 @@ from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["MESH_STUDY", "mesh_study_inputs", "mesh_study_of", "mesh_study_runs", "read_mesh_study"]
 
-_NO_LIMIT = 1e6
-"""Load [N] that ends no run: every mesh is solved at every deflection."""
-
 
 def _tasks(study: Study) -> Sequence[Task]:
     """A mesh and a run for each factor but that of the curves, whose run is the curve itself."""
@@ -34,8 +32,7 @@ def _tasks(study: Study) -> Sequence[Task]:
     for factor in section.factors:
         if factor != study.mesh.factor:
             mesh = mesh_task(study, f"mesh_x{factor:g}", factor=factor)
-            inputs = fe_inputs(study, degrees(section.orientation), section.deflections)
-            inputs = without_fields(inputs) | {"max_load": _NO_LIMIT}
+            inputs = without_end(fe_inputs(study, degrees(section.orientation), section.deflections))
             tasks += [mesh, fe_task(f"fe_x{factor:g}", inputs, mesh.name)]
     return tasks
 
@@ -90,12 +87,6 @@ def _curves(study: Study, results: MeshStudy) -> list[StiffnessCurve]:
     return [replace(run.curve, model=f"fe_x{run.factor:g}") for run in runs]
 
 
-def _figures(study: Study, results: MeshStudy) -> Mapping[str, str]:
-    from workbench.questions.mesh_study.figures import mesh_study_figure
-
-    return {"mesh_study": mesh_study_figure(results)}
-
-
 MESH_STUDY = Question(
     name="mesh_study",
     title="Mesh uncertainty",
@@ -103,7 +94,7 @@ MESH_STUDY = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=mesh_study_figures,
     curves=_curves,
     applies=lambda study: study.mesh_study is not None,
 )

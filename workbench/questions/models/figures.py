@@ -2,37 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from contracts.curves import StiffnessCurve
 from workbench.charts.curves import add_line
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS
 from workbench.questions.fe.figures import add_band, add_uncertainty, add_users
-from workbench.questions.mesh_study.results import MeshStudy
-from workbench.questions.model_curves import UserCurve
-from workbench.study.model import Band
 
-__all__ = ["models_figure"]
+if TYPE_CHECKING:
+    from workbench.questions.models.question import ComparedModels
+    from workbench.study.model import Study
+
+__all__ = ["models_figures"]
 
 
-def models_figure(
-    fe: StiffnessCurve,
-    study: MeshStudy | None,
-    users: Sequence[UserCurve],
-    band: Band | None,
-    *,
-    ancf: StiffnessCurve | None,
-    brush: StiffnessCurve | None,
-) -> str:
+def models_figures(study: Study, results: ComparedModels) -> dict[str, str]:
     """The averages of all models together, with the band and the user's curves."""
-    figure = empty_figure()
-    add_band(figure, band)
-    add_uncertainty(figure, fe, study)
+    figure, continuum, fe = empty_figure(), results.continuum, results.continuum.fe.average
+    add_band(figure, study.reference)
+    add_uncertainty(figure, fe, continuum.mesh_study)
     add_line(figure, fe, "FE average", MODEL_COLOURS["fe"], width=4.0)
-    if ancf is not None:
-        add_line(figure, ancf, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
-    if brush is not None:
-        add_line(figure, brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
-    add_users(figure, users)
-    return figure_html(figure, "model-curves")
+    if results.ancf is not None:
+        add_line(figure, results.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
+    if results.brush is not None:
+        add_line(figure, results.brush, "brush line", MODEL_COLOURS["brush"], width=3.0, dash="dot")
+    add_users(figure, continuum.users)
+    return {"models": figure_html(figure, "model-curves")}

@@ -5,20 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from workbench.charts.interactive import figure_html
+from workbench.charts.interactive import figure_html, log_axes, low_figure
 from workbench.charts.palette import ORIENTATION_COLOURS
-from workbench.questions.verification.published import log_axes, low_figure
 
 if TYPE_CHECKING:
-    from workbench.questions.multibody.results import WorkRow
+    from workbench.questions.multibody.question import MultibodyResults, WorkRow
+    from workbench.study.model import Study
 
 __all__ = ["work_figures"]
 
 _DASHES = {"explicit": "solid", "implicit": "dash"}
 
 
-def work_figures(rows: Sequence[WorkRow]) -> dict[str, str]:
+def work_figures(study: Study, results: MultibodyResults) -> dict[str, str]:
     """HTML by name: error against evaluations of the equations of motion, and against processor time."""
+    rows = results.rows
     return {
         "evaluations": _figure(rows, "evaluations", "evaluations of the equations of motion", [300, 1000, 3000, 10000]),
         "seconds": _figure(rows, "seconds", "processor time [s]", [0.03, 0.1, 0.3, 1.0, 3.0, 10.0]),

@@ -1,21 +1,145 @@
 """Question: did every run of the finite elements come to its end in equilibrium, and on what mesh?
 
-Verified by tests/unit/test_workbench_checks.py and tests/end_to_end/test_partial_curve.py.
+Verified by tests/unit/test_workbench_checks.py, tests/unit/test_workbench_numerics.py and
+tests/end_to_end/test_partial_curve.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 
+import numpy as np
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from contracts.records import Check
-from workbench.questions.numerics.checks import solver_checks
-from workbench.questions.numerics.completeness import completeness_check
+from workbench.execution.result_files import early_ends
+from workbench.questions.mesh_study.question import mesh_study_of
+from workbench.questions.mesh_study.results import MeshRun
+from workbench.questions.model_curves import ModelCurves, RunNumbers, model_curves
 from workbench.questions.numerics.energy import energy_check
-from workbench.questions.numerics.results import Numerics, read_numerics
 from workbench.questions.question import Question
+from workbench.questions.wheel.question import WheelMeshes, read_wheel
 from workbench.study.model import Study
+from workbench.study.sections import ToleranceSection
+from workbench.verdict.rules import Claim, at_most, stated
+from workbench.verdict.status import COMPLETE
 
-__all__ = ["NUMERICS"]
+__all__ = [
+    "NUMERICS",
+    "Numerics",
+    "SolverRow",
+    "completeness_check",
+    "largest_residual",
+    "read_numerics",
+    "solver_checks",
+]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SolverRow:
+    """One orientation [deg] in the table of increments: its curve, and the run that gave it."""
+
+    orientation: float
+    curve: StiffnessCurve
+    run: RunNumbers
+
+    @property
+    def cuts(self) -> int:
+        """Increments that were cut back."""
+        return len(self.run.increments) - len(self.run.converged)
+
+    @property
+    def residual(self) -> float | None:
+        """Largest relative residual at the end of a converged increment [-]; None without any."""
+        return max((one.residuals[-1] for one in self.run.converged), default=None)
+
+    def largest(self, column: str) -> float:
+        """Largest absolute value of a column of the curve."""
+        return float(abs(self.curve.columns[column]).max())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Numerics:
+    """Runs of every orientation and of the mesh study, the meshes, and task -> why its run ended early."""
+
+    fe: ModelCurves
+    others: tuple[MeshRun, ...]
+    meshes: WheelMeshes
+    early_ends: Mapping[str, str]
+
+    @property
+    def rows(self) -> list[SolverRow]:
+        """In the order of the orientations."""
+        curves = self.fe.by_orientation.items()
+        return [SolverRow(orientation=o, curve=curve, run=self.fe.runs[o]) for o, curve in curves]
+
+
+def read_numerics(study: Study, folders: Mapping[str, Path]) -> Numerics:
+    """Everything about the runs from the folders of their tasks."""
+    mesh_study = mesh_study_of(study, folders)
+    return Numerics(
+        fe=model_curves("fe", folders),
+        others=() if mesh_study is None else mesh_study.runs,
+        meshes=read_wheel(study, folders),
+        early_ends=early_ends(folders),
+    )
+
+
+_EQUILIBRIUM = "equilibrium of the discrete weak form, Bonet & Wood 2008, ch. 8; the limit is the solver's own"
+_SUMS = "Euler's laws of motion at rest; the limit is ours"
+
+
+def solver_checks(fe: ModelCurves, others: Sequence[MeshRun], tol: ToleranceSection) -> list[Check]:
+    """Residual and balance of every run, those of the mesh study included."""
+    curves = [*fe.by_orientation.values(), *(run.curve for run in others)]
+    numbers = [*fe.runs.values(), *(run.numbers for run in others)]
+    residual = "FE: largest residual of any converged increment, relative to the nodal support and contact forces"
+    forces = "FE: largest imbalance of forces over contact force"
+    moments = "FE: largest imbalance of moments about the hub's centre over contact force times radius"
+    solved = _gate("fe.residual", residual, "residual", _EQUILIBRIUM)
+    checks = [at_most(solved, lambda: largest_residual(numbers), tol.fe_residual)]
+    for id, title, column in (
+        ("fe.balance", forces, "force_imbalance"),
+        ("fe.moment_balance", moments, "moment_imbalance"),
+    ):
+        checks.append(at_most(_gate(id, title, "imbalance", _SUMS), partial(_largest, curves, column), tol.fe_balance))
+    return checks
+
+
+def _largest(curves: Sequence[StiffnessCurve], column: str) -> float:
+    """Largest absolute value of a column on any curve that carries load; NaN without any."""
+    return max((float(np.abs(c.columns[column]).max()) for c in curves if not c.unloaded), default=math.nan)
+
+
+def largest_residual(runs: Sequence[RunNumbers]) -> float:
+    """Largest relative residual at the end of any converged increment of any run [-]."""
+    found = [one.residuals[-1] for run in runs for one in run.converged]
+    if not found:
+        raise InputError("increments", 0, "converged", "see the runs' messages")
+    return max(found)
+
+
+def _gate(id: str, title: str, quantity: str, source: str) -> Claim:
+    return Claim(id=id, title=title, quantity=quantity, unit="-", role="gate", source=source)
+
+
+def completeness_check(early_ends: Mapping[str, str]) -> Check:
+    """A gate: no finite element run ended before its target. ``early_ends``: task name -> reason."""
+    named = f": {', '.join(early_ends)}; what rests on them is partial" if early_ends else ""
+    claim = Claim(
+        id=COMPLETE,
+        title=f"FE: runs that did not converge to their end{named}",
+        quantity="runs",
+        unit="-",
+        role="gate",
+        source="no publication: guards every other number against resting on a curve that ended early",
+    )
+    return stated(claim, float(len(early_ends)), 0.0, "none", "error" if early_ends else "pass")
 
 
 def _checks(study: Study, results: Numerics) -> Sequence[Check]:

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import ORIENTATION_COLOURS
-from workbench.questions.orientations.results import OrientationMap
+
+if TYPE_CHECKING:
+    from workbench.questions.orientations.question import OrientationMap
+    from workbench.study.model import Study
 
 __all__ = ["orientation_figures"]
 
@@ -12,7 +17,7 @@ _LINES_EVERY = 5e-3
 _MAP_EVERY = 1e-3
 
 
-def orientation_figures(found: OrientationMap) -> dict[str, str]:
+def orientation_figures(study: Study, found: OrientationMap) -> dict[str, str]:
     """Load against orientation at a few deflections, and the map of load over orientation and deflection."""
     deflections, fine = found.deflections(_LINES_EVERY), found.deflections(_MAP_EVERY)
     lines = empty_figure("orientation [deg]")

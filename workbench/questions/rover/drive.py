@@ -1,6 +1,6 @@
 """One run of the rover on ANCF or brush tires, as its task left it.
 
-Verified by tests/unit/test_workbench_rover_ancf.py.
+Verified by tests/unit/test_workbench_rover_ancf.py and tests/unit/test_workbench_rover.py.
 """
 
 from __future__ import annotations
@@ -59,10 +59,18 @@ class Drive:
         return dict(zip(COLUMNS, (changes[1:] / changes[0]).tolist(), strict=True))
 
     def value(self, quantity: str) -> float:
-        """Of the first outcome that begins so; raises InputError if there is none."""
+        """Of the first outcome that begins so; raises InputError if there is none, as in a run that stopped."""
+        return self.outcome(quantity).value
+
+    def reference(self, quantity: str) -> float:
+        """Of the first outcome that begins so; 0 if there is none, whose value then raises."""
+        return next((o.reference or 0.0 for o in self.outcomes if o.quantity.startswith(quantity)), 0.0)
+
+    def outcome(self, quantity: str) -> Outcome:
+        """The first outcome that begins so; raises InputError if there is none."""
         for outcome in self.outcomes:
             if outcome.quantity.startswith(quantity):
-                return outcome.value
+                return outcome
         raise InputError("outcome", quantity, "was not computed", self.stopped or "look at the run")
 
     def column(self, name: str) -> FloatArray:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.series import TimeSeries
+from workbench.charts.curves import add_plain
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import INK, ORIENTATION_COLOURS
 
@@ -58,7 +59,7 @@ def _against_time(
     for k, (name, one) in enumerate(series.items()):
         low, high = between or (0.0, np.inf)
         inside = (one.time >= low) & (one.time <= high)
-        _line(figure, one.time[inside], scale * one[column][inside], name, k)
+        add_plain(figure, one.time[inside], scale * one[column][inside], name, ORIENTATION_COLOURS[k])
     figure.update_yaxes(rangemode="normal")
     if between is not None:
         figure.update_xaxes(range=between)
@@ -72,7 +73,7 @@ def _sweep(series: TimeSeries) -> str:
     """Wheel load against deflection, with the tire's static line."""
     figure = empty_figure("deflection [mm]", "wheel load [N]")
     deflection, load = series["front_right_deflection_m"], series["front_right_load_N"]
-    _line(figure, 1e3 * deflection, RADIAL_STIFFNESS * deflection, "8250 N/m", 1)
+    add_plain(figure, 1e3 * deflection, RADIAL_STIFFNESS * deflection, "8250 N/m", ORIENTATION_COLOURS[1])
     figure.add_scatter(x=1e3 * deflection, y=load, name="rover, front right", mode="markers", marker={"size": 8})
     return figure_html(figure, "rover-load-sweep")
 
@@ -81,11 +82,5 @@ def _wheels(series: TimeSeries) -> str:
     """Loads of the wheels on the left while the rover climbs."""
     figure = empty_figure("time [s]", "wheel load, left side [N]")
     for k, end in enumerate(("front", "center", "rear")):
-        _line(figure, series.time, series[f"{end}_left_load_N"], end, k)
+        add_plain(figure, series.time, series[f"{end}_left_load_N"], end, ORIENTATION_COLOURS[k])
     return figure_html(figure, "rover-step")
-
-
-def _line(figure: object, x: FloatArray, y: FloatArray | Sequence[float], name: str, colour: int) -> None:
-    figure.add_scatter(  # type: ignore[attr-defined]
-        x=x, y=y, name=name, mode="lines", line={"color": ORIENTATION_COLOURS[colour], "width": 2.0}
-    )

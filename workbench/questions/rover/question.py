@@ -11,21 +11,20 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from contracts.errors import InputError
 from contracts.records import Check, Role
-from contracts.series import TimeSeries, read_series
+from contracts.series import TimeSeries
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
-from workbench.execution.result_files import FAILURE, read_result
 from workbench.execution.task import Task
 from workbench.questions.question import Question
-from workbench.questions.rover_mission.checks import MISSION_SOURCE
+from workbench.questions.rover.drive import Drive, read_drive
+from workbench.questions.rover_mission.requirements import MISSION_SOURCE, TITLES, MissionRow, mission_checks
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_brush, rover_on_brush
 from workbench.verdict.rules import Claim, at_least, at_most, near
 
-__all__ = ["ROVER", "RoverResult", "RoverResults"]
+__all__ = ["ROVER", "RoverResults"]
 
 THESIS = {
     "static": ("static equilibrium", "Fig. 15"),
@@ -36,12 +35,7 @@ THESIS = {
     "traction": ("3.5 N m on each drive", "Fig. 25"),
 }
 MISSION = {
-    "slope_up": "slope of 25 degrees, upwards",
-    "slope_down": "slope of 25 degrees, downwards",
-    "slope_across": "slope of 25 degrees, across",
-    "step": "step of 0.25 m",
-    "crevasse": "crevasse of 0.15 m",
-    "point_turn": "quarter turn on the spot",
+    **{name: title for name, title in TITLES.items() if name != "rocks"},
     "stability": "static stability, 40 degrees",
 }
 """Scenario -> what it is called; names as in `rover_dynamics.rover.scenarios.catalogue`."""
@@ -51,34 +45,10 @@ THESIS_TORQUE = 3.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RoverResult:
-    """One scenario: its outcomes, its series, why it ended early or None."""
-
-    outcomes: tuple[Outcome, ...]
-    series: TimeSeries
-    stopped: str | None
-
-    def value(self, quantity: str) -> float:
-        """Of the first outcome that begins so; raises InputError if there is none, as in a run that stopped."""
-        return self.outcome(quantity).value
-
-    def reference(self, quantity: str) -> float:
-        """Of the first outcome that begins so; 0 if there is none, whose value then raises."""
-        return next((o.reference or 0.0 for o in self.outcomes if o.quantity.startswith(quantity)), 0.0)
-
-    def outcome(self, quantity: str) -> Outcome:
-        """The first outcome that begins so."""
-        for outcome in self.outcomes:
-            if outcome.quantity.startswith(quantity):
-                return outcome
-        raise InputError("outcome", quantity, "was not computed", self.stopped or "look at the scenario")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class RoverResults:
     """All scenarios by name, the brush tire they were driven on, friction of the ground or None, a still."""
 
-    by_name: Mapping[str, RoverResult]
+    by_name: Mapping[str, Drive]
     tire: BrushTireParameters
     friction: float | None
     picture: Path
@@ -95,7 +65,7 @@ class RoverResults:
 
         return float(self.tire.radial_damping * math.sqrt(2.0 * read_rover().gravity * DROP_HEIGHT))
 
-    def __getitem__(self, name: str) -> RoverResult:
+    def __getitem__(self, name: str) -> Drive:
         return self.by_name[name]
 
     @property
@@ -113,18 +83,9 @@ class RoverResults:
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    still = Task(
-        name="rover_still",
-        function="workbench.questions.rover.still:draw",
-        inputs={},
-        cost=5.0,
-    )
-    return [still, *_scenario_tasks(study)]
-
-
-def _scenario_tasks(study: Study) -> list[Task]:
+    still = Task(name="rover_still", function="workbench.questions.rover.still:draw", inputs={}, cost=5.0)
     tires = rover_on_brush(study)
-    return [
+    scenarios = [
         Task(
             name=f"rover_{name}",
             function="workbench.questions.rover.task:drive_rover",
@@ -133,18 +94,11 @@ def _scenario_tasks(study: Study) -> list[Task]:
         )
         for name in (*THESIS, *MISSION)
     ]
+    return [still, *scenarios]
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> RoverResults:
-    found = {}
-    for name in (*THESIS, *MISSION):
-        folder = folders[f"rover_{name}"]
-        result = read_result(folder)
-        found[name] = RoverResult(
-            outcomes=tuple(Outcome(**row) for row in result["outcomes"]),
-            series=read_series(folder / "series.csv", name, "brush"),
-            stopped=result[FAILURE],
-        )
+    found = {name: read_drive(folders[f"rover_{name}"], name, "brush") for name in (*THESIS, *MISSION)}
     picture = folders["rover_still"] / "rover.png"
     return RoverResults(by_name=found, tire=rover_brush(study), friction=study.ground.friction, picture=picture)
 
@@ -154,17 +108,11 @@ def _claim(name: str, title: str, outcome: str, unit: str, source: str, *, gate:
     return Claim(id=f"rover.{name}", title=f"Rover, {title}", quantity=outcome, unit=unit, role=role, source=source)
 
 
+_ONE_WHEEL = "one wheel integrated apart"
 CLOSED_FORMS = (
     ("load", "static", "mean wheel load at the end", "static equilibrium", "320 kg on Mars, six wheels", 1e-3),
-    ("drop", "drop", "largest wheel load", "drop of 10 mm, damper that builds up", "one wheel integrated apart", 1e-3),
-    (
-        "drop_printed",
-        "drop_printed",
-        "largest wheel load",
-        "drop, damper as printed",
-        "one wheel integrated apart",
-        0.01,
-    ),
+    ("drop", "drop", "largest wheel load", "drop of 10 mm, damper that builds up", _ONE_WHEEL, 1e-3),
+    ("drop_printed", "drop_printed", "largest wheel load", "drop, damper as printed", _ONE_WHEEL, 0.01),
     ("traction", "traction", "mean tractive force", "3.5 N m on each drive", "balance of wheels and rover", 5e-4),
     (
         "traction_wheel",
@@ -199,34 +147,28 @@ def _checks(study: Study, results: RoverResults) -> Sequence[Check]:
     return [*checks, *(check for name in MISSION for check in _requirements(name, results[name]))]
 
 
-def _torque_check(name: str, result: RoverResult) -> Check:
+def _torque_check(name: str, result: Drive) -> Check:
     """Largest torque of a drive against the only one that is published; no part of what the mission requires."""
     quantity, source = "largest torque of a drive", "Samarini 2020, section 3.5: the moment on each drive"
     claim = _claim(f"torque_{name}", f"{MISSION[name]}: {quantity}", quantity, "N m", source)
     return at_most(claim, partial(result.value, quantity), THESIS_TORQUE)
 
 
-def _largest_miss(static: RoverResult, model: str) -> float:
+def _largest_miss(static: Drive, model: str) -> float:
     """Of the loads on one kind of tires from those of statics [N]; raises InputError if there are none."""
     static.outcome(f"{model} tires")
     rows = [one for one in static.outcomes if one.quantity.startswith(f"{model} tires")]
     return max(abs(one.value - one.reference) for one in rows if one.reference is not None)
 
 
-def _requirements(name: str, result: RoverResult) -> list[Check]:
+def _requirements(name: str, result: Drive) -> list[Check]:
     """One check for each number the scenario has a limit for; without any, one that could not be evaluated."""
     limited = [outcome for outcome in result.outcomes if outcome.limit is not None]
     if not limited:
         claim = _claim(f"mission_{name}", MISSION[name], "requirement", "-", MISSION_SOURCE)
         return [at_least(claim, lambda: result.value("requirement"), 0.0)]
-    checks = []
-    for k, one in enumerate(limited):
-        end = f"_{k + 1}" if k else ""
-        title = f"{MISSION[name]}: {one.quantity}"
-        claim = _claim(f"mission_{name}{end}", title, one.quantity, one.unit, MISSION_SOURCE)
-        rule = at_least if one.at_least else at_most
-        checks.append(rule(claim, partial(float, one.value), one.limit or 0.0))
-    return checks
+    rows = [MissionRow(name=name, title=MISSION[name], quantity=one.quantity, ours=one) for one in limited]
+    return mission_checks(rows, "rover.mission_", "Rover")
 
 
 def _figures(study: Study, results: RoverResults) -> Mapping[str, str]:
@@ -235,11 +177,11 @@ def _figures(study: Study, results: RoverResults) -> Mapping[str, str]:
     from workbench.questions.rover.scene import rover_scene
 
     scene = rover_scene(read_rover(), picture_link(results.picture))
-    return {"rover_scene": scene, **rover_figures({name: result.series for name, result in results.by_name.items()})}
+    return {"rover_scene": scene, **rover_figures({one.scenario: one for one in _series(study, results)})}
 
 
 def _series(study: Study, results: RoverResults) -> Sequence[TimeSeries]:
-    return [result.series for result in results.by_name.values()]
+    return [result.series for result in results.by_name.values() if result.series is not None]
 
 
 ROVER = Question(

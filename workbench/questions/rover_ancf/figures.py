@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from workbench.charts.curves import add_plain
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.rover.oscillation import spectrum
 
 if TYPE_CHECKING:
     from workbench.questions.rover_ancf.results import AncfRover
+    from workbench.study.model import Study
 
 __all__ = ["rover_ancf_figures"]
 
@@ -20,7 +22,7 @@ FloatArray = NDArray[np.float64]
 _WHEEL = "front_right"
 
 
-def rover_ancf_figures(results: AncfRover) -> dict[str, str]:
+def rover_ancf_figures(study: Study, results: AncfRover) -> dict[str, str]:
     """HTML by name, after the thesis' figures."""
     return {
         "rover_ancf_fig18": _both(results, "drop", f"{_WHEEL}_load_N", "wheel load, front right [N]", until=1.0),
@@ -55,7 +57,7 @@ def _both(
         series = drive.series
         if series is not None:
             inside = (series.time >= since) & (series.time <= until)
-            _line(figure, series.time[inside], scale * series[column][inside], tire, MODEL_COLOURS[tire])
+            add_plain(figure, series.time[inside], scale * series[column][inside], tire, MODEL_COLOURS[tire])
     figure.update_yaxes(rangemode="normal")
     return figure_html(figure, f"rover-ancf-{name}-{column.replace('_', '-')}")
 
@@ -64,12 +66,16 @@ def _sweep(results: AncfRover) -> str:
     """Wheel load against deflection on spokes and between them, with the FE average and the brush tire."""
     figure = empty_figure("deflection [mm]", "wheel load [N]")
     brush = results.brush["load_sweep"].series
-    _line(figure, 1e3 * results.fe.deflection, results.fe.load, "FE average", MODEL_COLOURS["fe"])
+    add_plain(figure, 1e3 * results.fe.deflection, results.fe.load, "FE average", MODEL_COLOURS["fe"])
     if brush is not None:
-        _line(figure, 1e3 * brush[f"{_WHEEL}_deflection_m"], brush[f"{_WHEEL}_load_N"], "brush", MODEL_COLOURS["brush"])
+        add_plain(
+            figure, 1e3 * brush[f"{_WHEEL}_deflection_m"], brush[f"{_WHEEL}_load_N"], "brush", MODEL_COLOURS["brush"]
+        )
     for k, (name, words) in enumerate((("load_sweep", "on a spoke"), ("load_sweep_between", "between spokes"))):
         rows = np.array([[d, N] for run, N, d, _ in results.sweep if run == name]).reshape(-1, 2)
-        _line(figure, 1e3 * rows[:, 0], rows[:, 1], f"ANCF, {words}", ORIENTATION_COLOURS[(0, 5)[k]], "lines+markers")
+        add_plain(
+            figure, 1e3 * rows[:, 0], rows[:, 1], f"ANCF, {words}", ORIENTATION_COLOURS[(0, 5)[k]], mode="lines+markers"
+        )
     return figure_html(figure, "rover-ancf-load-sweep")
 
 
@@ -81,9 +87,5 @@ def _spectrum(results: AncfRover) -> str:
         if results[name].series is None:
             continue
         time, force = results.window(name, f"{_WHEEL}_tractive_N", (0.2, 2.0))
-        _line(figure, *spectrum(time, force), words, (INK, *ORIENTATION_COLOURS)[k])
+        add_plain(figure, *spectrum(time, force), words, (INK, *ORIENTATION_COLOURS)[k])
     return figure_html(figure, "rover-ancf-spectrum")
-
-
-def _line(figure: Any, x: FloatArray, y: FloatArray, name: str, colour: str, mode: str = "lines") -> None:
-    figure.add_scatter(x=x, y=y, name=name, mode=mode, line={"color": colour, "width": 2.0})

@@ -18,8 +18,9 @@ from workbench.execution.task import Task
 from workbench.questions.model_curves import model_curves
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import Drive, read_drive
+from workbench.questions.rover_ancf.figures import rover_ancf_figures
 from workbench.questions.rover_ancf.results import OBSERVED, AncfRover
-from workbench.questions.rover_mission.checks import mission_checks
+from workbench.questions.rover_mission.requirements import mission_checks
 from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, on_tire_of_thesis, rover_ancf, rover_on_ancf
 from workbench.study.sections import runs_on_ancf_tires
@@ -115,7 +116,7 @@ def _checks(study: Study, results: AncfRover) -> Sequence[Check]:
         *checks,
         *_account_checks(results),
         *_sweep_checks(results),
-        *mission_checks(results.requirements, "rover_ancf.mission_", "ANCF tires"),
+        *mission_checks(results.requirements, "rover_ancf.mission_", "Rover on ANCF tires"),
     ]
 
 
@@ -183,12 +184,6 @@ def _sweep_checks(results: AncfRover) -> list[Check]:
     return [at_most(claim, largest, 0.10)]
 
 
-def _figures(study: Study, results: AncfRover) -> Mapping[str, str]:
-    from workbench.questions.rover_ancf.figures import rover_ancf_figures
-
-    return rover_ancf_figures(results)
-
-
 def _series(study: Study, results: AncfRover) -> Sequence[TimeSeries]:
     return [drive.series for drive in results.runs.values() if drive.series is not None]
 
@@ -200,7 +195,7 @@ ROVER_ANCF = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=rover_ancf_figures,
     series=_series,
     applies=lambda study: bool(runs_of(study)) and fits_rover(study),
 )

@@ -16,7 +16,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.rover.drive import Drive
 from workbench.questions.rover.oscillation import period, ripple, spectrum
-from workbench.questions.rover_mission.row import MissionRow, mission_rows
+from workbench.questions.rover_mission.requirements import MissionRow, mission_rows
 
 __all__ = ["OBSERVED", "AncfRover"]
 

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from workbench.charts.interactive import empty_figure, figure_html
+from workbench.charts.curves import add_plain
+from workbench.charts.interactive import empty_figure, figure_html, log_axis
 from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.rover_closer.results import GROUNDS, CloserLook
+
+if TYPE_CHECKING:
+    from workbench.study.model import Study
 
 __all__ = ["closer_figures"]
 
@@ -14,7 +20,7 @@ _LOWEST = 1e-6
 """Amplitudes below this one are not drawn [m/s^2]."""
 
 
-def closer_figures(found: CloserLook) -> dict[str, str]:
+def closer_figures(study: Study, found: CloserLook) -> dict[str, str]:
     """HTML by name: pressure at each moment, strains, spectra."""
     return {
         **{f"closer_pressure_{k}": text for k, text in enumerate(_pressures(found))},
@@ -60,9 +66,7 @@ def _spectra(found: CloserLook, ground: str) -> str:
     figure = empty_figure("frequency [Hz]", "vertical acceleration of the body [m/s²]")
     for words, tire, one in found.vibrations:
         if words == GROUNDS[ground]:
-            line = {"color": MODEL_COLOURS[tire], "width": 1.8}
             seen = np.maximum(one.amplitude[1:], _LOWEST)
-            figure.add_scatter(x=one.frequency[1:], y=seen, name=f"{tire} tires", mode="lines", line=line)
-    figure.update_yaxes(type="log", rangemode="normal", exponentformat="power", dtick=1, title_standoff=12)
-    figure.update_layout(margin_l=84)
+            add_plain(figure, one.frequency[1:], seen, f"{tire} tires", MODEL_COLOURS[tire], width=1.8)
+    log_axis(figure)
     return figure_html(figure, f"closer-spectrum-{ground}")

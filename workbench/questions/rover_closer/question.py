@@ -20,6 +20,7 @@ from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import read_drive
+from workbench.questions.rover_closer.figures import closer_figures
 from workbench.questions.rover_closer.results import GROUNDS, CloserLook, Resting
 from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.study.model import Study
@@ -115,12 +116,6 @@ def _beside_rest(results: CloserLook, number: Callable[[], float]) -> float:
     return number()
 
 
-def _figures(study: Study, results: CloserLook) -> Mapping[str, str]:
-    from workbench.questions.rover_closer.figures import closer_figures
-
-    return closer_figures(results)
-
-
 def _series(study: Study, results: CloserLook) -> Sequence[TimeSeries]:
     return list(results.series.values())
 
@@ -132,7 +127,7 @@ ROVER_CLOSER = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=closer_figures,
     series=_series,
     applies=ROVER_MISSION.applies,
 )

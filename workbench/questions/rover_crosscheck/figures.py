@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import numpy as np
+from typing import TYPE_CHECKING
 
+from workbench.charts.curves import DASHES, MARKERS, add_area, add_plain
 from workbench.charts.interactive import empty_figure, figure_html
-from workbench.charts.palette import BAND, MODEL_COLOURS, ORIENTATION_COLOURS
+from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.rover_crosscheck.results import ALLOWED, CrossCheck, lattice
+
+if TYPE_CHECKING:
+    from workbench.study.model import Study
 
 __all__ = ["crosscheck_figures"]
 
-_MARKERS = ("circle", "square", "diamond")
-_DASHES = ("solid", "dash", "dot")
 
-
-def crosscheck_figures(found: CrossCheck) -> dict[str, str]:
+def crosscheck_figures(study: Study, found: CrossCheck) -> dict[str, str]:
     """Deflection of the standing rover around the wheel, and the load sweep."""
-    return {
-        "crosscheck_around": _around(found),
-        "crosscheck_sweep": _sweep(found),
-    }
+    return {"crosscheck_around": _around(found), "crosscheck_sweep": _sweep(found)}
 
 
 def _around(found: CrossCheck) -> str:
@@ -28,9 +26,7 @@ def _around(found: CrossCheck) -> str:
     places = lattice(found.period)
     fe = [found.reference(o) for o in places]
     deflections = [1e3 * curve.deflection_at(found.static_load) for _, curve in fe]
-    figure.add_scatter(
-        x=places, y=deflections, name="FE", mode="lines", line={"color": MODEL_COLOURS["fe"], "width": 3.0}
-    )
+    add_plain(figure, places, deflections, "FE", MODEL_COLOURS["fe"], width=3.0)
     solid = [i for i, (model, _) in enumerate(fe) if model == "solid"]
     x, y = [places[i] for i in solid], [deflections[i] for i in solid]
     style = {"color": MODEL_COLOURS["fe"], "size": 10}
@@ -38,9 +34,9 @@ def _around(found: CrossCheck) -> str:
     for k, tire in enumerate(tire for tire in found.stood if tire.points):
         y = [1e3 * d.point.deflection for d in found.around(tire, found.static_load)]
         name = f"ANCF, {tire.name.replace('_', ' ')}{', kept' if tire.name == found.kept else ''}"
-        style = {"color": ORIENTATION_COLOURS[(k + 1) % 6], "width": 2.0, "dash": _DASHES[k % 3]}
+        style = {"color": ORIENTATION_COLOURS[(k + 1) % 6], "width": 2.0, "dash": DASHES[k % 3]}
         figure.add_scatter(x=places, y=y, name=name, mode="lines+markers", line=style,
-                           marker={"symbol": _MARKERS[k % 3], "size": 6})  # fmt: skip
+                           marker={"symbol": MARKERS[k % 3], "size": 6})  # fmt: skip
     figure.update_yaxes(rangemode="normal")
     return figure_html(figure, "crosscheck-around")
 
@@ -50,22 +46,14 @@ def _sweep(found: CrossCheck) -> str:
     figure, average, tire = empty_figure(), found.average, found.best
     d, F = 1e3 * average.deflection, average.load
     width = F * (found.mesh_study.relative_uncertainty(average.deflection) + ALLOWED)
-    band = {"x": np.concatenate([d, d[::-1]]), "y": np.concatenate([F + width, (F - width)[::-1]])}
-    figure.add_scatter(
-        **band,
-        fill="toself",
-        fillcolor=BAND,
-        line={"width": 0},
-        name="FE average, uncertainty and 5 %",
-        hoverinfo="skip",
-    )
-    figure.add_scatter(x=d, y=F, name="FE average", mode="lines", line={"color": MODEL_COLOURS["fe"], "width": 3.0})
+    add_area(figure, d, F + width, F - width, "FE average, uncertainty and 5 %")
+    add_plain(figure, d, F, "FE average", MODEL_COLOURS["fe"], width=3.0)
     wheels = [(1e3 * p.deflection, p.load) for p in tire.points]
     x, y = zip(*wheels, strict=True)
     figure.add_scatter(x=x, y=y, name="wheels of the rover", mode="markers",
                        marker={"size": 5, "color": ORIENTATION_COLOURS[1], "opacity": 0.5})  # fmt: skip
     means = [found.on_average(tire, load).point for load in tire.loads]
-    figure.add_scatter(x=[1e3 * p.deflection for p in means], y=[p.load for p in means], name="their mean",
-                       mode="lines+markers", line={"color": MODEL_COLOURS["ancf"], "width": 2.5})  # fmt: skip
+    deflections, loads = [1e3 * p.deflection for p in means], [p.load for p in means]
+    add_plain(figure, deflections, loads, "their mean", MODEL_COLOURS["ancf"], width=2.5, mode="lines+markers")
     figure.update_layout(hovermode="closest")
     return figure_html(figure, "crosscheck-sweep")

@@ -21,6 +21,7 @@ from workbench.questions.mesh_study.question import mesh_study_inputs
 from workbench.questions.mesh_study.results import read_mesh_study
 from workbench.questions.model_curves import CURVE, model_curves
 from workbench.questions.question import Question
+from workbench.questions.rover_crosscheck.figures import crosscheck_figures
 from workbench.questions.rover_crosscheck.results import (
     ALLOWED,
     CrossCheck,
@@ -32,7 +33,7 @@ from workbench.questions.rover_crosscheck.results import (
 )
 from workbench.questions.section.graph import section_task, without_planar_model
 from workbench.study.full import is_mirrored, rotational_period
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.model_parameters import fits_rover
 from workbench.study.orientation import degrees, orientation_name
 from workbench.verdict.rules import Claim, at_most
@@ -49,8 +50,7 @@ _REACH = 0.03
 
 def _tasks(study: Study) -> Sequence[Task]:
     """One for each fitted tire, the kept one with the load sweep; planar models of orientations without a solid one."""
-    section = study.ancf_fit
-    assert section is not None  # the question applies
+    section = stated(study.ancf_fit, "ancf_fit")
     tasks = [
         Task(
             name=f"rover_stands_{tire.name}",
@@ -86,8 +86,7 @@ def _section_orientations(study: Study) -> list[float]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> CrossCheck:
-    section, fe = study.ancf_fit, model_curves("fe", folders)
-    assert section is not None
+    section, fe = stated(study.ancf_fit, "ancf_fit"), model_curves("fe", folders)
     planar = {
         o: read_curve(folders[_section_name(o)] / CURVE, model="section", orientation_deg=o)
         for o in _section_orientations(study)
@@ -160,12 +159,6 @@ def _raiser(error: InputError) -> Callable[[], float]:
     return number
 
 
-def _figures(study: Study, results: CrossCheck) -> Mapping[str, str]:
-    from workbench.questions.rover_crosscheck.figures import crosscheck_figures
-
-    return crosscheck_figures(results)
-
-
 def _applies(study: Study) -> bool:
     asked = study.rover is not None and study.ancf_fit is not None
     return asked and study.fe.max_deflection >= _REACH and fits_rover(study)
@@ -178,6 +171,6 @@ ROVER_CROSSCHECK = Question(
     tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=_figures,
+    figures=crosscheck_figures,
     applies=_applies,
 )

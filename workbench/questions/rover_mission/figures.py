@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from workbench.charts.curves import add_plain
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS
-from workbench.questions.rover_mission.row import TITLES
+from workbench.questions.rover_mission.requirements import TITLES
 
 if TYPE_CHECKING:
-    from workbench.questions.rover_mission.row import Mission
+    from workbench.questions.rover_mission.question import Mission
+    from workbench.study.model import Study
 
 __all__ = ["mission_figures"]
 
 _SIDES = ("front_left", "front_right", "rear_left", "rear_right")
 
 
-def mission_figures(results: Mission) -> dict[str, str]:
+def mission_figures(study: Study, results: Mission) -> dict[str, str]:
     """Of each run that moved, by name: the heaviest of four wheels' loads, and the speed ahead, on both tires."""
     return {
         f"mission_{name}_{column}": _both(results, name, column)
@@ -38,8 +40,7 @@ def _both(results: Mission, name: str, column: str) -> str:
         for wheel in _SIDES[1:]:
             heaviest = heaviest.clip(min=series[f"{wheel}_load_N"])
         words = "brush tires" if tire == "brush" else "fitted ANCF tires"
-        line = {"color": MODEL_COLOURS[tire], "width": 2.0}
         y = heaviest if column == "load" else way
-        figure.add_scatter(x=series.time, y=y, name=f"{words}, {TITLES[name]}", mode="lines", line=line)
+        add_plain(figure, series.time, y, f"{words}, {TITLES[name]}", MODEL_COLOURS[tire])
     figure.update_yaxes(rangemode="normal")
     return figure_html(figure, f"mission-{name}-{column}".replace("_", "-"))

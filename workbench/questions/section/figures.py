@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from workbench.charts.curves import DASHES, MARKERS, add_line, named
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
-from workbench.questions.model_curves import ModelCurves
 
-__all__ = ["section_figure"]
+if TYPE_CHECKING:
+    from workbench.questions.section.question import SectionRuns
+    from workbench.study.model import Study
+
+__all__ = ["section_figures"]
 
 
-def section_figure(section: ModelCurves, fe: ModelCurves) -> str:
+def section_figures(study: Study, runs: SectionRuns) -> dict[str, str]:
     """Section model at each orientation as lines, the solid model's points on them, both averages."""
-    figure = empty_figure()
+    figure, section, fe = empty_figure(), runs.section, runs.fe
     for i, (orientation, curve) in enumerate(section.by_orientation.items()):
         colour = ORIENTATION_COLOURS[i % 6]
         add_line(figure, curve, f"section {orientation:g}°", colour, width=1.8, dash=DASHES[i % 6])
@@ -28,4 +33,4 @@ def section_figure(section: ModelCurves, fe: ModelCurves) -> str:
             )
     add_line(figure, section.average, "section average", MODEL_COLOURS["section"], width=4.0)
     add_line(figure, fe.average, "solid average", MODEL_COLOURS["fe"], width=2.0, dash="dot")
-    return figure_html(figure, "section-curves")
+    return {"section": figure_html(figure, "section-curves")}

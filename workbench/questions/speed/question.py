@@ -1,7 +1,7 @@
 """Question: what a Newton iteration, an orientation, an ANCF plate and a rover's motion cost, and the aims.
 
 Times beside other codes, on two processes, of the ANCF loops and of the rover come from kept benchmark runs
-(`benchmark_record`), those of the study's own curves from their stored results. Verified by
+(`workbench.questions.speed.record`), those of the study's own curves from their stored results. Verified by
 tests/unit/test_workbench_speed.py.
 """
 
@@ -16,23 +16,16 @@ from contracts.records import Check
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
 from workbench.questions.section.graph import without_planar_model
-from workbench.questions.speed.aim import Aim
-from workbench.questions.speed.ancf import ARITHMETIC, CHRONO, TIRE, ancf_aims
-from workbench.questions.speed.flexible import flexible_aims
+from workbench.questions.speed.aims import ARITHMETIC, CHRONO, TIRE, Aim, ancf_aims, flexible_aims, rover_aims
 from workbench.questions.speed.record import BenchmarkRecord, BenchmarkRow, read_record
-from workbench.questions.speed.rover import rover_aims
 from workbench.questions.verification.question import VERIFICATION
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["SPEED", "CurveCost", "SpeedResults", "kept_runs"]
 
-ITERATION, ITERATIONS, WHOLE, MEMORY = (
-    "time per Newton iteration",
-    "Newton iterations to 20 mm",
-    "time to 20 mm",
-    "peak memory",
-)
+ITERATION, ITERATIONS = "time per Newton iteration", "Newton iterations to 20 mm"
+WHOLE, MEMORY = "time to 20 mm", "peak memory"
 EQUAL_ACCURACY = "half-cylinder-equal-accuracy against CalculiX"
 SAME_ELEMENT = tuple(f"half-cylinder-{n} against CalculiX" for n in (40, 120, 220))
 RANKS = "wall time of a Newton iteration"
@@ -109,11 +102,8 @@ class SpeedResults:
         planar = [c.solve_s for c in self.curves if c.model == "section"]
         aims = []
         if solid:
-            title, found = (
-                "Newton iterations for 20 points of a curve, dearest orientation of this report",
-                self.dearest,
-            )
-            aims.append(Aim(title=title, found=found, limit=CURVE_ITERATIONS, unit="", rule="at most"))
+            title = "Newton iterations for 20 points of a curve, dearest orientation of this report"
+            aims.append(Aim(title=title, found=self.dearest, limit=CURVE_ITERATIONS, unit="", rule="at most"))
         if planar:
             title = "An orientation of the planar model, slowest of this report"
             aims.append(Aim(title=title, found=max(planar), limit=PLANAR_SECONDS, unit="s", rule="at most"))
@@ -131,20 +121,19 @@ def _ratio(record: BenchmarkRecord, metric: str) -> float:
 
 
 def _costs(model: str, curves: ModelCurves) -> list[CurveCost]:
-    return [_cost(model, orientation, curves) for orientation in curves.loaded]
-
-
-def _cost(model: str, orientation: float, curves: ModelCurves) -> CurveCost:
-    run = curves.runs[orientation]
-    return CurveCost(
-        model=model,
-        orientation=orientation,
-        dofs=run.dofs,
-        points=int((curves.by_orientation[orientation].deflection > 0.0).sum()),
-        increments=len(run.converged),
-        iterations=run.iterations,
-        solve_s=run.solve_s,
-    )
+    return [
+        CurveCost(
+            model=model,
+            orientation=orientation,
+            dofs=run.dofs,
+            points=int((curve.deflection > 0.0).sum()),
+            increments=len(run.converged),
+            iterations=run.iterations,
+            solve_s=run.solve_s,
+        )
+        for orientation, curve in curves.loaded.items()
+        for run in [curves.runs[orientation]]
+    ]
 
 
 def kept_runs() -> dict[str, BenchmarkRecord]:

@@ -1,6 +1,7 @@
-"""Question of the report: largest stress against yield along every curve, and the load at first yield.
+"""Question: largest stress against yield along every curve, and the load at first yield.
 
-Verified by tests/unit/test_workbench_yielding.py and tests/end_to_end/test_report.py.
+Verified by tests/unit/test_workbench_yielding.py, tests/unit/test_workbench_checks.py and
+tests/end_to_end/test_report.py.
 """
 
 from __future__ import annotations
@@ -8,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
-from workbench.questions.model_curves import model_curves
+from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
-from workbench.questions.strength.checks import yield_check
+from workbench.questions.strength.figures import strength_figures
 from workbench.questions.strength.yielding import (
     StrengthResults,
     first_yield,
@@ -21,9 +23,41 @@ from workbench.questions.strength.yielding import (
     yield_strengths,
 )
 from workbench.study.model import LARGEST_WHEEL_LOAD, Study
-from workbench.verdict.rules import Claim, at_least
+from workbench.verdict.rules import Claim, at_least, at_most
 
-__all__ = ["STRENGTH"]
+__all__ = ["STRENGTH", "yield_check"]
+
+
+def yield_check(fe: ModelCurves, yield_strength: Mapping[str, float], up_to: float) -> Check:
+    """Largest von Mises stress over yield strength in any part, up to a load [N]."""
+
+    def largest() -> float:
+        lowest = min(float(curve.load.max()) for curve in fe.by_orientation.values())
+        if lowest < up_to:
+            rule = f"does not reach {up_to:g} N at every orientation"
+            raise InputError("load", f"{lowest:g} N", rule, "raise fe.max_deflection or fe.max_load")
+        return max(
+            _largest_up_to(curve, f"max_von_mises_{part}_Pa", up_to) / strength
+            for curve in fe.by_orientation.values()
+            for part, strength in yield_strength.items()
+            if f"max_von_mises_{part}_Pa" in curve.columns
+        )
+
+    claim = Claim(
+        id="fe.yield",
+        title=f"FE: largest von Mises stress over yield strength up to {up_to:g} N",
+        quantity="stress / yield",
+        unit="-",
+        role="finding",
+        source="yield strengths of the study's materials",
+    )
+    return at_most(claim, largest, 1.0)
+
+
+def _largest_up_to(curve: StiffnessCurve, column: str, load: float) -> float:
+    inside = curve.load <= load
+    inside[: min(int(inside.sum()) + 1, len(inside))] = True
+    return float(curve.columns[column][inside].max())
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
@@ -65,12 +99,6 @@ def _checks(study: Study, results: StrengthResults) -> list[Check]:
     return [yield_check(results.fe, yield_strengths(study), up_to), at_least(claim, smallest, up_to)]
 
 
-def _figures(study: Study, results: StrengthResults) -> dict[str, str]:
-    from workbench.questions.strength.figures import strength_figures
-
-    return strength_figures(results)
-
-
 STRENGTH: Question = Question(
-    name="strength", title="Strength", group="Wheel", read=_read, checks=_checks, figures=_figures
+    name="strength", title="Strength", group="Wheel", read=_read, checks=_checks, figures=strength_figures
 )

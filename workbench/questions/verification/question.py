@@ -16,6 +16,7 @@ from workbench.execution.task import Task
 from workbench.questions.question import Question
 from workbench.questions.verification.checks import BENCHMARKS
 from workbench.questions.verification.checks_ancf import ANCF_BENCHMARKS
+from workbench.questions.verification.figures import ancf_verification_figures, verification_figures
 from workbench.questions.verification.lines import Benchmark, Reader, benchmark_lines
 from workbench.study.model import Study
 
@@ -83,14 +84,7 @@ def _checks(study: Study, results: Verification) -> Sequence[Check]:
 
 
 def _figures(study: Study, results: Verification) -> Mapping[str, str]:
-    from workbench.questions.verification.figures import verification_figures
-    from workbench.questions.verification.figures_ancf import ancf_verification_figures
-
     return verification_figures(results.fe.numbers) | ancf_verification_figures(results.ancf.numbers)
-
-
-def _applies(study: Study) -> bool:
-    return study.verification is not None and study.verification.enabled
 
 
 VERIFICATION = Question(
@@ -101,5 +95,5 @@ VERIFICATION = Question(
     read=_read,
     checks=_checks,
     figures=_figures,
-    applies=_applies,
+    applies=lambda study: study.verification is not None and study.verification.enabled,
 )

@@ -6,20 +6,100 @@ Verified by tests/unit/test_workbench_checks.py and tests/end_to_end/test_report
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 from contracts.records import Check
-from workbench.execution.task import Task
+from geometry.measures import MeshQuality
+from geometry.summary import PartSummary
+from workbench.execution.result_files import read_result
 from workbench.questions.question import Question
-from workbench.questions.wheel.checks import mesh_checks
-from workbench.questions.wheel.graph import wheel_meshes
-from workbench.questions.wheel.results import WheelMeshes, read_wheel
+from workbench.questions.wheel.graph import MESH, MESH_WHOLE, wheel_meshes
 from workbench.study.model import Study
+from workbench.study.sections import ToleranceSection
+from workbench.study.wheel_design import part_materials
+from workbench.verdict.rules import Claim, at_least, near
 
-__all__ = ["WHEEL"]
+__all__ = ["WHEEL", "MeshNumbers", "WheelMeshes", "mesh_checks", "mesh_numbers", "read_wheel"]
 
 
-def _tasks(study: Study) -> Sequence[Task]:
-    return wheel_meshes(study)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshNumbers:
+    """Numbers of one mesh, with the names that the study gives the parts' materials.
+
+    Attributes
+    ----------
+    quality, parts : of the cells, and part by part, see `geometry.summary`
+    volume, volume_closed_form : of all parts meshed, on the mesh and by the dimensions [m^3]
+    mass, mass_closed_form : the same [kg]
+    hash : of points and cells
+    """
+
+    quality: MeshQuality
+    parts: Mapping[str, PartSummary]
+    volume: float
+    volume_closed_form: float
+    mass: float
+    mass_closed_form: float
+    hash: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelMeshes:
+    """Both meshes of a wheel: the one that is solved, and the whole wheel; where the latter and its picture lie."""
+
+    solved: MeshNumbers
+    whole: MeshNumbers
+    whole_folder: Path
+    picture: Path
+
+
+def mesh_numbers(study: Study, folder: Path) -> MeshNumbers:
+    """Numbers of the mesh whose task filled ``folder``."""
+    found, materials = read_result(folder), part_materials(study)
+    parts = {part: replace(PartSummary(**row), material=materials[part]) for part, row in found["parts"].items()}
+    return MeshNumbers(
+        quality=MeshQuality(**found["quality"]),
+        parts=parts,
+        volume=found["total_volume"],
+        volume_closed_form=found["total_volume_closed_form"],
+        mass=found["total_mass"],
+        mass_closed_form=found["total_mass_closed_form"],
+        hash=found["hash"],
+    )
+
+
+def read_wheel(study: Study, folders: Mapping[str, Path]) -> WheelMeshes:
+    """Both meshes from the folders of their tasks."""
+    return WheelMeshes(
+        solved=mesh_numbers(study, folders[MESH]),
+        whole=mesh_numbers(study, folders[MESH_WHOLE]),
+        whole_folder=folders[MESH_WHOLE],
+        picture=folders["pictures"] / "wheel.png",
+    )
+
+
+def mesh_checks(mesh: MeshNumbers, whole: MeshNumbers, tolerances: ToleranceSection) -> list[Check]:
+    """Volume and mass of the whole wheel against closed form; the worst cell of both meshes."""
+    form, whole_wheel = "closed form of the design", "Mesh of the whole wheel"
+    volume = Claim(
+        id="mesh.volume", title=f"{whole_wheel}: volume", quantity="volume", unit="m^3", role="gate", source=form
+    )
+    mass = Claim(id="mesh.mass", title=f"{whole_wheel}: mass", quantity="mass", unit="kg", role="gate", source=form)
+    shape = Claim(
+        id="mesh.min_scaled_jacobian",
+        title="Smallest scaled Jacobian of any cell",
+        quantity="scaled Jacobian",
+        unit="-",
+        role="gate",
+        source="scaled Jacobian of a hexahedron, Stimpson et al. 2007, SAND2007-1751; the limit is ours",
+    )
+    worst = min(m.quality.min_scaled_jacobian for m in (mesh, whole))
+    return [
+        near(volume, lambda: whole.volume, whole.volume_closed_form, tolerances.mesh_mass),
+        near(mass, lambda: whole.mass, whole.mass_closed_form, tolerances.mesh_mass),
+        at_least(shape, lambda: worst, tolerances.min_scaled_jacobian),
+    ]
 
 
 def _checks(study: Study, results: WheelMeshes) -> Sequence[Check]:
@@ -34,5 +114,5 @@ def _figures(study: Study, results: WheelMeshes) -> Mapping[str, str]:
 
 
 WHEEL = Question(
-    name="wheel", title="Wheel", group="Wheel", tasks=_tasks, read=read_wheel, checks=_checks, figures=_figures
+    name="wheel", title="Wheel", group="Wheel", tasks=wheel_meshes, read=read_wheel, checks=_checks, figures=_figures
 )

@@ -1,17 +1,21 @@
-"""What runs on ANCF tires say of the mission's requirements.
+"""What runs on ANCF tires say of the mission's requirements, and the checks: one for each number with a limit.
 
 Verified by tests/unit/test_workbench_rover_mission.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
+from contracts.records import Check
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.questions.rover.drive import Drive
+from workbench.verdict.rules import Claim, at_least, at_most
 
-__all__ = ["TITLES", "Mission", "MissionRow", "mission_rows"]
+__all__ = ["MISSION_SOURCE", "TITLES", "MissionRow", "mission_checks", "mission_rows"]
 
 TITLES = {
     "slope_up": "slope of 25 degrees, upwards",
@@ -63,19 +67,30 @@ def mission_rows(driven: Mapping[str, Drive], brush: Mapping[str, Drive]) -> lis
     return rows
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Mission:
-    """Runs on fitted tires and on brush tires, by scenario.
+MISSION_SOURCE = "mission requirements, Samarini 2020, section 1, after Poulakis et al. 2015"
 
-    ``tire`` is the fit's name, ``friction`` that of the study's ground or None.
+
+def mission_checks(rows: Iterable[MissionRow], prefix: str, rover: str) -> list[Check]:
+    """Findings, named after their scenario: ``{prefix}step``, ``{prefix}step_2``, and so on.
+
+    ``rover`` says in words which it is, ``"Rover on ANCF tires"``.
     """
-
-    fitted: Mapping[str, Drive]
-    brush: Mapping[str, Drive]
-    tire: str
-    friction: float | None
-
-    @property
-    def rows(self) -> list[MissionRow]:
-        """What is required of each run on fitted tires."""
-        return mission_rows(self.fitted, self.brush)
+    before: Counter[str] = Counter()
+    checks = []
+    for row in rows:
+        before[row.name] += 1
+        end = f"_{before[row.name]}" if before[row.name] > 1 else ""
+        claim = Claim(
+            id=f"{prefix}{row.name}{end}",
+            title=f"{rover}, {row.title}: {row.quantity}",
+            quantity=row.quantity if row.ours else "run",
+            unit=row.ours.unit if row.ours else "-",
+            role="finding",
+            source=MISSION_SOURCE,
+        )
+        if row.ours is None:
+            checks.append(at_least(claim, partial(float, row.stopped is None), 1.0))
+            continue
+        rule = at_least if row.ours.at_least else at_most
+        checks.append(rule(claim, partial(float, row.ours.value), row.ours.limit or 0.0))
+    return checks
