@@ -79,6 +79,32 @@ def test_modules_and_tests_named_in_the_manual_exist() -> None:
     assert missing == []
 
 
+def test_files_and_functions_named_in_the_manual_exist() -> None:
+    """Names of files alone, ``lines.py``, and dotted names of our packages, ``geometry.build.build_wheel``."""
+    files = {path.name for name in (*SOURCES, "docs") for path in (ROOT / name).rglob("*.py")}
+    dotted = re.compile(rf"`((?:{'|'.join(SOURCES)})(?:\.\w+)+)[(`]")
+    missing = []
+    for page in (*sorted(DOCS.rglob("*.md")), ROOT / "README.md", ROOT / "CONTRIBUTING.md"):
+        text = page.read_text(encoding="utf-8")
+        missing += [(page.name, name) for name in re.findall(r"`(\w+\.py)`", text) if name not in files]
+        missing += [(page.name, name) for name in dotted.findall(text) if not _is_known(name)]
+    assert missing == []
+    assert not _is_known("geometry.read_surfaces_step")
+    assert not _is_known("geometry.nowhere.name")
+
+
+def _is_known(dotted: str) -> bool:
+    """Whether a module of that name stands in the sources, or one that speaks of what follows."""
+    parts = dotted.split(".")
+    for n in range(len(parts), 0, -1):
+        path = ROOT.joinpath(*parts[:n])
+        source = next((p for p in (path.with_suffix(".py"), path / "__init__.py") if p.is_file()), None)
+        if source is not None:
+            text = source.read_text(encoding="utf-8")
+            return all(re.search(rf"\b{name}\b", text) for name in parts[n:])
+    return False
+
+
 def test_every_command_of_the_command_line_has_its_row() -> None:
     import workbench.cli
 
