@@ -84,6 +84,14 @@ def _lonely(study: Study) -> Iterator[BrokenRule]:
                 yield BrokenRule(
                     key="ancf_fit", value="a table", rule=f"needs [{name}], {what}", hint=f"add [{name}], or remove it"
                 )
+    if study.wheel.inner_hub is None:
+        rule = "needs [wheel.inner_hub], whose bore is held"
+        if study.fe.hub == "elastic":
+            hint = 'add it, or set hub = "rigid", which holds the outer hub'
+            yield BrokenRule(key="fe.hub", value="elastic", rule=rule, hint=hint)
+        if study.hub_study is not None:
+            hint = "add it, or remove [hub_study]"
+            yield BrokenRule(key="hub_study", value="a table", rule=rule, hint=hint)
 
 
 def _environment(study: Study) -> Iterator[BrokenRule]:
@@ -95,6 +103,9 @@ def _environment(study: Study) -> Iterator[BrokenRule]:
         value, rule = f"{math.degrees(section.orientation):g} deg", "must be one of fe.orientations"
         hint = "its curve at 20 C is what the others are held against"
         yield BrokenRule(key="environment.orientation", value=value, rule=rule, hint=hint)
+    if "points" in section.model_fields_set and section.points > study.fe.points:
+        rule, hint = f"must not exceed fe.points = {study.fe.points}", "they are some of the points of the FE curve"
+        yield BrokenRule(key="environment.points", value=str(section.points), rule=rule, hint=hint)
     first = study.fe.max_deflection / study.fe.points
     if section.max_deflection is not None and section.max_deflection < first:
         value, rule = f"{1e3 * section.max_deflection:g} mm", f"lies before the first point, {1e3 * first:g} mm"
@@ -118,7 +129,7 @@ def _environment(study: Study) -> Iterator[BrokenRule]:
 
 
 def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
-    """Mesh and hub study must lie on the FE curves: their orientations, their range, their mesh."""
+    """What is made of the FE curves must lie on them: their orientations, their range, their mesh."""
     fe, mesh_study = study.fe, study.mesh_study
     for name, part in (("mesh_study", mesh_study), ("hub_study", study.hub_study)):
         if part is not None and max(part.deflections) > fe.max_deflection:
@@ -143,10 +154,14 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
         if curve.orientation is not None and not any(abs(curve.orientation - o) < 1e-9 for o in fe.orientations):
             key, value = f"compare.curves[{k}].orientation", f"{math.degrees(curve.orientation):g} deg"
             yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
-    penalty = study.penalty_study
-    if penalty is not None and penalty.deflection > fe.max_deflection:
-        value, rule = f"{1e3 * penalty.deflection:g} mm", "must not exceed fe.max_deflection"
-        yield BrokenRule(key="penalty_study.deflection", value=value, rule=rule, hint="choose a smaller one")
+    penalty, environment = study.penalty_study, study.environment
+    for key, drop in (
+        ("penalty_study.deflection", penalty.deflection if penalty else None),
+        ("environment.max_deflection", environment.max_deflection if environment else None),
+    ):
+        if drop is not None and drop > fe.max_deflection * (1.0 + 1e-9):
+            value, rule = f"{1e3 * drop:g} mm", "must not exceed fe.max_deflection"
+            yield BrokenRule(key=key, value=value, rule=rule, hint="choose a smaller one")
     if fe.turned and study.mesh.half_width:
         rule = "turns the ground out of the plane of symmetry that mesh.half_width relies on"
         yield BrokenRule(key="fe.camber", value="not 0", rule=rule, hint="set mesh.half_width = false")
@@ -157,6 +172,11 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
             rule=f"must contain mesh.factor = {study.mesh.factor:g}, the mesh of the curves",
             hint="the uncertainty is that of the curves' mesh",
         )
+    if mesh_study is not None and study.full.factor not in study.full.mesh_study_factors:
+        factors = ", ".join(f"{factor:g}" for factor in study.full.mesh_study_factors)
+        rule = f"must be one of full.mesh_study_factors = {factors}"
+        hint = "the uncertainty is that of the curves' mesh; give both"
+        yield BrokenRule(key="full.factor", value=f"{study.full.factor:g}", rule=rule, hint=hint)
 
 
 def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
