@@ -8,7 +8,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterator, Sequence
-from typing import Any, TypeAliasType, get_args
+from typing import Any, Literal, TypeAliasType, get_args, get_origin
 
 from pydantic import BeforeValidator
 
@@ -16,7 +16,7 @@ from workbench.study.model import Study
 from workbench.study.quantities import InUnit
 from workbench.study.section import Section
 
-__all__ = ["is_whole_number", "nameless", "nearest_key", "parts_of", "unit_of"]
+__all__ = ["is_whole_number", "nameless", "nearest_key", "parts_of", "unit_of", "words_of"]
 
 _PART = re.compile(r"\[(\d{1,9})\]|([^.\[\]]+)")
 
@@ -43,7 +43,14 @@ def nearest_key(key: Sequence[str | int]) -> str | None:
     """The key of the same section that is spelled most like this unknown one; None if none is."""
     sections = [kind for kind in _types(key[:-1]) if isinstance(kind, type) and issubclass(kind, Section)]
     names = [name for kind in sections for name in kind.model_fields]
+    if key[-1] in names:  # of a table of another kind
+        return None
     return next(iter(difflib.get_close_matches(str(key[-1]), names, n=1, cutoff=0.8)), None)
+
+
+def words_of(key: Sequence[str | int]) -> tuple[str, ...]:
+    """The words that a key takes, of every kind of table that it may stand in."""
+    return tuple(word for kind in _types(key) if get_origin(kind) is Literal for word in get_args(kind))
 
 
 def nameless(study: Study) -> tuple[str, ...]:

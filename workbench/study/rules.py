@@ -164,7 +164,9 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
             yield BrokenRule(key=key, value=value, rule=rule, hint="choose a smaller one")
     if fe.turned and study.mesh.half_width:
         rule = "turns the ground out of the plane of symmetry that mesh.half_width relies on"
-        yield BrokenRule(key="fe.camber", value="not 0", rule=rule, hint="set mesh.half_width = false")
+        name, angle = ("camber", fe.camber) if fe.camber else ("obstacle.yaw", getattr(fe.obstacle, "yaw", 0.0))
+        value, hint = f"{math.degrees(angle):g} deg", "set mesh.half_width = false"
+        yield BrokenRule(key=f"fe.{name}", value=value, rule=rule, hint=hint)
     if mesh_study is not None and study.mesh.factor not in mesh_study.factors:
         yield BrokenRule(
             key="mesh_study.factors",
