@@ -97,7 +97,7 @@ def stiffness(
         raise InputError("study", repr(study), "is no study", "give what read_study returns")
     if model not in MODELS:
         raise InputError("model", repr(model), "is not known", f"give one of {', '.join(MODELS)}")
-    if workers is not None and not (isinstance(workers, int) and workers >= 1):
+    if workers is not None and not (isinstance(workers, int) and not isinstance(workers, bool) and workers >= 1):
         raise InputError("workers", repr(workers), "must be a whole number, at least 1", "leave it out, or give 2")
     angles = () if orientation is None else (_turned(orientation),)
     place = os.environ.get("WORKBENCH_STORE") or DEFAULT_STORE if store is None else store
@@ -137,7 +137,7 @@ def _path(given: object, what: str) -> Path:
 def _turned(orientation: object) -> float:
     """The orientation within one turn [deg]."""
     try:
-        angle = float(orientation) if isinstance(orientation, Real) else math.nan
+        angle = float(orientation) if isinstance(orientation, Real) and not isinstance(orientation, bool) else math.nan
     except OverflowError:
         angle = math.inf
     if not math.isfinite(angle):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
 
 from contracts.errors import StudyError
-from workbench.study.reading import read_study
+from workbench.study.reading import built_in_study, read_study, read_study_table
+from workbench.study.sweep_points import sweep_points
 
 MIN = """name = "min"
 title = "Minimal"
@@ -137,6 +139,80 @@ def test_a_complaint_names_a_key_of_the_file(tmp_path: Path, more: str, wanted: 
 )
 def test_the_rule_of_a_name_is_its_pattern(tmp_path: Path, old: str, new: str, wanted: str) -> None:
     assert wanted in _complaint(tmp_path, "", {old: new})
+
+
+SPLINE = 'shape = "spline"\npoints = '
+HOOP = 'shape = "hoop"\n'
+
+
+@pytest.mark.parametrize(
+    ("new", "wanted"),
+    [
+        (HOOP + 'points = [[0.5, "70 deg"]]\n', '[0].points = (0.5, 70 deg): belong to shape = "spline"'),
+        ('shape = "spline"\n', '[0].points: must be given for shape = "spline"; e.g. points = [[0.5, "70 deg"]]'),
+        (HOOP + "direction = -1\n", "[0].direction = -1: has no effect on a hoop"),
+        (SPLINE + '[[0.5, "70 deg"], [1.5, "90 deg"]]\n', "[0].points[1][0] = 1.5: must lie between 0"),
+        (SPLINE + '[[0.05, "60 deg"]]\n', "[0].points = centreline at radius"),
+        ('shape = "arc"\ndirection = true\n', "[0].direction = True: must be a number"),
+    ],
+)
+def test_a_spring_s_own_key_is_named(tmp_path: Path, new: str, wanted: str) -> None:
+    assert _complaint(tmp_path, "", {HOOP: new}).startswith(f"wheel.springs{wanted}")
+
+
+def test_a_truth_is_no_number(tmp_path: Path) -> None:
+    assert _complaint(tmp_path, "", {"[fe]": "order = true\n[fe]"}).startswith("mesh.order = True: must be a number")
+
+
+def test_a_direction_that_says_what_is_so_anyway_is_read(tmp_path: Path) -> None:
+    assert read_study(_written(tmp_path, "", {HOOP: HOOP + "direction = 1\n"})).wheel.springs[0].direction == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "wanted"),
+    [
+        ('["-60 deg", "60 deg"]', '["60 deg", "-60 deg"]', "ancf_fit.bounds.phase = 60 deg, -60 deg: must increase"),
+        (
+            'phase = "10 deg"',
+            'phase = "70 deg"',
+            "ancf_fit.tires[2].start.phase = 70 deg: must begin within its bounds",
+        ),
+        ('"20 kPa", "50 MPa"', '"2 MPa", "50 MPa"', "ancf_fit.tires[0].start.young_modulus = 1.5 MPa: must begin"),
+        ('thickness = ["2 mm"', 'thickness = ["6.5 mm"', "ancf_fit.tires[0].start.rim_thickness = 6 mm: must begin"),
+        ('["10 mm", "20 mm", "30 mm"]', '["20 mm", "10 mm"]', "mesh_study.deflections = 20 mm, 10 mm: must increase"),
+        (
+            "[tolerances]",
+            "[compare]\ncurves = [{file='a',label='a',source='b',orientation='7 deg'}]\n[tolerances]",
+            "compare.curves[0].orientation = 7 deg: belongs",
+        ),
+        (
+            "[tolerances]",
+            "[compare]\ncurves = [{file='a',label='a',source='b',compare_with='orientation'}]\n[tolerances]",
+            "compare.curves[0].orientation: belongs",
+        ),
+    ],
+)
+def test_values_are_shown_as_they_are_written(tmp_path: Path, old: str, new: str, wanted: str) -> None:
+    path, text = tmp_path / "study.toml", built_in_study().read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(StudyError) as caught:
+        read_study(path)
+    assert str(caught.value).removeprefix(f"{path}: ").startswith(wanted)
+
+
+@pytest.mark.parametrize(
+    ("key", "wanted"), [("ancf.width", "ancf"), ("wheel.grousers.count", "wheel.grousers"), ("rover.x", "rover")]
+)
+def test_a_sweep_of_a_section_that_is_not_there(tmp_path: Path, key: str, wanted: str) -> None:
+    found = _complaint(tmp_path, f'[sweep]\n"{key}" = [7, 8]\n')
+    assert found == f"sweep.{key}: needs [{wanted}]; add [{wanted}], or remove it from the sweep"
+
+
+def test_a_sweep_of_orientations_needs_no_other_section(tmp_path: Path) -> None:
+    path = _written(tmp_path, '[sweep]\norientation = ["0 deg", "15 deg"]\n')
+    points = sweep_points(path, read_study_table(path))
+    assert [one.study.fe.orientations[0] for one in points] == pytest.approx([0.0, 0.0, math.radians(15.0)])
 
 
 def test_the_meshes_of_the_full_study_hold_its_own(tmp_path: Path) -> None:

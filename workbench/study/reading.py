@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,11 +20,11 @@ from contracts.input_file import input_table
 from contracts.ranges import Key, dotted
 from contracts.text import one_line
 from workbench.study.curve_file import in_si
-from workbench.study.key_units import nearest_key, words_of
-from workbench.study.magnitudes import impossible
+from workbench.study.key_units import nearest_key, parts_of, words_of
+from workbench.study.magnitudes import impossible, numbers_of
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
-from workbench.study.rules import broken_rules
+from workbench.study.rules import broken_rules, broken_springs
 from workbench.study.wheel_design import SectionInputError, wheel_design
 
 __all__ = ["built_in_study", "read_study", "read_study_table", "study_of"]
@@ -78,6 +78,9 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         raise _study_error(path, error, written) from error
     except InputError as error:
         raise StudyError(path, error.what, error.value, error.rule, error.hint) from error
+    for number in numbers_of(study):
+        if isinstance(found := _at(written, number), bool):
+            raise StudyError(path, dotted(number), found, "must be a number", "true and false are none")
     odd = impossible(study)
     if odd is not None:
         written = None if odd.key[:-1] in _SORTED else _at(table, odd.key)
@@ -86,6 +89,8 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         hint = f"a number without a unit is SI, here {odd.value}; {odd.hint}" if plain else odd.hint
         raise StudyError(path, dotted(odd.key), value, odd.rule, hint)
     study = _with_whole_paths(study, path.parent)
+    for broken in broken_springs(study):
+        raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
     try:
         wheel_design(study)
         if study.ancf is not None:
@@ -94,6 +99,8 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
             brush_parameters(study)
     except SectionInputError as error:
         key = _key_of(error)
+        if key.endswith(".shape") and _at(table, parts_of(key)) == "spline":
+            key = f"{key.removesuffix('shape')}points"
         raise StudyError(path, key, error.value, f"{error.what} {error.rule}", error.hint) from error
     for broken in broken_rules(study):
         raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
@@ -162,6 +169,11 @@ def _study_error(path: Path, error: ValidationError, table: Any) -> StudyError:
     elif first["type"] == "key_in_section":
         rule, hint, value = (str(first["ctx"][name]) for name in ("rule", "hint", "value"))
         key += f".{first['ctx']['key']}"
+        found = _at(table, (*place, first["ctx"]["key"]))
+        if value and found and isinstance(found, list) and not any(isinstance(one, dict | list) for one in found):
+            value = ", ".join(map(str, found))
+        elif value and isinstance(found, str | int | float):
+            value = str(found)
     elif first["type"] in ("too_short", "too_long"):
         limit = first["ctx"]["min_length" if first["type"] == "too_short" else "max_length"]
         rule = f"must have {'at least' if first['type'] == 'too_short' else 'at most'} {limit} items"
@@ -196,7 +208,7 @@ def _rule_of_a_name(pattern: str) -> str:
     return f"must begin with a letter{' or a digit' * ('0-9' in first)}; {', '.join(most)} and {last} may follow"
 
 
-def _at(table: Any, key: Key) -> object:
+def _at(table: Any, key: Sequence[str | int]) -> object:
     """What the user wrote at a path; None for a number that is a default."""
     for part in key:
         try:
