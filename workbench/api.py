@@ -34,8 +34,7 @@ def read_study(path: str | os.PathLike[str] | None = None) -> Study:
         For the first defect found, in one line: file, key, value, rule, what to try. The `StudyError` behind it has
         them as attributes.
     """
-    from workbench.study.key_units import nameless
-    from workbench.study.magnitudes import unusual
+    from workbench.study.magnitudes import of_the_file
     from workbench.study.reading import built_in_study
     from workbench.study.reading import read_study as read
 
@@ -45,7 +44,7 @@ def read_study(path: str | os.PathLike[str] | None = None) -> Study:
     except StudyError as error:
         what = f"{error.path}: {error.key}" if error.key else error.path
         raise InputError(what, error.value if error.key else "", error.rule, error.hint) from error
-    for warning in (*unusual(study), *nameless(study)):
+    for warning in of_the_file(study):
         warnings.warn(f"{file}: {warning}", stacklevel=2)
     return study
 

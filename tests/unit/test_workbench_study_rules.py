@@ -8,6 +8,9 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import StudyError
+from workbench.commands.studies import run_check
+from workbench.execution.errors import RunError
+from workbench.study.magnitudes import loosened, of_the_file, warnings_of
 from workbench.study.reading import built_in_study, read_study, read_study_table
 from workbench.study.sweep_points import sweep_points
 
@@ -213,6 +216,64 @@ def test_a_sweep_of_orientations_needs_no_other_section(tmp_path: Path) -> None:
     path = _written(tmp_path, '[sweep]\norientation = ["0 deg", "15 deg"]\n')
     points = sweep_points(path, read_study_table(path))
     assert [one.study.fe.orientations[0] for one in points] == pytest.approx([0.0, 0.0, math.radians(15.0)])
+
+
+STEEL = """[materials.Steel]
+young_modulus = "193 GPa"
+poisson_ratio = 0.29
+density = "8000 kg/m^3"
+yield_strength = "205 MPa"
+source = "s"
+"""
+TOLD = {
+    "section": (
+        '[inferred]\n"ancf.width" = "a"\n',
+        "inferred.'ancf.width' names no key of the study, which has no ancf; ",
+    ),
+    "all of a section": ('[inferred]\n"wheel.cone.*" = "a"\n', "which has no wheel.cone; "),
+    "material": ('[inferred]\n"materials.Steel.density" = "a"\n', "which has no materials.Steel; "),
+    "number": ('[inferred]\n"wheel.springs[7].count" = "a"\n', "which has no wheel.springs[7]; "),
+    "unused material": (STEEL, "materials.Steel is of no part of the wheel"),
+    "tolerance": (
+        "[tolerances]\nmesh_uncertainty = 0.5\n",
+        "mesh_uncertainty has no effect: its check needs mesh_study",
+    ),
+    "preset": ("[tolerances]\nancf_preset = 0.02\n", "ancf_preset has no effect: its check needs ancf.thesis_preset"),
+}
+
+
+@pytest.mark.parametrize(("more", "wanted"), TOLD.values(), ids=TOLD.keys())
+def test_what_has_no_effect_is_told(tmp_path: Path, more: str, wanted: str) -> None:
+    path = _written(tmp_path, more)
+    study = read_study(path)
+    (told,) = of_the_file(study)
+    assert wanted in told
+    assert (loosened(study), warnings_of(study)) == ((), (told,))
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        '[inferred]\n"wheel.springs.shape" = "a"\n"wheel.*.material" = "a"\n"mesh.*" = "a"\n"wheel.cone" = "out"\n',
+        '[fe.obstacle]\nshape = "plane"\n[inferred]\n"fe.contact_stiffness" = "a"\n"fe.obstacle.shape" = "a"\n',
+        '[materials."a.b"]\n' + STEEL.partition("\n")[2] + '[sweep]\n"wheel.tire.material" = ["Ti", "a.b"]\n'
+        '[inferred]\n"materials.a.b.density" = "a"\n',
+        STEEL + '[sweep]\n"wheel.tire.material" = ["Ti", "Steel"]\n',
+    ],
+)
+def test_nothing_is_told_of_what_has_an_effect(tmp_path: Path, more: str) -> None:
+    assert of_the_file(read_study(_written(tmp_path, more))) == ()
+
+
+def test_a_grid_has_no_seed(tmp_path: Path) -> None:
+    found = _complaint(tmp_path, '[sweep]\nstrip_thickness = ["1 mm"]\nseed = 3\n')
+    assert found == 'sweep.seed = 3: belongs to design = "latin-hypercube"; remove it'
+
+
+def test_what_the_full_report_refuses_is_refused_at_once(tmp_path: Path) -> None:
+    assert run_check(_written(tmp_path, '[full]\norientation_step = "10 deg"\n')) == 0
+    with pytest.raises(RunError, match=r"min.toml: full.orientation_step = 7 deg: must divide 90 deg"):
+        run_check(_written(tmp_path, '[full]\norientation_step = "7 deg"\n'))
 
 
 def test_the_meshes_of_the_full_study_hold_its_own(tmp_path: Path) -> None:

@@ -77,12 +77,13 @@ def as_written(key: str, value: float) -> str:
 def absent(study: Study, key: Sequence[str | int]) -> str | None:
     """The shortest beginning of a key that the study does not have, e.g. a part of the wheel; None where it has it.
 
-    ``*`` stands for any key of a table, and a list without a number for any of its tables.
+    ``*`` stands for any key of a table, and a list without a number for any of its tables. What may be left out and is
+    has its key: the reason may be why.
     """
     found: list[Any] = [study]
     for end, part in enumerate(key, 1):
         found = [inner for one in found for inner in _inside(one, part)]
-        if not found or (is_table(key[:end]) and all(one is None for one in found)):
+        if not found or (end < len(key) and all(one is None for one in found)):
             return dotted(tuple(key[:end]))
     return None
 
@@ -103,12 +104,19 @@ def words_of(key: Sequence[str | int]) -> tuple[str, ...]:
 
 
 def nameless(study: Study) -> tuple[str, ...]:
-    """Keys of [inferred] that name no key of a study file, a line each; ``*`` stands for any key of a section."""
-    return tuple(
-        f"inferred.{key!r} names no key of the study; correct its spelling, e.g. wheel.tire.thickness or wheel.*"
-        for key in study.inferred
-        if not parts_of(key) or not _types(key)
-    )
+    """Keys of [inferred] that name no key of the study, a line each; ``*`` stands for any key of a section."""
+    told = []
+    for key in study.inferred:
+        named = next((("materials", name) for name in study.materials if key.startswith(f"materials.{name}.")), ())
+        parts = [*named, *parts_of(key.removeprefix(".".join(named)))]  # a material may have a point in its name
+        if not parts or not _types(parts):
+            hint = "; correct its spelling, e.g. wheel.tire.thickness or wheel.*"
+        elif missing := absent(study, parts):
+            hint = f", which has no {missing}; remove it, or correct it"
+        else:
+            continue
+        told.append(f"inferred.{key!r} names no key of the study{hint}")
+    return tuple(told)
 
 
 def _types(key: str | Sequence[str | int]) -> list[Any]:

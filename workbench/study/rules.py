@@ -92,7 +92,7 @@ def _of_the_sweep(study: Study) -> Iterator[BrokenRule]:
             hint = f"add [{name}], or remove it from the sweep"
             yield BrokenRule(key=asked[name], value="", rule=f"needs [{name}]", hint=hint)
     for key in study.sweep.parameters:
-        missing = absent(study, parts_of(key)[:-1])
+        missing = absent(study, parts_of(key))
         if missing is not None and is_table(missing) and not missing.endswith("]"):
             hint = f"add [{missing}], or remove it from the sweep"
             yield BrokenRule(key=f"sweep.{key}", value="", rule=f"needs [{missing}]", hint=hint)
