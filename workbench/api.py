@@ -34,8 +34,7 @@ def read_study(path: str | os.PathLike[str] | None = None) -> Study:
         For the first defect found, in one line: file, key, value, rule, what to try. The `StudyError` behind it has
         them as attributes.
     """
-    from workbench.study.key_units import nameless
-    from workbench.study.magnitudes import unusual
+    from workbench.study.magnitudes import of_the_file
     from workbench.study.reading import built_in_study
     from workbench.study.reading import read_study as read
 
@@ -45,7 +44,7 @@ def read_study(path: str | os.PathLike[str] | None = None) -> Study:
     except StudyError as error:
         what = f"{error.path}: {error.key}" if error.key else error.path
         raise InputError(what, error.value if error.key else "", error.rule, error.hint) from error
-    for warning in (*unusual(study), *nameless(study)):
+    for warning in of_the_file(study):
         warnings.warn(f"{file}: {warning}", stacklevel=2)
     return study
 
@@ -97,7 +96,7 @@ def stiffness(
         raise InputError("study", repr(study), "is no study", "give what read_study returns")
     if model not in MODELS:
         raise InputError("model", repr(model), "is not known", f"give one of {', '.join(MODELS)}")
-    if workers is not None and not (isinstance(workers, int) and workers >= 1):
+    if workers is not None and not (isinstance(workers, int) and not isinstance(workers, bool) and workers >= 1):
         raise InputError("workers", repr(workers), "must be a whole number, at least 1", "leave it out, or give 2")
     angles = () if orientation is None else (_turned(orientation),)
     place = os.environ.get("WORKBENCH_STORE") or DEFAULT_STORE if store is None else store
@@ -137,7 +136,7 @@ def _path(given: object, what: str) -> Path:
 def _turned(orientation: object) -> float:
     """The orientation within one turn [deg]."""
     try:
-        angle = float(orientation) if isinstance(orientation, Real) else math.nan
+        angle = float(orientation) if isinstance(orientation, Real) and not isinstance(orientation, bool) else math.nan
     except OverflowError:
         angle = math.inf
     if not math.isfinite(angle):

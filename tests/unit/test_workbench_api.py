@@ -101,6 +101,8 @@ def test_what_is_unusual_is_warned_of(tmp_path: Path) -> None:
         ({"orientation": float("nan")}, "orientation = nan: must be a finite number"),
         ({"orientation": -float("inf")}, "orientation = -inf: must be a finite number"),
         ({"orientation": 10**400}, "must be a finite number"),
+        ({"orientation": True}, "orientation = True: must be a finite number"),
+        ({"workers": True}, "workers = True: must be a whole number"),
         ({"orientation": "left"}, "orientation = 'left': must be a finite number"),
         ({"model": "brush", "orientation": "15"}, "must be a finite number"),
         ({"workers": 0}, "workers = 0: must be a whole number, at least 1"),

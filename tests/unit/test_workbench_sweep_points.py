@@ -159,7 +159,7 @@ def test_keys_may_be_written_without_quotes() -> None:
         ({"orientation": [15]}, r"point 1 \(orientation = 15\): .*an angle needs its unit"),
         ({"plates": [4, 6]}, r"point 2 \(plates = 6\): ancf.circumferential_plates = .*multiple of the spokes"),
         ({"temperature": ["-40 degC", "900 degC"], "models": ["fe"]}, r"point 2 .*temperature = 900 degC: .* data"),
-        ({"temperature": ["-40 degC"]}, r"sweep.temperature = given: acts on the solid model only"),
+        ({"temperature": ["-40 degC"]}, r"sweep.temperature = -40 degC: acts on the solid model only"),
         ({"fe.hub": ["rigid", "soft"]}, r"point 2 \(fe.hub = 'soft'\): fe.hub = 'soft': must be 'rigid' or"),
         ({}, r"sweep.strip_thickness: must be given, or another key to vary"),
         ({"strip_thickness": []}, r"sweep.strip_thickness = \[\]: must be a list of values or a range"),

@@ -18,8 +18,7 @@ from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task
 from workbench.execution.terminal import Terminal, console
-from workbench.study.key_units import nameless
-from workbench.study.magnitudes import unusual
+from workbench.study.magnitudes import of_the_file
 from workbench.study.model import Study
 from workbench.study.reading import read_study
 
@@ -27,9 +26,9 @@ __all__ = ["complain_of_early_ends", "computed", "console", "naming", "read_and_
 
 
 def read_and_warn(path: Path) -> Study:
-    """The study of a file, as `read_study`; what is unusual about it goes to stderr, and reasons for no key."""
+    """The study of a file, as `read_study`; what is unusual about it goes to stderr."""
     study = read_study(path)
-    warn(path, (*unusual(study), *nameless(study)))
+    warn(path, of_the_file(study))
     return study
 
 

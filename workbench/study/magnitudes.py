@@ -21,6 +21,7 @@ from workbench.study.key_units import nameless
 from workbench.study.model import DATA, Study
 from workbench.study.quantities import to_si
 from workbench.study.sections import ToleranceSection
+from workbench.study.wheel_design import part_materials
 
 __all__ = [
     "GATES",
@@ -29,6 +30,7 @@ __all__ = [
     "loosened",
     "number_in_si",
     "numbers_of",
+    "of_the_file",
     "require_possible",
     "study_ranges",
     "unusual",
@@ -47,6 +49,12 @@ GATES = _OF_THE_REFERENCE | {
     **{"fe_residual": 1.0, "fe_balance": 1.0, "fe_energy": 1.0, "mesh_uncertainty": 1.0, "surface_distance": 1.0},
 }
 """Tolerances of gates -> 1 where a larger number is easier to meet, -1 where a smaller one is."""
+
+_NEEDED = {
+    **{"ancf_preset": "ancf.thesis_preset", "flexible_mass": "ancf.thesis_preset", "surface_distance": "ancf"},
+    **{"mesh_uncertainty": "mesh_study", "hub_compliance": "hub_study", "ancf_fit": "ancf_fit"},
+}
+"""Tolerances of checks that only some studies ask for -> the section or key that does."""
 
 
 def study_ranges() -> RangeTable:
@@ -93,14 +101,43 @@ def loosened(study: Study) -> tuple[str, ...]:
     found = []
     for key, sign in GATES.items():
         value, usual = getattr(given, key), getattr(own, key)
-        if sign * (value - usual) > 1e-9 * usual and (given.reference_wheel or key not in _OF_THE_REFERENCE):
+        if (
+            _asked(study, key)
+            and sign * (value - usual) > 1e-9 * usual
+            and (given.reference_wheel or key not in _OF_THE_REFERENCE)
+        ):
             found.append(f"tolerances.{key} = {value:g} is looser than its gate's own {usual:g}")
     return tuple(found)
 
 
+def of_the_file(study: Study) -> tuple[str, ...]:
+    """What is unusual about a study file: numbers, reasons for no key, what has no effect."""
+    return (*unusual(study), *nameless(study), *_idle(study))
+
+
+def _idle(study: Study) -> Iterator[str]:
+    """Materials that no part, variant or value of a sweep names; tolerances of checks that are not in the report."""
+    used = {*part_materials(study).values(), *(study.environment.variants if study.environment else ())}
+    swept = study.sweep.parameters.values() if study.sweep else ()
+    used |= {value for values in swept if isinstance(values, tuple) for value in values if isinstance(value, str)}
+    for name in study.materials:
+        if name not in used:
+            yield f"materials.{name} is of no part of the wheel and has no effect; remove it, or use it"
+    for key in sorted(study.tolerances.model_fields_set):
+        if not _asked(study, key):
+            yield f"tolerances.{key} has no effect: its check needs {_NEEDED[key]}"
+
+
+def _asked(study: Study, tolerance: str) -> bool:
+    """Whether the report has the check of a tolerance, as far as a section of the study decides it."""
+    section, _, key = _NEEDED.get(tolerance, "fe").partition(".")
+    needed = getattr(study, section)
+    return bool(getattr(needed, key, False)) if key else needed is not None
+
+
 def warnings_of(study: Study) -> tuple[str, ...]:
-    """What a report says of its study: unusual numbers, gates easier than the project's own, reasons for no key."""
-    return (*unusual(study), *loosened(study), *nameless(study))
+    """What a report says of its study: all that is unusual about its file, gates easier than the project's own."""
+    return (*unusual(study), *loosened(study), *nameless(study), *_idle(study))
 
 
 def unusual_curve(deflection: NDArray[np.float64], load: NDArray[np.float64]) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
 from workbench.study.quantities import Force, Length, Stiffness
-from workbench.study.section import Positive, Section
+from workbench.study.section import Positive, Section, in_key
 from workbench.study.sections import (
     AncfSection,
     BrushSection,
@@ -49,6 +49,13 @@ class BandPoint(Section):
     """Smallest deflection at this load [m]."""
     high: Annotated[Length, Positive]
     """Largest deflection at this load [m]."""
+
+    @model_validator(mode="after")
+    def _in_order(self) -> BandPoint:
+        if self.low > self.high:
+            rule, hint = f"must not exceed high = {1e3 * self.high:g} mm", "give the smaller deflection as low"
+            raise in_key("low", f"{1e3 * self.low:g} mm", rule, hint)
+        return self
 
 
 class Band(Section):

@@ -8,22 +8,23 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
+from pydantic_core import ErrorDetails
 
 from contracts.errors import InputError, StudyError
 from contracts.input_file import input_table
 from contracts.ranges import Key, dotted
 from contracts.text import one_line
 from workbench.study.curve_file import in_si
-from workbench.study.key_units import nearest_key
-from workbench.study.magnitudes import impossible
+from workbench.study.key_units import nearest_key, parts_of, words_of
+from workbench.study.magnitudes import impossible, numbers_of
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
-from workbench.study.rules import broken_rules
+from workbench.study.rules import broken_rules, broken_springs
 from workbench.study.wheel_design import SectionInputError, wheel_design
 
 __all__ = ["built_in_study", "read_study", "read_study_table", "study_of"]
@@ -33,13 +34,12 @@ _HINTS = {
     "missing": ("is missing", "add it to the study file"),
     "tuple_type": ("must be a list", "put it in brackets, as in studies/exomars.toml"),
     "list_type": ("must be a list", "put it in brackets, as in studies/exomars.toml"),
-    "dict_type": ("must be a table", "see studies/exomars.toml for an example"),
     "int_type": ("must be a whole number", "write it without quotes, point and unit"),
     "bool_type": ("must be true or false", "write it without quotes"),
     "string_type": ("must be a text", "put it in quotes"),
     "string_too_short": ("must not be empty", "write what it is"),
-    "string_pattern_mismatch": ("must begin with a letter or a digit; _ and - may follow", "choose another name"),
 }
+_NO_TABLE = ("dict_type", "model_type", "model_attributes_type")
 _LIMITS = {"less_than": "lt", "less_than_equal": "le", "greater_than": "gt", "greater_than_equal": "ge"}
 """Pydantic's name of a complaint -> that of its limit, which is in SI whatever unit the user writes."""
 _SORTED = (("environment", "temperatures"),)
@@ -71,12 +71,16 @@ def read_study(path: Path) -> Study:
 
 def study_of(path: Path, table: Mapping[str, Any]) -> Study:
     """Check and freeze the content of a study file, which may have been changed since it was read; as `read_study`."""
+    written: Any = None
     try:
-        study = Study.model_validate(_in_one_line(table))
+        study = Study.model_validate(written := _in_one_line(table))
     except ValidationError as error:
-        raise _study_error(path, error) from error
+        raise _study_error(path, error, written) from error
     except InputError as error:
         raise StudyError(path, error.what, error.value, error.rule, error.hint) from error
+    for number in numbers_of(study):
+        if isinstance(found := _at(written, number), bool):
+            raise StudyError(path, dotted(number), found, "must be a number", "true and false are none")
     odd = impossible(study)
     if odd is not None:
         written = None if odd.key[:-1] in _SORTED else _at(table, odd.key)
@@ -85,6 +89,8 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         hint = f"a number without a unit is SI, here {odd.value}; {odd.hint}" if plain else odd.hint
         raise StudyError(path, dotted(odd.key), value, odd.rule, hint)
     study = _with_whole_paths(study, path.parent)
+    for broken in broken_springs(study):
+        raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
     try:
         wheel_design(study)
         if study.ancf is not None:
@@ -93,6 +99,8 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
             brush_parameters(study)
     except SectionInputError as error:
         key = _key_of(error)
+        if key.endswith(".shape") and _at(table, parts_of(key)) == "spline":
+            key = f"{key.removesuffix('shape')}points"
         raise StudyError(path, key, error.value, f"{error.what} {error.rule}", error.hint) from error
     for broken in broken_rules(study):
         raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
@@ -129,18 +137,43 @@ def _in_one_line(content: Any) -> Any:
     return one_line(content) if isinstance(content, str) else content
 
 
-def _study_error(path: Path, error: ValidationError) -> StudyError:
-    """Turn pydantic's first complaint into our message; an unknown key comes before a missing one (a misspelling)."""
-    first = min(error.errors(), key=lambda e: e["type"] != "extra_forbidden" and e["type"] == "missing")
-    key = dotted(first["loc"])
+def _study_error(path: Path, error: ValidationError, table: Any) -> StudyError:
+    """Turn pydantic's first complaint into our message; an unknown key comes before a missing one (a misspelling).
+
+    Last comes a list that is too short because what it held has complaints of its own.
+    """
+    every = error.errors()
+
+    def rank(one: ErrorDetails) -> int:
+        loc = one["loc"]
+        hollow = one["type"] == "too_short" and any(e["loc"][: len(loc)] == loc and e["loc"] != loc for e in every)
+        return 2 if hollow else int(one["type"] == "missing")
+
+    first = min(every, key=rank)
+    place = _in_file(first["loc"], table)
+    key = dotted(place)
     value = "" if first["type"] == "missing" else _shown(first["input"])
     if first["type"] in _HINTS:
         rule, hint = _HINTS[first["type"]]
-        if first["type"] == "extra_forbidden" and (meant := nearest_key(first["loc"])):
+        if first["type"] == "extra_forbidden" and (meant := nearest_key(place)):
             hint = f"use {meant}, if that is meant; else remove it"
+    elif first["type"] in _NO_TABLE:
+        shown = f"[[{key.rpartition('[')[0]}]]" if key.endswith("]") else f"[{key}]"
+        rule, hint = "must be a table", f"write it as {shown} and its keys below"
+    elif first["type"] == "string_pattern_mismatch":
+        rule, hint = _rule_of_a_name(first["ctx"]["pattern"]), "choose another name"
+    elif first["type"] in ("union_tag_not_found", "union_tag_invalid"):
+        name = first["ctx"]["discriminator"].strip("'")
+        key, value = f"{key}.{name}", _shown(first["input"][name]) if name in first["input"] else ""
+        rule, hint = f"must be one of {', '.join(words_of((*place, name)))}", "see docs/reference/study_keys.md"
     elif first["type"] == "key_in_section":
         rule, hint, value = (str(first["ctx"][name]) for name in ("rule", "hint", "value"))
         key += f".{first['ctx']['key']}"
+        found = _at(table, (*place, first["ctx"]["key"]))
+        if value and found and isinstance(found, list) and not any(isinstance(one, dict | list) for one in found):
+            value = ", ".join(map(str, found))
+        elif value and isinstance(found, str | int | float):
+            value = str(found)
     elif first["type"] in ("too_short", "too_long"):
         limit = first["ctx"]["min_length" if first["type"] == "too_short" else "max_length"]
         rule = f"must have {'at least' if first['type'] == 'too_short' else 'at most'} {limit} items"
@@ -157,7 +190,25 @@ def _study_error(path: Path, error: ValidationError) -> StudyError:
     return StudyError(path, key, value, rule, hint)
 
 
-def _at(table: Any, key: Key) -> object:
+def _in_file(loc: Key, table: Any) -> Key:
+    """A place of pydantic's as the file has it: without the kind of a table that it names after the table."""
+    kept: list[str | int] = []
+    for number, part in enumerate(loc, 1):
+        if number < len(loc) and isinstance(part, str) and isinstance(table, dict) and part not in table:
+            continue
+        kept.append(part)
+        table = _at(table, (part,))
+    return tuple(kept)
+
+
+def _rule_of_a_name(pattern: str) -> str:
+    """In words: the pattern of a name's first character, then of those that may follow."""
+    first, more = re.findall(r"\[([^]]*)\]", pattern)
+    *most, last = ["letters", "digits", *str(more).removeprefix("A-Za-z0-9")]
+    return f"must begin with a letter{' or a digit' * ('0-9' in first)}; {', '.join(most)} and {last} may follow"
+
+
+def _at(table: Any, key: Sequence[str | int]) -> object:
     """What the user wrote at a path; None for a number that is a default."""
     for part in key:
         try:

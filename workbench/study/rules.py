@@ -12,11 +12,12 @@ from functools import cache
 
 from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
+from workbench.study.key_units import absent, as_written, is_table, parts_of
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, fit_start
 from workbench.study.wheel_design import SectionInputError, materials, wheel_design
 
-__all__ = ["BrokenRule", "broken_rules"]
+__all__ = ["BrokenRule", "broken_rules", "broken_springs"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,6 +28,33 @@ class BrokenRule:
     value: str
     rule: str
     hint: str
+
+
+def broken_springs(study: Study) -> Iterator[BrokenRule]:
+    """What the springs' keys say together, before a wheel is built of them."""
+    wheel = study.wheel
+    sets = {f"wheel.springs[{i}]": springs for i, springs in enumerate(wheel.springs)}
+    for key, springs in (sets | {"wheel.impact_springs": wheel.impact_springs}).items():
+        if springs is None:
+            continue
+        shape, points, direction = (getattr(springs, name) for name in ("shape", "points", "direction"))
+        if shape != "spline" and points:
+            value = ", ".join(f"({fraction:g}, {math.degrees(angle):g} deg)" for fraction, angle in points)
+            rule, hint = 'belong to shape = "spline", and only to it', "remove them, or change the shape"
+            yield BrokenRule(key=f"{key}.points", value=value, rule=rule, hint=hint)
+        if shape == "spline" and not points:
+            rule, hint = 'must be given for shape = "spline"', 'e.g. points = [[0.5, "70 deg"]]'
+            yield BrokenRule(key=f"{key}.points", value="", rule=rule, hint=hint)
+        for number, (fraction, _) in enumerate(points):
+            if not 0.0 <= fraction <= 1.0:
+                rule, hint = "must lie between 0 and 1", "0 is at the rim's weld, 1 at the hub's"
+                yield BrokenRule(key=f"{key}.points[{number}][0]", value=f"{fraction:g}", rule=rule, hint=hint)
+        if shape == "hoop" and direction != 1:
+            rule, hint = (
+                "has no effect on a hoop, which leaves its weld to both sides",
+                "remove it, or change the shape",
+            )
+            yield BrokenRule(key=f"{key}.direction", value=str(direction), rule=rule, hint=hint)
 
 
 def broken_rules(study: Study) -> Iterator[BrokenRule]:
@@ -63,6 +91,11 @@ def _of_the_sweep(study: Study) -> Iterator[BrokenRule]:
         if name in asked and section is None:
             hint = f"add [{name}], or remove it from the sweep"
             yield BrokenRule(key=asked[name], value="", rule=f"needs [{name}]", hint=hint)
+    for key in study.sweep.parameters:
+        missing = absent(study, parts_of(key))
+        if missing is not None and is_table(missing) and not missing.endswith("]"):
+            hint = f"add [{missing}], or remove it from the sweep"
+            yield BrokenRule(key=f"sweep.{key}", value="", rule=f"needs [{missing}]", hint=hint)
 
 
 @cache
@@ -84,6 +117,14 @@ def _lonely(study: Study) -> Iterator[BrokenRule]:
                 yield BrokenRule(
                     key="ancf_fit", value="a table", rule=f"needs [{name}], {what}", hint=f"add [{name}], or remove it"
                 )
+    if study.wheel.inner_hub is None:
+        rule = "needs [wheel.inner_hub], whose bore is held"
+        if study.fe.hub == "elastic":
+            hint = 'add it, or set hub = "rigid", which holds the outer hub'
+            yield BrokenRule(key="fe.hub", value="elastic", rule=rule, hint=hint)
+        if study.hub_study is not None:
+            hint = "add it, or remove [hub_study]"
+            yield BrokenRule(key="hub_study", value="a table", rule=rule, hint=hint)
 
 
 def _environment(study: Study) -> Iterator[BrokenRule]:
@@ -95,6 +136,9 @@ def _environment(study: Study) -> Iterator[BrokenRule]:
         value, rule = f"{math.degrees(section.orientation):g} deg", "must be one of fe.orientations"
         hint = "its curve at 20 C is what the others are held against"
         yield BrokenRule(key="environment.orientation", value=value, rule=rule, hint=hint)
+    if "points" in section.model_fields_set and section.points > study.fe.points:
+        rule, hint = f"must not exceed fe.points = {study.fe.points}", "they are some of the points of the FE curve"
+        yield BrokenRule(key="environment.points", value=str(section.points), rule=rule, hint=hint)
     first = study.fe.max_deflection / study.fe.points
     if section.max_deflection is not None and section.max_deflection < first:
         value, rule = f"{1e3 * section.max_deflection:g} mm", f"lies before the first point, {1e3 * first:g} mm"
@@ -118,7 +162,7 @@ def _environment(study: Study) -> Iterator[BrokenRule]:
 
 
 def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
-    """Mesh and hub study must lie on the FE curves: their orientations, their range, their mesh."""
+    """What is made of the FE curves must lie on them: their orientations, their range, their mesh."""
     fe, mesh_study = study.fe, study.mesh_study
     for name, part in (("mesh_study", mesh_study), ("hub_study", study.hub_study)):
         if part is not None and max(part.deflections) > fe.max_deflection:
@@ -143,13 +187,19 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
         if curve.orientation is not None and not any(abs(curve.orientation - o) < 1e-9 for o in fe.orientations):
             key, value = f"compare.curves[{k}].orientation", f"{math.degrees(curve.orientation):g} deg"
             yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
-    penalty = study.penalty_study
-    if penalty is not None and penalty.deflection > fe.max_deflection:
-        value, rule = f"{1e3 * penalty.deflection:g} mm", "must not exceed fe.max_deflection"
-        yield BrokenRule(key="penalty_study.deflection", value=value, rule=rule, hint="choose a smaller one")
+    penalty, environment = study.penalty_study, study.environment
+    for key, drop in (
+        ("penalty_study.deflection", penalty.deflection if penalty else None),
+        ("environment.max_deflection", environment.max_deflection if environment else None),
+    ):
+        if drop is not None and drop > fe.max_deflection * (1.0 + 1e-9):
+            value, rule = f"{1e3 * drop:g} mm", "must not exceed fe.max_deflection"
+            yield BrokenRule(key=key, value=value, rule=rule, hint="choose a smaller one")
     if fe.turned and study.mesh.half_width:
         rule = "turns the ground out of the plane of symmetry that mesh.half_width relies on"
-        yield BrokenRule(key="fe.camber", value="not 0", rule=rule, hint="set mesh.half_width = false")
+        name, angle = ("camber", fe.camber) if fe.camber else ("obstacle.yaw", getattr(fe.obstacle, "yaw", 0.0))
+        value, hint = f"{math.degrees(angle):g} deg", "set mesh.half_width = false"
+        yield BrokenRule(key=f"fe.{name}", value=value, rule=rule, hint=hint)
     if mesh_study is not None and study.mesh.factor not in mesh_study.factors:
         yield BrokenRule(
             key="mesh_study.factors",
@@ -157,6 +207,11 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
             rule=f"must contain mesh.factor = {study.mesh.factor:g}, the mesh of the curves",
             hint="the uncertainty is that of the curves' mesh",
         )
+    if mesh_study is not None and study.full.factor not in study.full.mesh_study_factors:
+        factors = ", ".join(f"{factor:g}" for factor in study.full.mesh_study_factors)
+        rule = f"must be one of full.mesh_study_factors = {factors}"
+        hint = "the uncertainty is that of the curves' mesh; give both"
+        yield BrokenRule(key="full.factor", value=f"{study.full.factor:g}", rule=rule, hint=hint)
 
 
 def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
@@ -166,22 +221,27 @@ def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
         return
     freed = {name for tire in section.tires for name in tire.free}
     for name in sorted(section.bounds.model_fields_set - freed):
-        value = ", ".join(f"{end:g}" for end in getattr(section.bounds, name))
+        key = f"ancf_fit.bounds.{name}"
+        value = ", ".join(as_written(key, end) for end in getattr(section.bounds, name))
         rule, hint = "bounds nothing: no tire frees it", "remove it, or add it to a tire's free"
-        yield BrokenRule(key=f"ancf_fit.bounds.{name}", value=value, rule=rule, hint=hint)
-    for tire in section.tires:
-        key = f"ancf_fit.tires {tire.name}"
+        yield BrokenRule(key=key, value=value, rule=rule, hint=hint)
+    for number, tire in enumerate(section.tires):
+        key = f"ancf_fit.tires[{number}]"
         try:
             start = fit_start(study, tire)
         except SectionInputError as error:
+            key += f".start.{error.key}" * (error.key in tire.start.model_fields_set)
             yield BrokenRule(key=key, value=str(error.value), rule=f"{error.what} {error.rule}", hint=error.hint)
             continue
         for name in tire.free:
+            bounds = f"ancf_fit.bounds.{name}"
+            own = "rim_thickness" if name == "thickness" else name
             low, high = getattr(section.bounds, name)
-            value = getattr(start, "rim_thickness" if name == "thickness" else name)
-            if not low <= value <= high:
-                rule = f"{name} must begin within its bounds, {low:g} to {high:g} in SI units"
-                yield BrokenRule(key=key, value=f"{value:g}", rule=rule, hint="give a start or widen the bounds")
+            if not low <= getattr(start, own) <= high:
+                value, ends = as_written(bounds, getattr(start, own)), [as_written(bounds, end) for end in (low, high)]
+                rule = f"must begin within its bounds, {bounds} = {' to '.join(ends)}"
+                hint = "give another start or widen the bounds"
+                yield BrokenRule(key=f"{key}.start.{own}", value=value, rule=rule, hint=hint)
 
 
 def _room(section: str, deflection: float, gap: float) -> Iterator[BrokenRule]:

@@ -191,7 +191,8 @@ class CurveSection(Section):
     def _orientation_if_wanted(self) -> CurveSection:
         if (self.compare_with == "orientation") != (self.orientation is not None):
             rule, hint = 'belongs to compare_with = "orientation", and only there', "give both or neither"
-            raise in_key("orientation", self.orientation, rule, hint)
+            value = "" if self.orientation is None else f"{math.degrees(self.orientation):g} deg"
+            raise in_key("orientation", value, rule, hint)
         return self
 
 

@@ -89,6 +89,8 @@ class SweepSection(Section):
                 raise in_key(ranges[0], "a range", "has no grid", 'list its values, or set design = "latin-hypercube"')
             if self.samples is not None:
                 raise in_key("samples", self.samples, 'belongs to design = "latin-hypercube"', "remove it")
+            if "seed" in self.model_fields_set:
+                raise in_key("seed", self.seed, 'belongs to design = "latin-hypercube"', "remove it")
             count = math.prod(len(v) for v in self.parameters.values() if not isinstance(v, SweepRange))
             if count > MOST_POINTS:
                 rule = f"makes {count} combinations, more than {MOST_POINTS}"

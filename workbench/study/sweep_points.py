@@ -209,10 +209,10 @@ def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value, ba
 
 def _turn(table: dict[str, Any], value: Value) -> None:
     """Only this orientation, wherever the study names one of those it computes."""
-    table["fe"]["orientations"] = table["ancf"]["orientations"] = [value]
-    table["mesh_study"]["orientation"] = value
-    if "environment" in table:
-        table["environment"]["orientation"] = value
+    many, one = {"orientations": [value]}, {"orientation": value}
+    for name, change in (("fe", many), ("ancf", many), ("mesh_study", one), ("environment", one)):
+        if name in table:
+            table[name] |= change
     table.get("tolerances", {}).pop("initial_tangent_orientations", None)
 
 
