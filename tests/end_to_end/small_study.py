@@ -32,6 +32,7 @@ CHANGES = {
     r"enabled = true": "enabled = false",
     r"realisations = \d+": "realisations = 3",
     r"variants = \[[^\]]*\]": "variants = []",
+    r'\[materials."AISI 301"\][^\[]*(?=\n# ---)': "",
     r'on_ancf_tires = "short"': 'on_ancf_tires = "none"',
     r"\[tolerances\]": "[tolerances]\nmesh_uncertainty = 0.5\nfe_energy = 0.1",
     r"initial_tangent = \S+": 'initial_tangent = 0.9\nreach_deflection = "6 mm"',

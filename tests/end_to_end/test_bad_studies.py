@@ -13,7 +13,7 @@ from tests.end_to_end.small_study import run, said, small_study_text
 
 THICKNESS = r'thickness = "[^"]*"'
 OUTER_HUB = r'outer_radius = "50 mm"'
-SPLINE = 'shape = "spline"\npoints = [[0.5, "70 deg"], [1.3, "100 deg"]]'
+SPLINE = 'shape = "spline"\npoints = [[0.5, "70 deg"], [0.95, "100 deg"]]'
 
 BAD: dict[str, tuple[str, str, list[str]]] = {
     "negative thickness": (THICKNESS, 'thickness = "-0.6 mm"', ["wheel.tire.thickness = '-0.6 mm'", "greater than 0"]),
@@ -21,7 +21,7 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     "wrong unit": (THICKNESS, 'thickness = "0.6 kg"', ["wheel.tire.thickness = '0.6 kg'", "must be a length"]),
     "unknown key": (THICKNESS, 'thicknes = "0.6 mm"', ["wheel.tire.thicknes = '0.6 mm'", "not a known key"]),
     "hub larger than rim": (OUTER_HUB, 'outer_radius = "150 mm"', ["wheel.outer_hub.outer_radius", "smaller than"]),
-    "springs cross the hub": ('shape = "hoop"', SPLINE, ["wheel.springs[0].shape", "crosses the hub"]),
+    "springs cross the hub": ('shape = "hoop"', SPLINE, ["wheel.springs[0].points", "crosses the hub"]),
     "springs overlap": ("count = 3", "count = 40", ["wheel.springs[0].count = 40", "overlap"]),
     "orientation nan": (r'orientations = \["0 deg"\]', "orientations = [nan]", ["fe.orientations[0] = nan", "finite"]),
     "decimal comma": (THICKNESS, 'thickness = "0,6 mm"', ["wheel.tire.thickness = '0,6 mm'", "not a comma"]),

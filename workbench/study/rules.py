@@ -1,6 +1,7 @@
 """Rules that bind several sections of a study file: part names, room for the deflection.
 
-Asked once the wheel and the tire are known to fit together. Verified by tests/unit/test_workbench_study.py.
+Asked once the wheel and the tire are known to fit together. Verified by tests/unit/test_workbench_study.py and
+tests/unit/test_workbench_study_rules.py.
 """
 
 from __future__ import annotations
