@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError, StudyError
-from workbench.commands.computing import naming
+from workbench.commands.computing import naming, warn
 from workbench.execution.doctor import NEEDED
 from workbench.execution.errors import InterruptedRunError, RunError
 
@@ -28,6 +28,16 @@ def test_what_needs_no_study_name_stays_as_it_is(error: Exception) -> None:
     with pytest.raises(type(error)) as caught, naming(Path("my/study.toml")):
         raise error
     assert caught.value is error
+
+
+def test_a_warning_is_of_bearable_length(capsys: pytest.CaptureFixture[str]) -> None:
+    """A key of [inferred] of thousands of letters: its two ends are told."""
+    warn(Path("my/study.toml"), [f"{'k' * 9000} names no key of the study", "short"])
+    long, short = capsys.readouterr().err.splitlines()
+    assert len(long) < 2000
+    assert long.startswith("workbench: warning: my/study.toml: kkk")
+    assert long.endswith("kkk names no key of the study")
+    assert short == "workbench: warning: my/study.toml: short"
 
 
 @pytest.mark.parametrize("distribution", NEEDED)

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from contracts.errors import InputError, MemoryLimitError, StudyError
-from contracts.text import for_terminal
+from workbench.commands.ending import of_bearable_length
 from workbench.execution.errors import InterruptedRunError, RunError
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_tasks
@@ -35,7 +35,7 @@ def read_and_warn(path: Path) -> Study:
 def warn(path: Path, warnings: Sequence[str]) -> None:
     """One line on stderr for each warning about a file."""
     for warning in warnings:
-        sys.stderr.write(f"workbench: warning: {for_terminal(f'{path}: {warning}')}\n")
+        sys.stderr.write(f"workbench: warning: {of_bearable_length(f'{path}: {warning}')}\n")
 
 
 def computed(

@@ -15,7 +15,7 @@ from typing import TextIO
 from contracts.text import for_terminal
 from workbench.commands.options import DEFAULT_STORE
 
-__all__ = ["complain", "flushed", "full_disk"]
+__all__ = ["complain", "flushed", "full_disk", "of_bearable_length"]
 
 _LONGEST_MESSAGE = 1600
 
@@ -50,17 +50,22 @@ def full_disk(error: OSError, arguments: list[str]) -> str:
     return disk_full(error, found)
 
 
+def of_bearable_length(message: str) -> str:
+    """The message in one line for the terminal; the middle of a very long one is left out."""
+    line = for_terminal(" ".join(message.split()))
+    if len(line) > _LONGEST_MESSAGE:
+        line = f"{line[: _LONGEST_MESSAGE // 2]} [...] {line[-_LONGEST_MESSAGE // 2 :]}"
+    return line
+
+
 def complain(message: str) -> int:
-    """Say it in one line, whatever a file made a message hold; the middle of a very long one is left out."""
+    """Say it in one line, whatever a file made a message hold."""
     try:
         Path.cwd()
     except OSError:  # the cause of much else
         message = f"the working folder is gone, change into one that exists: {message}"
-    line = for_terminal(" ".join(message.split()))
-    if len(line) > _LONGEST_MESSAGE:
-        line = f"{line[: _LONGEST_MESSAGE // 2]} [...] {line[-_LONGEST_MESSAGE // 2 :]}"
     try:
-        sys.stderr.write(f"workbench: error: {line}\n")
+        sys.stderr.write(f"workbench: error: {of_bearable_length(message)}\n")
         sys.stderr.flush()
     except OSError:  # nobody can be told
         _drop(sys.stderr)
