@@ -125,7 +125,7 @@ def _others(package: str) -> tuple[str, ...]:
 def test_what_is_no_baseline_and_no_passing_report_is_refused(accepted: Path, tmp_path: Path) -> None:
     run = _gate(accepted, "none", "--baseline", str(tmp_path))
     assert run.returncode == 2
-    assert run.stderr.startswith("workbench: error: baseline = ")
+    assert run.stderr.splitlines()[-1].startswith("workbench: error: baseline = ")
     assert run.stderr.endswith("accept a report first: workbench accept DIR\n")
     failed = json.loads((accepted / "gate" / "summary.json").read_text(encoding="utf-8")) | {"status": "fail"}
     (tmp_path / "summary.json").write_text(json.dumps(failed), encoding="utf-8")

@@ -14,7 +14,8 @@ from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from contracts.series import TimeSeries
 from workbench.questions.models.agreement import Agreement
-from workbench.questions.models.question import MODELS, ComparedModels
+from workbench.questions.models.question import MODELS
+from workbench.questions.models.results import ComparedModels
 from workbench.questions.registry import questions_of
 from workbench.study.model import Study
 from workbench.study.sections import ToleranceSection

@@ -9,7 +9,7 @@ from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS
 
 if TYPE_CHECKING:
-    from workbench.questions.ancf.question import AncfTireResults
+    from workbench.questions.ancf.results import AncfTireResults
     from workbench.study.model import Study
 
 __all__ = ["ancf_figures"]

@@ -7,7 +7,6 @@ tests/unit/test_workbench_graph.py and tests/end_to_end/test_report.py.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -20,6 +19,7 @@ from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
 from workbench.questions.ancf.figures import ancf_figures
 from workbench.questions.ancf.preset_table import COLUMNS, preset_table
+from workbench.questions.ancf.results import AncfTireResults
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
 from workbench.study.model import Study, stated
@@ -31,7 +31,6 @@ from workbench.verdict.rules import Claim, at_most, near
 __all__ = [
     "ANCF",
     "SURFACES",
-    "AncfTireResults",
     "ancf_checks",
     "ancf_curve_tasks",
     "preset_error",
@@ -86,20 +85,6 @@ def report_surfaces_task(study: Study) -> Task:
     """What the report states: the first orientation, unloaded and at 10 mm."""
     ancf = stated(study.ancf, "ancf")
     return surfaces_task(study, degrees(ancf.orientations[0]), [min(_REPORTED_DEFLECTION, ancf.max_deflection)])
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AncfTireResults:
-    """The tire's curves, the continuum's average, and how far each STEP file read back lies from the plates [m]."""
-
-    ancf: ModelCurves
-    fe_average: StiffnessCurve
-    read_back: Mapping[str, float]
-
-    @property
-    def surface_distance(self) -> float:
-        """The largest of them [m]."""
-        return max(self.read_back.values())
 
 
 def read_ancf(study: Study, folders: Mapping[str, Path]) -> AncfTireResults:

@@ -9,7 +9,7 @@ from workbench.charts.palette import INK, MODEL_COLOURS
 
 if TYPE_CHECKING:
     from contracts.series import TimeSeries
-    from workbench.questions.ancf_dynamics.question import AncfMotions
+    from workbench.questions.ancf_dynamics.results import AncfMotions
     from workbench.study.model import Study
 
 __all__ = ["motion_figures"]

@@ -6,7 +6,6 @@ Verified by tests/unit/test_workbench_ancf_dynamics.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,15 +16,16 @@ from contracts.series import TimeSeries, read_series
 from workbench.execution.result_files import read_record
 from workbench.execution.task import Task
 from workbench.questions.ancf_dynamics.figures import motion_figures
+from workbench.questions.ancf_dynamics.results import AncfMotion, AncfMotions
 from workbench.questions.question import Question
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, ancf_tire
 from workbench.verdict.rules import Claim, at_most
 
 if TYPE_CHECKING:
-    from workbench.questions.ancf_dynamics.records import MotionNumbers
+    pass
 
-__all__ = ["ANCF_DYNAMICS", "AncfMotion", "AncfMotions"]
+__all__ = ["ANCF_DYNAMICS"]
 
 HUB_MASS = 25.0
 """On the hub in drop and ride [kg]: with Mars gravity 109 N on the wheel, well within what the tire carries."""
@@ -34,31 +34,6 @@ ROVER_SHARE = 48.9
 DAMPING_RATIO, DROP, SPEED, ROCK, ROCK_AT = 0.05, 0.010, 0.5, 0.020, 0.25
 CLOSURE, AGREEMENT = 0.01, 0.02
 """Energy account: 1 % of the largest energy that changes hands; integrators: 2 % of the deflection (our targets)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AncfMotion:
-    """One motion: what was asked, what was found, and its time series."""
-
-    name: str
-    title: str
-    numbers: MotionNumbers
-    series: TimeSeries
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AncfMotions:
-    """Drop, drop with the rover's share, ride."""
-
-    radius: float
-    motions: tuple[AncfMotion, ...]
-
-    def __getitem__(self, name: str) -> AncfMotion:
-        return next(motion for motion in self.motions if motion.name == name)
-
-    def drop_of(self, motion: AncfMotion) -> float:
-        """Largest deflection of the hub below the nominal radius [m]."""
-        return self.radius - motion.numbers.lowest_m
 
 
 _TITLES = {

@@ -9,7 +9,7 @@ from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 
 if TYPE_CHECKING:
-    from workbench.questions.ancf_fit.question import AncfFits
+    from workbench.questions.ancf_fit.results import AncfFits
     from workbench.study.model import Study
 
 __all__ = ["fit_figures"]

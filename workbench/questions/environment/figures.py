@@ -10,7 +10,7 @@ from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import INK, ORIENTATION_COLOURS
 
 if TYPE_CHECKING:
-    from workbench.questions.environment.question import Series
+    from workbench.questions.environment.results import Series
     from workbench.study.model import Study
 
 __all__ = ["environment_figures"]

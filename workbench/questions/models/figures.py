@@ -10,7 +10,7 @@ from workbench.charts.palette import MODEL_COLOURS
 from workbench.questions.fe.figures import add_band, add_uncertainty, add_users
 
 if TYPE_CHECKING:
-    from workbench.questions.models.question import ComparedModels
+    from workbench.questions.models.results import ComparedModels
     from workbench.study.model import Study
 
 __all__ = ["models_figures"]

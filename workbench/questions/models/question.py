@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -17,67 +17,20 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.questions.fe.results import ContinuumCurves, read_continuum
-from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves
-from workbench.questions.models.agreement import Agreement, agreements, noted
+from workbench.questions.fe.results import read_continuum
+from workbench.questions.model_curves import UserCurve, model_curves
+from workbench.questions.models.agreement import noted
 from workbench.questions.models.curves import brush_curve
 from workbench.questions.models.figures import models_figures
 from workbench.questions.models.graph import brush_task, metrics_task
 from workbench.questions.models.metrics import CurveMetrics
+from workbench.questions.models.results import ComparedModels
 from workbench.questions.question import Question
 from workbench.study.model import Study
 from workbench.study.sections import ToleranceSection
 from workbench.verdict.rules import Claim, at_least, at_most, near
 
-__all__ = ["MODELS", "ComparedModels", "ComparedRow", "agreement_checks", "read_models", "user_checks"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ComparedRow:
-    """A line of the table: readable name of the pair, distances, what is made of them."""
-
-    name: str
-    metrics: CurveMetrics
-    agreement: Agreement
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ComparedModels:
-    """Everything that is held against the continuum.
-
-    Attributes
-    ----------
-    continuum : its curves and their uncertainty
-    ancf, brush : curves of the study's tires, None where it has none
-    metrics : distances between curves by pair
-    limit : relative L2 difference up to which two models agree [-]
-    """
-
-    continuum: ContinuumCurves
-    ancf: ModelCurves | None
-    brush: StiffnessCurve | None
-    metrics: Mapping[str, CurveMetrics]
-    limit: float
-
-    @property
-    def agreements(self) -> Mapping[str, Agreement]:
-        """Each pair judged against the limit and the numerical uncertainty."""
-        return agreements(self.metrics, self.continuum.fe, self.continuum.mesh_study, self.limit)
-
-    @property
-    def rows(self) -> list[ComparedRow]:
-        """The table."""
-        judged = self.agreements
-        return [ComparedRow(name=self._name(k), metrics=m, agreement=judged[k]) for k, m in self.metrics.items()]
-
-    def _name(self, pair: str) -> str:
-        fe, users = self.continuum.fe, self.continuum.users
-        names = {"ancf_average": "ANCF average, FE average", "brush": "brush line, FE average"}
-        names |= {f"user_{i}": f"FE, {user.label}" for i, user in enumerate(users)}
-        orientation = pair.removeprefix("ancf_phi")
-        curve = fe.average if pair in names else fe.by_orientation[float(orientation)]
-        name = names.get(pair) or f"ANCF {orientation}°, FE {orientation}°"
-        return name + (" (partial)" if curve.partial else "")
+__all__ = ["MODELS", "agreement_checks", "read_models", "user_checks"]
 
 
 def read_models(study: Study, folders: Mapping[str, Path]) -> ComparedModels:

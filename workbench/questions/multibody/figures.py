@@ -9,7 +9,7 @@ from workbench.charts.interactive import figure_html, log_axes, low_figure
 from workbench.charts.palette import ORIENTATION_COLOURS
 
 if TYPE_CHECKING:
-    from workbench.questions.multibody.question import MultibodyResults, WorkRow
+    from workbench.questions.multibody.results import MultibodyResults, WorkRow
     from workbench.study.model import Study
 
 __all__ = ["work_figures"]

@@ -6,15 +6,14 @@ Verified by tests/unit/test_workbench_multibody.py.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contracts.errors import InputError
 from contracts.records import Check, Role
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
 from workbench.questions.multibody.figures import work_figures
+from workbench.questions.multibody.results import MultibodyResults, WorkRow, problem_of
 from workbench.questions.question import Question
 from workbench.questions.verification.question import VERIFICATION
 from workbench.study.model import Study
@@ -22,55 +21,8 @@ from workbench.verdict.rules import Claim, at_least, at_most
 
 if TYPE_CHECKING:
     pass
-    from rover_dynamics.multibody.verification.work_precision import Problem
 
-__all__ = ["ALLOWED", "MULTIBODY", "MultibodyResults", "WorkRow", "problem_of"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorkRow:
-    """One motion: its problem, ``"explicit"`` or ``"implicit"``, error allowed in a step, and what `Work` holds."""
-
-    problem: str
-    method: str
-    allowed: float
-    error: float
-    energy: float | None
-    seconds: float
-    steps: int
-    evaluations: int
-
-    @property
-    def title(self) -> str:
-        """Of the problem."""
-        return problem_of(self.problem).title
-
-    @property
-    def unit(self) -> str:
-        """Of the error; nothing where it is relative."""
-        unit = problem_of(self.problem).unit
-        return "" if unit == "-" else unit
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MultibodyResults:
-    """All motions, and the error that the equation of one angle has on A02 with 1e-4 a step [m]."""
-
-    rows: tuple[WorkRow, ...]
-    one_angle: float
-
-    def of(self, problem: str, method: str, allowed: float) -> WorkRow:
-        """One motion; InputError if it was not computed."""
-        for row in self.rows:
-            if (row.problem, row.method, row.allowed) == (problem, method, allowed):
-                return row
-        raise InputError("error allowed in a step", f"{allowed:g}", "was not computed", "look at the task's result")
-
-
-def problem_of(name: str) -> Problem:
-    from rover_dynamics.multibody.verification.work_precision import PROBLEMS
-
-    return PROBLEMS[name]
+__all__ = ["ALLOWED", "MULTIBODY"]
 
 
 ALLOWED: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]] = {

@@ -8,7 +8,7 @@ from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import ORIENTATION_COLOURS
 
 if TYPE_CHECKING:
-    from workbench.questions.orientations.question import OrientationMap
+    from workbench.questions.orientations.results import OrientationMap
     from workbench.study.model import Study
 
 __all__ = ["orientation_figures"]

@@ -10,7 +10,7 @@ from workbench.charts.palette import MODEL_COLOURS
 from workbench.questions.rover_mission.requirements import TITLES
 
 if TYPE_CHECKING:
-    from workbench.questions.rover_mission.question import Mission
+    from workbench.questions.rover_mission.results import Mission
     from workbench.study.model import Study
 
 __all__ = ["mission_figures"]

@@ -6,7 +6,6 @@ Verified by tests/unit/test_workbench_rover_mission.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from contracts.records import Check
@@ -14,36 +13,19 @@ from contracts.series import TimeSeries
 from workbench.execution.task import Task
 from workbench.questions.ancf_fit.graph import fit_name
 from workbench.questions.question import Question
-from workbench.questions.rover.drive import Drive, read_drive
+from workbench.questions.rover.drive import read_drive
 from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
 from workbench.questions.rover_mission.figures import mission_figures
-from workbench.questions.rover_mission.requirements import MissionRow, mission_checks, mission_rows
+from workbench.questions.rover_mission.requirements import mission_checks
+from workbench.questions.rover_mission.results import Mission
 from workbench.study.model import Study, stated
 from workbench.study.sections import runs_on_ancf_tires
 
-__all__ = ["ROVER_MISSION", "Mission"]
+__all__ = ["ROVER_MISSION"]
 
 SHORT = {"slope_up": 9.0, "slope_down": 12.0, "slope_across": 9.0, "step": 14.0, "point_turn": 20.0}
 LONG = {"crevasse": 120.0, "rocks": 110.0}
 """Run -> processor time it takes about [s]."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Mission:
-    """Runs on fitted tires and on brush tires, by scenario.
-
-    ``tire`` is the fit's name, ``friction`` that of the study's ground or None.
-    """
-
-    fitted: Mapping[str, Drive]
-    brush: Mapping[str, Drive]
-    tire: str
-    friction: float | None
-
-    @property
-    def rows(self) -> list[MissionRow]:
-        """What is required of each run on fitted tires."""
-        return mission_rows(self.fitted, self.brush)
 
 
 def _runs(study: Study) -> Sequence[str]:

@@ -9,7 +9,7 @@ from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS, ORIENTATION_COLOURS
 
 if TYPE_CHECKING:
-    from workbench.questions.section.question import SectionRuns
+    from workbench.questions.section.results import SectionRuns
     from workbench.study.model import Study
 
 __all__ = ["section_figures"]
