@@ -35,10 +35,12 @@ class ContactPair:
     ----------
     slave : face group whose points are held off
     master : face group they are held off from
+    across : parts of a planar mesh whose joints with the master's part count as its surface, see `contact_surface`
     """
 
     slave: str
     master: str
+    across: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,6 +55,8 @@ class InnerContact:
     least_gap : points that start closer to the master than this are left out, e.g. beside a weld [m]
     depth : how far behind the master's surface a point is still found [m]
     reach : gap below which facets get room in the matrix before they touch [m]
+    overhang : how far a master facet goes on, straight, beyond an edge it shares with the slave's surface [m]: where a
+        spring is welded to a rim, the rim's face goes on within the weld, and no point can slip off its end
     gauss_points : slave points along each axis of a facet
     """
 
@@ -62,6 +66,7 @@ class InnerContact:
     least_gap: float = 10e-6
     depth: float = 5e-3
     reach: float = 1.5e-3
+    overhang: float = 1e-3
     gauss_points: int = 5
 
     def __post_init__(self) -> None:
@@ -95,10 +100,17 @@ class InnerContactTerm:
         self._comm = domain.mesh.comm
         self.whole_body = self._comm.size > 1
         self.reference_positions = node_positions(domain, V)
-        names = {name for pair in description.pairs for name in (pair.slave, pair.master)}
-        made = {name: contact_surface(domain, V, name, description.gauss_points) for name in sorted(names)}
+        wanted = {(p.slave, ()) for p in description.pairs} | {(p.master, p.across) for p in description.pairs}
+        points = description.gauss_points
+        made = {key: contact_surface(domain, V, key[0], points, key[1]) for key in sorted(wanted)}
         self._sides = [
-            _TwoSides(made[pair.slave], made[pair.master], self.reference_positions, description, self._share())
+            _TwoSides(
+                made[pair.slave, ()],
+                made[pair.master, pair.across],
+                self.reference_positions,
+                description,
+                self._share(),
+            )
             for pair in description.pairs
         ]
         self.pattern_version, self.largest_penetration = 0, 0.0
@@ -171,6 +183,7 @@ class _TwoSides:
         self, slave: ContactSurface, master: ContactSurface, X: Array, law: InnerContact, share: slice
     ) -> None:
         self.shared = _share_nodes(master)[share] if slave is master else None
+        self.overhang = _overhang(slave, master, X, law.overhang)
         slave = replace(slave, facets=slave.facets[share], sides=slave.sides[share], widths=slave.widths[share])
         self.slave, self.master, self.law = slave, master, law
         _, _, areas = slave.frames(X)
@@ -240,7 +253,8 @@ class _TwoSides:
                 (np.cumsum([0, *map(len, candidates)]), np.array([m for c in candidates for m in c], dtype=np.int64)),
                 (master.facets, master.sides, master.lattice),
                 (mid_m, radius_m, master.middle_normals(x)),
-                (above, self.law.depth, margin),
+                (above, self.law.depth),
+                np.maximum(self.overhang, margin),
             )
         return facet, xi, gap
 
@@ -268,6 +282,25 @@ def _share_nodes(surface: ContactSurface) -> list[set[int]]:
         for node in nodes:
             holders.setdefault(node, set()).add(m)
     return [set().union(*(holders[node] for node in nodes)) for nodes in surface.facets.tolist()]
+
+
+def _overhang(slave: ContactSurface, master: ContactSurface, X: Array, length: float) -> Array:
+    """``length`` [m] beyond the edges of master facets that the slave's surface has too, in local coordinates, (m, 4).
+
+    Edges xi_1 = -1, +1, xi_2 = -1, +1; zero at the others, and everywhere where both surfaces are one.
+    """
+    out = np.zeros((len(master.facets), 4))
+    if slave is master:
+        return out
+    grid = master.facets.reshape(-1, *master.lattice)
+    shared = np.isin(grid, slave.facets)
+    for axis in (0, 1) if master.lattice[1] > 1 else (0,):
+        first, last = grid.take(0, axis=1 + axis), grid.take(-1, axis=1 + axis)
+        half = 0.5 * np.linalg.norm(X[last] - X[first], axis=-1).mean(axis=1)
+        for k, end in enumerate((0, -1)):
+            junction = np.all(shared.take(end, axis=1 + axis), axis=1)
+            out[junction, 2 * axis + k] = length / half[junction]
+    return out
 
 
 def _joined(batches: Sequence[SurfaceForces], dim: int) -> SurfaceForces:

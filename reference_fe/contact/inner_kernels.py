@@ -171,12 +171,13 @@ def nearest_contacts(
     candidates: tuple[Index, Index],
     master: tuple[Index, Array, tuple[int, int]],
     balls: tuple[Array, Array, Array],
-    limits: tuple[float, float, float],
+    limits: tuple[float, float],
+    margins: Array,
 ) -> tuple[Index, Array, Array]:
     """For each slave point the master facet straight below it.
 
     Among the candidates that face the point (normals more than a right angle apart), whose closest point lies on the
-    facet and at most the reach away, the nearest counts.
+    facet, or beyond an edge by its margin at most, and at most the reach away, the nearest counts.
 
     Parameters
     ----------
@@ -185,7 +186,8 @@ def nearest_contacts(
     candidates : row starts (f + 1,) and master facets of each slave facet
     master : facets (m, k), sides (m,), lattice
     balls : middle (m, 3), radius (m,) [m] and outward normal in the middle (m, 3) of each master facet
-    limits : reach above (gap) and below (depth) the master's surface [m], and how far |xi| may pass 1 [-]
+    limits : reach above (gap) and below (depth) the master's surface [m]
+    margins : (m, 4) how far the closest point may pass the edges xi_1 = -1, +1 and xi_2 = -1, +1 of each master [-]
 
     Returns
     -------
@@ -196,7 +198,7 @@ def nearest_contacts(
     starts, wanted = candidates
     facets, sides, lattice = master
     middles, radii, outward = balls
-    above, below, margin = limits
+    above, below = limits
     n_f, n_q = points.shape[0], points.shape[1]
     facet, gap = np.full((n_f, n_q), -1, dtype=np.int64), np.full((n_f, n_q), np.inf)
     where = np.zeros((n_f, n_q, 2))
@@ -208,7 +210,9 @@ def nearest_contacts(
                 if not _may_touch(points[f, q], normals[f, q], middles[c], radii[c], outward[c], above, below):
                     continue
                 _closest(x, points[f, q], facets[c], lattice, xi, shapes, place)
-                if abs(xi[0]) > 1.0 + margin or abs(xi[1]) > 1.0 + margin:
+                if not (-1.0 - margins[c, 0] <= xi[0] <= 1.0 + margins[c, 1]):
+                    continue
+                if not (-1.0 - margins[c, 2] <= xi[1] <= 1.0 + margins[c, 3]):
                     continue
                 _normal(place, sides[c], n)
                 g = np.dot(points[f, q] - place[0], n)

@@ -16,7 +16,8 @@ def wheel_contact_pairs(mesh: TaggedMesh) -> tuple[ContactPair, ...]:
     A spring set is known by its face groups ``{set}_front`` (the broad side that faces both rings) and ``{set}_back``.
     The strip is the slave, the ring the master; of two rings the rim, or the outer hub, is the slave. A strip's back
     can meet the hub, and the back of a strip (a hoop's two welds, where it bottoms out), never its own ring. In a
-    planar mesh sets of different axial bands lie over each other: a set touches itself and the rings, no other set.
+    planar mesh sets of different axial bands lie over each other: a set touches itself and the rings, no other set, and
+    finds the rings whole where other sets are welded to them.
 
     Verified by tests/unit/test_fe_inner_contact.py.
     """
@@ -30,8 +31,10 @@ def wheel_contact_pairs(mesh: TaggedMesh) -> tuple[ContactPair, ...]:
 
 def _gap_pairs(sets: list[str], outer: str, inner: str, dim: int) -> list[ContactPair]:
     """Pairs among the springs in the gap between two rings, and with the rings' faces."""
-    pairs = [ContactPair(slave=f"{name}_front", master=ring) for name in sets for ring in (outer, inner)]
-    pairs += [ContactPair(slave=f"{name}_back", master=inner) for name in sets]
+    others = {name: tuple(other for other in sets if other != name) if dim == 2 else () for name in sets}
+    sides = [(f"{name}_front", ring, others[name]) for name in sets for ring in (outer, inner)]
+    sides += [(f"{name}_back", inner, others[name]) for name in sets]
+    pairs = [ContactPair(slave=slave, master=master, across=across) for slave, master, across in sides]
     pairs += [
         ContactPair(slave=f"{a}_{side}", master=f"{b}_{side}")
         for a, b in combinations_with_replacement(sets, 2)

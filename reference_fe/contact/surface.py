@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from contracts.errors import InputError
+from contracts.mesh import TaggedMesh
 from reference_fe import dolfinx_api as api
 from reference_fe.contact.inner_kernels import surface_frames
 from reference_fe.contact.patch import facet_widths
@@ -25,6 +27,9 @@ _LATTICE = {
     4: ((0, 2, 3, 1), (2, 2)),
     9: ((0, 6, 8, 2, 3, 7, 5, 1, 4), (3, 3)),
 }
+
+_EDGES = {4: ((0, 1), (1, 2), (2, 3), (3, 0)), 9: ((0, 1, 4), (1, 2, 5), (2, 3, 6), (3, 0, 7))}
+"""gmsh's nodes of a quadrilateral's edges, by number of nodes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -65,8 +70,13 @@ def node_positions(domain: Domain, V: api.Expr) -> NDArray[np.float64]:
     return here if domain.mesh.comm.size == 1 else WholeBody(V).gathered(here.ravel()).reshape(-1, 3)
 
 
-def contact_surface(domain: Domain, V: api.Expr, face: str, gauss_points: int) -> ContactSurface:
+def contact_surface(
+    domain: Domain, V: api.Expr, face: str, gauss_points: int, across: Sequence[str] = ()
+) -> ContactSurface:
     """The surface of one face group, integrated with ``gauss_points`` along each axis.
+
+    across : parts of a planar mesh whose joints with the face's own part belong to the surface, which would have a hole
+        there: the weld of a spring in another axial band
 
     Raises
     ------
@@ -76,18 +86,22 @@ def contact_surface(domain: Domain, V: api.Expr, face: str, gauss_points: int) -
     mesh = domain.tagged
     (tag,) = domain.face_tags([face])
     facets = mesh.facets[mesh.facet_tags == tag]
+    cells = mesh.cells
+    if across:
+        cells = _cells_below(mesh, facets)
+        facets = np.vstack([facets, _joints(mesh, cells, across)])
     order, lattice = _LATTICE[facets.shape[1]]
     points, weights = np.polynomial.legendre.leggauss(gauss_points)
-    across = (np.zeros(1), np.ones(1)) if lattice[1] == 1 else (points, weights)
-    at = np.stack(np.meshgrid(points, across[0], indexing="ij"), axis=-1).reshape(-1, 2)
+    second = (np.zeros(1), np.ones(1)) if lattice[1] == 1 else (points, weights)
+    at = np.stack(np.meshgrid(points, second[0], indexing="ij"), axis=-1).reshape(-1, 2)
     in_order = np.empty_like(facets)
     in_order[:, list(order)] = facets
     return ContactSurface(
         facets=_node_numbers(domain, V)[in_order],
-        sides=_outward(domain, facets, in_order, lattice),
+        sides=_outward(mesh, cells, facets, in_order, lattice),
         lattice=lattice,
         at=at,
-        weights=np.outer(weights, across[1]).ravel(),
+        weights=np.outer(weights, second[1]).ravel(),
         widths=facet_widths(mesh, facets),
     )
 
@@ -105,20 +119,40 @@ def _node_numbers(domain: Domain, V: api.Expr) -> NDArray[np.int64]:
     return process_sums.largest_of_all(out)
 
 
+def _cells_below(mesh: TaggedMesh, facets: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Cells of the part that the facets bound, (n, nodes of a cell)."""
+    on_face = np.isin(mesh.cells, facets).sum(axis=1)
+    return mesh.cells[mesh.cell_tags == mesh.cell_tags[on_face.argmax()]]
+
+
+def _joints(mesh: TaggedMesh, cells: NDArray[np.int64], parts: Sequence[str]) -> NDArray[np.int64]:
+    """Edges of the planar cells (n, k) that lie on cells of ``parts``, (m, nodes of an edge)."""
+    edges = cells[:, _EDGES[cells.shape[1]]].reshape(-1, len(_EDGES[cells.shape[1]][0]))
+    tags = [mesh.parts[part] for part in parts]
+    joined = np.isin(edges, mesh.cells[np.isin(mesh.cell_tags, tags)]).all(axis=1)
+    return np.asarray(edges[joined], dtype=np.int64)
+
+
 def _outward(
-    domain: Domain, facets: NDArray[np.int64], in_order: NDArray[np.int64], lattice: tuple[int, int]
+    mesh: TaggedMesh,
+    cells: NDArray[np.int64],
+    facets: NDArray[np.int64],
+    in_order: NDArray[np.int64],
+    lattice: tuple[int, int],
 ) -> NDArray[np.float64]:
-    """+1 or -1 for each facet: whether t_1 x t_2 in its middle points away from the middle of its cell."""
-    mesh = domain.tagged
+    """+1 or -1 for each facet: whether t_1 x t_2 in its middle points away from that of ``cells`` which it bounds.
+
+    Corners are compared with corners: the middle of a curved facet may bulge beyond the middle of its own thin cell.
+    """
     dim = mesh.points.shape[1]
-    corners, cell_corners = facets[:, : 2 ** (dim - 1)], mesh.cells[:, : 2**dim]
+    corners, cell_corners = facets[:, : 2 ** (dim - 1)], cells[:, : 2**dim]
     shared = _incidence(corners, len(mesh.points)) @ _incidence(cell_corners, len(mesh.points)).T
     cell = np.asarray(shared.argmax(axis=1)).ravel()
     x = np.zeros((len(mesh.points), 3))
     x[:, :dim] = mesh.points
     plus = np.ones(len(facets))
-    middle, normal, _ = surface_frames(x, in_order, plus, lattice, np.zeros((1, 2)))
-    away = middle[:, 0] - x[cell_corners[cell]].mean(axis=1)
+    _, normal, _ = surface_frames(x, in_order, plus, lattice, np.zeros((1, 2)))
+    away = x[corners].mean(axis=1) - x[cell_corners[cell]].mean(axis=1)
     return np.where(np.einsum("fi,fi->f", normal[:, 0], away) > 0.0, 1.0, -1.0)
 
 

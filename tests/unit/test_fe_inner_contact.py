@@ -17,6 +17,7 @@ from geometry.wheel import WheelDesign
 from reference_fe.contact.inner import ContactPair, InnerContact, InnerContactTerm
 from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.inner_pairs import wheel_contact_pairs
+from reference_fe.contact.surface import contact_surface, node_positions
 from reference_fe.dolfinx_api import fem
 from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh, stacked
@@ -146,7 +147,7 @@ def test_of_two_masters_the_nearer_counts_though_the_other_is_deeper(order: tupl
     master = (np.array([[0, 1], [2, 3]]), np.array([-1.0, -1.0]), (2, 1))
     balls = (np.array([[0.5, 0.0, 0.0], [0.5, 0.05, 0.0]]), np.ones(2), np.array([[0.0, 1.0, 0.0]] * 2))
     downward, candidates = np.array([[[0.0, -1.0, 0.0]]]), (np.array([0, 2]), np.array(order))
-    facet, _, gap = nearest_contacts(x, x[None, 4:], downward, candidates, master, balls, (1.0, 1.0, 1e-3))
+    facet, _, gap = nearest_contacts(x, x[None, 4:], downward, candidates, master, balls, (1.0, 1.0), np.zeros((2, 4)))
     assert facet[0, 0] == 0
     assert gap[0, 0] == pytest.approx(0.02)
 
@@ -161,7 +162,8 @@ def test_planar_edges_have_the_same_law(bulge: float) -> None:
     def contact(x: Array) -> tuple[Array, float]:
         candidates = (np.array([0, 1]), np.array([0]))
         balls = (np.array([[0.5, 0.0, 0.0]]), np.ones(1), np.array([[0.0, 1.0, 0.0]]))
-        facet, xi, gap = nearest_contacts(x, x[None, 3:], touch, candidates, master, balls, (1.0, 1.0, 1e-3))
+        limits, margins = (1.0, 1.0), np.zeros((1, 4))
+        facet, xi, gap = nearest_contacts(x, x[None, 3:], touch, candidates, master, balls, limits, margins)
         assert facet[0, 0] == 0
         return xi[0], float(gap[0, 0])
 
@@ -213,6 +215,65 @@ def planar_bar(length: float, base: float) -> tuple[Array, NDArray[np.int64], ND
     places = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
     points = np.array(places) * [0.5 * length, 0.05] + [0.0, base]
     return points, np.arange(9)[None], np.array([[0, 1, 4], [2, 3, 6]])
+
+
+def wedge() -> TaggedMesh:
+    """Two bars in the plane that share the corner (1, 0.1): the upper one's lower edge rises from it to the left."""
+    low, high = planar_bar(1.0, 0.0), planar_bar(0.6, 0.0)
+    tilted = high[0] @ np.array([[1.0, -0.1], [0.0, 1.0]]) + [0.4, 0.16]
+    number = np.concatenate([[9], [2], 10 + np.arange(7)])  # its second corner is the lower bar's third
+    return TaggedMesh(
+        points=np.vstack([low[0], np.delete(tilted, 1, axis=0)]),
+        cells=np.vstack([low[1], number[high[1]]]),
+        cell_tags=np.array([1, 2], dtype=np.int32),
+        facets=np.vstack([low[2], number[high[2]]]),
+        facet_tags=np.array([1, 2, 3, 4], dtype=np.int32),
+        parts={"body": 1, "lid": 2},
+        faces={"z0": 1, "z1": 2, "lid_z0": 3, "lid_z1": 4},
+        widths={"body": 1.0, "lid": 1.0},
+    )
+
+
+@pytest.mark.parametrize(("overhang", "touching"), [(0.05, 3), (0.001, 2)])
+def test_no_point_slips_off_where_a_strip_is_welded(overhang: float, touching: int) -> None:
+    """The strip's points at x = 0.82, 0.95 and 1.008 m are pushed 10 to 20 mm down; the master ends at 1 m."""
+    domain = Domain.from_tagged(wedge())
+    law = replace(LAW, least_gap=1.5e-3, overhang=overhang)
+    term = law.build(domain, fem.functionspace(domain.mesh, ("Lagrange", 2, (2,))))
+    X = term.reference_positions
+    u = np.zeros((len(X), 2))
+    lid = X[:, 1] > 0.1 + 1e-9
+    assert lid.sum() == 8
+    u[lid] = [0.25, -0.05]
+    assert len(term.evaluate(u.ravel(), 0.0).nodes) == touching
+
+
+@pytest.mark.parametrize("thickness_elements", [1, 2, 3])
+def test_faces_of_thin_rings_look_away_from_them(thickness_elements: int) -> None:
+    """The middle of a curved facet bulges beyond the middle of its own thin cell: corners tell the side."""
+    mesh = build_planar_mesh(WheelDesign(), element_size=16e-3, thickness_elements=thickness_elements)
+    domain = Domain.from_tagged(mesh)
+    V = fem.functionspace(domain.mesh, ("Lagrange", 2, (2,)))
+    for face, outward in (("tire_inner", -1.0), ("outer_hub_outer", 1.0)):
+        surface = contact_surface(domain, V, face, 3)
+        x, n, _ = surface.frames(node_positions(domain, V))
+        assert np.all(outward * np.einsum("fqi,fqi->fq", n, x) > 0.9 * np.linalg.norm(x, axis=-1))
+
+
+def test_a_planar_rim_has_no_hole_under_another_bands_weld() -> None:
+    """Rim's inside less the welds of the slave's own set: 2 pi R - 3 x 8 mm; less both sets' without the joints."""
+    design = WheelDesign()
+    mesh = build_planar_mesh(design, element_size=16e-3)
+    domain = Domain.from_tagged(mesh)
+    V = fem.functionspace(domain.mesh, ("Lagrange", 2, (2,)))
+    (pair,) = (p for p in wheel_contact_pairs(mesh) if (p.slave, p.master) == ("springs_outer_front", "tire_inner"))
+    around = 2.0 * np.pi * design.tire.inner_radius
+    for across, welds in ((pair.across, 1), ((), 2)):
+        surface = contact_surface(domain, V, "tire_inner", 3, across)
+        x, n, lengths = surface.frames(node_positions(domain, V))
+        assert np.all(np.einsum("fqi,fqi->fq", n, x) < 0.0)
+        length = float((lengths @ surface.weights).sum())
+        assert length == pytest.approx(around - welds * 3 * 8e-3, abs=2e-5)
 
 
 def test_restored_history_gives_the_pattern_back() -> None:
