@@ -122,7 +122,7 @@ def _node_numbers(domain: Domain, V: api.Expr) -> NDArray[np.int64]:
 def _cells_below(mesh: TaggedMesh, facets: NDArray[np.int64]) -> NDArray[np.int64]:
     """Cells of the part that the facets bound, (n, nodes of a cell)."""
     on_face = np.isin(mesh.cells, facets).sum(axis=1)
-    return mesh.cells[mesh.cell_tags == mesh.cell_tags[on_face.argmax()]]
+    return np.asarray(mesh.cells[mesh.cell_tags == mesh.cell_tags[on_face.argmax()]], dtype=np.int64)
 
 
 def _joints(mesh: TaggedMesh, cells: NDArray[np.int64], parts: Sequence[str]) -> NDArray[np.int64]:
