@@ -21,6 +21,7 @@ from reference_fe.dolfinx_api import Expr, ufl
 __all__ = [
     "SMALLEST_STRETCH",
     "MaterialLaw",
+    "cauchy_stress",
     "deformation_gradient",
     "green_lagrange",
     "linearised_strain",
@@ -103,10 +104,10 @@ def thermal_moduli(lam: float, mu: float, stretch: float) -> tuple[float, float,
     return lam / stretch, mu / stretch, offset / stretch
 
 
-def von_mises_cauchy(
+def cauchy_stress(
     law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0, transverse: Expr = None
 ) -> Expr:
-    """Von Mises equivalent of the Cauchy stress sigma = F S F^T / J [Pa].
+    """Cauchy stress sigma = F S F^T / J [Pa], 3 x 3.
 
     In two dimensions ``transverse`` is the strain across the plane over the trace of that in it [-], both without
     thermal strain, which gives the third row: with E = E_th + E_e, E_e33 = transverse tr(E_e) and the planar lambda,
@@ -117,8 +118,14 @@ def von_mises_cauchy(
         trace = ufl.tr(green_lagrange(u)) - (stretch**2 - 1.0)
         F = _with_third(F, ufl.sqrt(stretch**2 + 2.0 * transverse * trace))
         S = _with_third(S, (lame[0] + 2.0 * lame[1] * transverse) * trace / stretch)
-    sigma = F * S * F.T / ufl.det(F)
-    deviator = ufl.dev(sigma)
+    return F * S * F.T / ufl.det(F)
+
+
+def von_mises_cauchy(
+    law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0, transverse: Expr = None
+) -> Expr:
+    """Von Mises equivalent of the Cauchy stress [Pa], see `cauchy_stress`."""
+    deviator = ufl.dev(cauchy_stress(law, u, lame, stretch, transverse))
     return ufl.sqrt(1.5 * ufl.inner(deviator, deviator))
 
 

@@ -25,8 +25,9 @@ ROOM = 14
 MORE_ROOM = (60, 200, 600)
 """Room [%] of the next attempts where pivoting needs more than the estimate and the usual 20 %."""
 
-STATE, DETAIL, LARGEST = 1, 2, 16
-"""Entries of MUMPS' INFOG: outcome (0 or an error), its detail, estimated memory of the largest process [MB]."""
+STATE, DETAIL, NEGATIVE, LARGEST = 1, 2, 12, 16
+"""Entries of MUMPS' INFOG: outcome (0 or an error), its detail, negative pivots, estimated memory of the largest
+process [MB]."""
 SINGULAR, NO_ROOM, NO_MEMORY = (-6, -10), (-8, -9, -14, -15, -17, -20), (-7, -13, -19)
 """Outcomes: matrix singular by structure or number; workspace as estimated too small; memory not to be had."""
 
@@ -58,6 +59,11 @@ class DirectSolver:
         """The matrix of factors, from which MUMPS' numbers are read."""
         assert self._pc is not None
         return self._pc.getFactorMatrix()
+
+    @property
+    def negative_pivots(self) -> int | None:
+        """Negative eigenvalues of the matrix last factorised (Sylvester's law of inertia); None if unsymmetric."""
+        return int(self.factors.getMumpsInfog(NEGATIVE)) if self._kind == "Cholesky" else None
 
     def factorise(self) -> None:
         """Factorise the matrix as it is now.

@@ -55,6 +55,8 @@ class NewtonOutcome:
     residuals : relative residual at each evaluation [-]: at the start, where 1 means that nothing balances yet, after
         each iteration, and after each change of multipliers
     augmentations : changes of the contact multipliers
+    negative_pivots : negative eigenvalues of the last tangent that was factorised, the contact's stiffness included:
+        none at a stable equilibrium; None without a factorisation or with an unsymmetric tangent (friction)
     failure : why there was no further step, if the matrix had no inverse; else empty
     residual : (n_own_dofs,) residual at the last state, supported unknowns included [N]
     """
@@ -65,6 +67,7 @@ class NewtonOutcome:
     spurious: bool = False
     stalled: bool = False
     augmentations: int = 0
+    negative_pivots: int | None = None
     failure: str = ""
 
     @property
@@ -128,6 +131,7 @@ class NewtonSolver:
                     spurious=spurious,
                     stalled=stalled,
                     augmentations=augmentations,
+                    negative_pivots=self._direct.negative_pivots if self._direct and len(history) > 1 else None,
                 )
             if augmented:
                 augmentations += 1

@@ -22,6 +22,7 @@ from reference_fe.contact.inner import InnerContactTerm
 from reference_fe.contact.obstacle import ObstacleTerm
 from reference_fe.contact.overlap import FaceOverlap
 from reference_fe.contact.patch import ContactPatch, measure_patch
+from reference_fe.material.linearised_stress import LinearisedStress
 from reference_fe.material.stored_energy import StoredEnergy
 from reference_fe.material.stress import StressRecovery
 from reference_fe.problem.balance import support_moment
@@ -59,11 +60,14 @@ def solve_wheel(
         ``penetration_m`` (also between the points of contact), ``contact_point_penetration_m``,
         ``force_imbalance`` (support plus contact force over contact force), ``moment_imbalance`` (support plus contact
         moment about the hub's centre, over contact force times the distance of hub and plane at first touch),
-        ``relative_residual``, ``newton_iterations``, ``spring_rim_gap_m`` (smallest distance of the springs from the
-        rim's inside; negative is overlap: the contact's penetration, or more without inner contact),
+        ``relative_residual``, ``newton_iterations``, ``negative_pivots`` (negative eigenvalues of the tangent: none
+        where the equilibrium is stable; absent with friction, whose tangent is unsymmetric), ``spring_rim_gap_m``
+        (smallest distance of the springs from the rim's inside; negative is overlap: the contact's penetration, or
+        more without inner contact),
         ``stored_energy_J`` (elastic energy of the body), ``slip_energy_J`` (stored by elastic slip on a rough
         obstacle), ``friction_dissipation_J`` (by sliding, so far), ``inner_penetration_m`` (largest at any point of
-        inner contact) and ``max_von_mises_{part}_Pa``
+        inner contact), ``max_von_mises_{part}_Pa``, which near a weld's end has no limit under refinement, and
+        ``max_linearised_{part}_Pa``, which has one, see `LinearisedStress`
 
     Raises
     ------
@@ -102,6 +106,7 @@ class _WheelRun:
         self.mesh, self.problem = self.wheel.mesh, self.wheel.problem
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress, self.energy = StressRecovery(self.problem), StoredEnergy(self.problem)
+        self.linearised = LinearisedStress(self.problem, self.wheel.flexible)
         springs = tuple(part for part in self.wheel.flexible if part not in ("tire", "grousers", *HUB_PARTS))
         followed = springs and "tire_inner" in mesh.faces
         self.overlap = FaceOverlap(self.mesh, springs, "tire_inner") if followed else None
@@ -134,11 +139,14 @@ class _WheelRun:
         row["moment_imbalance"] = turning / force if force else 0.0
         row["contact_point_penetration_m"] = depth
         row["newton_iterations"] = float(state.outcome.iterations)
+        if state.outcome.negative_pivots is not None:
+            row["negative_pivots"] = float(state.outcome.negative_pivots)
         if self.overlap is not None:
             row["spring_rim_gap_m"] = self.overlap.smallest_gap(displacement)
         row["inner_penetration_m"] = max((t.largest_penetration for t in self._inner_terms), default=0.0)
         row |= self._energies()
         row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
+        row |= {f"max_linearised_{part}_Pa": value for part, value in self.linearised.largest_by_part().items()}
         self.rows.append(row)
         if self.load_case.keep_points:
             self._keep("point", state.control, load)

@@ -44,8 +44,10 @@ def test_an_indefinite_matrix_is_solved(symmetric: bool, full: bool) -> None:
     matrix.setOption(PETSc.Mat.Option.SYMMETRIC, symmetric)
     x, b = matrix.createVecs()
     b.array[:] = 1.0
-    direct_solver(matrix, symmetric=symmetric).solve(b, x)
+    solver = direct_solver(matrix, symmetric=symmetric)
+    solver.solve(b, x)
     assert np.linalg.eigvals(dense).real.min() < 0.0
+    assert solver.negative_pivots == ((np.linalg.eigvalsh(dense) < 0.0).sum() if symmetric else None)
     assert np.allclose(dense @ x.array, 1.0, atol=1e-10)
 
 
