@@ -100,13 +100,16 @@ class StiffnessCurve:
         return float(d @ self.load_at(d) / (d @ d))
 
 
-def average_curve(curves: Sequence[StiffnessCurve], step: float = 0.5e-3) -> StiffnessCurve:
-    """Arithmetic mean of load at equal deflection over the range common to all curves.
+def average_curve(
+    curves: Sequence[StiffnessCurve], step: float = 0.5e-3, weights: Sequence[float] | None = None
+) -> StiffnessCurve:
+    """Mean of load at equal deflection over the range common to all curves.
 
     Parameters
     ----------
     curves : curves of one model at different orientations
     step : spacing of the common grid [m]
+    weights : of the curves, positive; equal if left out
     """
     if not curves:
         raise InputError("average", "0 curves", "needs at least one curve", "compute an orientation first")
@@ -117,13 +120,14 @@ def average_curve(curves: Sequence[StiffnessCurve], step: float = 0.5e-3) -> Sti
         raise InputError("average step", f"{step * 1e3:g} mm", rule, "compute the curves over the same deflections")
     grid = start + step * np.arange(int(np.floor((end - start) / step + 1e-9)) + 1)
     loads = np.array([c.load_at(grid) for c in curves])
+    kind = "arithmetic" if weights is None else "weighted"
     return StiffnessCurve(
         model=curves[0].model,
         orientation_deg=None,
         deflection=grid,
-        load=loads.mean(axis=0),
+        load=np.average(loads, axis=0, weights=weights),
         columns={"load_min_N": loads.min(axis=0), "load_max_N": loads.max(axis=0)},
-        source=f"arithmetic mean of {len(curves)} orientations at equal deflection",
+        source=f"{kind} mean of {len(curves)} orientations at equal deflection",
         partial=any(c.partial for c in curves),
     )
 

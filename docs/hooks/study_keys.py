@@ -34,13 +34,15 @@ from workbench.study.reading import built_in_study, read_study
 PAGE = Path(__file__).parents[1] / "reference" / "study_keys.md"
 REPORT_ONLY = ("name", "title", "*.source", "inferred.*", "reference.*", "tolerances.*", "ancf.thesis_preset")
 """Words, limits and what results are held against: the comparison reads them, nothing is computed again."""
+ASKS = ("tolerances.reference_wheel",)
+"""Keys among those that ask a question of their own."""
 GROUPS = {
     "mesh": ("mesh", "mesh_*"),
     "FE": ("fe_phi*", "fe_x*", "pictures"),
     "hub study": ("fe_hub*", "mesh_hub"),
     "penalty study": ("fe_penalty*", "mesh_penalty"),
     "temperature": ("environment_*",),
-    "section model": ("section_*", "crosscheck_*"),
+    "section model": ("section_*", "crosscheck_*", "words_twin_*"),
     "ANCF tire": ("ancf_*",),
     "fitted ANCF tires": ("ancf_fit_*", "ancf_as_it_is"),
     "brush line": ("brush",),
@@ -197,7 +199,7 @@ def rows(kind: type[BaseModel], key: str, effects: Mapping[str, str]) -> Iterato
 
 def only_read(key: str) -> bool:
     """Whether a dotted key is one of `REPORT_ONLY`."""
-    return any(fnmatch.fnmatch(key, pattern) or pattern == f"{key}.*" for pattern in REPORT_ONLY)
+    return key not in ASKS and any(fnmatch.fnmatch(key, pattern) or pattern == f"{key}.*" for pattern in REPORT_ONLY)
 
 
 def _pattern(key: str) -> str:

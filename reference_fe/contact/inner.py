@@ -7,6 +7,7 @@ the master, so that the contact has a potential and a symmetric stiffness. docs/
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -79,6 +80,10 @@ class InnerContact:
     def build(self, domain: Domain, V: api.Expr) -> InnerContactTerm:
         """The term on this mesh and displacement space."""
         return InnerContactTerm(self, domain, V)
+
+
+_SKIN = 3e-3
+"""How far a node may move before the facets near each other are looked up anew [m]."""
 
 
 class InnerContactTerm:
@@ -191,6 +196,7 @@ class _TwoSides:
         self.shape = shape_values(slave.lattice, slave.at)
         self.known, self.touching = set[tuple[int, int]](), np.zeros((0, 2), dtype=np.int64)
         self.largest_penetration = 0.0
+        self._near: tuple[Array, Index, tuple[Index, Index]] | None = None
         gap = self._nearest(X, law.least_gap, 0.0)[2]
         self.excluded = gap < law.least_gap
 
@@ -234,29 +240,44 @@ class _TwoSides:
         return SurfaceForces(nodes=nodes, force=force, stiffness=stiffness)
 
     def _nearest(self, x: Array, above: float, margin: float) -> tuple[Index, Array, Array]:
-        """Contacts of every slave point; the search looks anew each time, around each slave facet's middle."""
+        """Contacts of every slave point among the facets that are near."""
         slave, master = self.slave, self.master
         facet, xi, gap = _no_contacts(self.areas.shape)
-        mid_s, radius_s = _balls(x, slave.facets)
-        mid_m, radius_m = _balls(x, master.facets)
-        far = max(self.law.depth, above) + radius_m.max(initial=0.0)
-        found = cKDTree(mid_m).query_ball_point(mid_s, radius_s + far, return_sorted=True)
-        kept = [c if self.shared is None else [m for m in c if m not in self.shared[f]] for f, c in enumerate(found)]
-        rows = np.array([f for f, c in enumerate(kept) if c], dtype=np.int64)
-        candidates = [kept[f] for f in rows]
+        rows, candidates = self._candidates(x)
         if len(rows):
             positions, normals, _ = slave.frames(x, rows)
+            mid_m, radius_m = _balls(x, master.facets)
             facet[rows], xi[rows], gap[rows] = nearest_contacts(
                 x,
                 positions,
                 normals,
-                (np.cumsum([0, *map(len, candidates)]), np.array([m for c in candidates for m in c], dtype=np.int64)),
+                candidates,
                 (master.facets, master.sides, master.lattice),
                 (mid_m, radius_m, master.middle_normals(x)),
                 (above, self.law.depth),
                 np.maximum(self.overhang, margin),
             )
         return facet, xi, gap
+
+    def _candidates(self, x: Array) -> tuple[Index, tuple[Index, Index]]:
+        """Slave facets with masters near, and those: row starts and facets; looked up anew where nodes moved far.
+
+        Around each slave facet's middle; with room for nodes that move by `_SKIN`, so that the answer stays whole until
+        one does (Verlet's list).
+        """
+        if self._near is None or np.abs(x - self._near[0]).max() > _SKIN / math.sqrt(3.0):
+            mid_s, radius_s = _balls(x, self.slave.facets)
+            mid_m, radius_m = _balls(x, self.master.facets)
+            far = max(self.law.depth, self.law.reach) + radius_m.max(initial=0.0) + 2.0 * _SKIN
+            found = cKDTree(mid_m).query_ball_point(mid_s, radius_s + far, return_sorted=True)
+            kept = [
+                c if self.shared is None else [m for m in c if m not in self.shared[f]] for f, c in enumerate(found)
+            ]
+            rows = np.array([f for f, c in enumerate(kept) if c], dtype=np.int64)
+            lists = [kept[f] for f in rows]
+            starts = np.cumsum([0, *map(len, lists)])
+            self._near = x.copy(), rows, (starts, np.array([m for c in lists for m in c], dtype=np.int64))
+        return self._near[1], self._near[2]
 
 
 def _no_contacts(shape: tuple[int, ...]) -> tuple[Index, Array, Array]:

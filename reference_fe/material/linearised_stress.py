@@ -75,7 +75,7 @@ class LinearisedStress:
         """Largest linearised von Mises stress [Pa]; 0 for a part all of whose lines are left out."""
         stress = self._of_all(self._stress(self._mesh, self._own))
         stress = stress.reshape(-1, 3, 3)
-        return {part: 0.0 if lines is None else lines.largest(stress) for part, lines in self._lines.items()}
+        return {part: max((one.largest(stress) for one in lines), default=0.0) for part, lines in self._lines.items()}
 
     def _of_all(self, mine: Array) -> Array:
         """Values (n_cells, n_points, ...) at the points of the tagged mesh's cells, from those of own cells."""
@@ -168,8 +168,8 @@ def _points(along: Array, dim: int) -> Array:
     return np.stack(grids, axis=-1).reshape(-1, dim)
 
 
-def _lines(part: _Part, along: Array, distance: float) -> _Lines | None:
-    """The lines of a part that count; None if there is none."""
+def _lines(part: _Part, along: Array, distance: float) -> list[_Lines]:
+    """The lines of a part that count, those of as many cells through the thickness together."""
     tree = cKDTree(part.mesh.points[part.joints]) if len(part.joints) else None
     found: list[tuple[Index, Array, Array, Array]] = []
     for rows in part.stacks():
@@ -206,10 +206,10 @@ def _lines(part: _Part, along: Array, distance: float) -> _Lines | None:
             wide = (len(lines), len(shares))
             each = lines, np.broadcast_to(shares, wide), np.broadcast_to(levers, wide), weights
             found.append((each[0][kept], each[1][kept], each[2][kept], each[3][kept]))
-    if not found:
-        return None
-    points_, shares_, levers_, weights_ = (np.concatenate(list(each)) for each in zip(*found, strict=True))
-    return _Lines(points=points_, shares=shares_, levers=levers_, along=weights_)
+    depths = sorted({each[0].shape[-1] for each in found})
+    groups = [zip(*(each for each in found if each[0].shape[-1] == depth), strict=True) for depth in depths]
+    gathered = [[np.concatenate(list(arrays)) for arrays in group] for group in groups]
+    return [_Lines(points=g[0], shares=g[1], levers=g[2], along=g[3]) for g in gathered if len(g[0])]
 
 
 def _lagrange(nodes: Array, x: float) -> Array:

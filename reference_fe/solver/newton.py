@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,10 @@ __all__ = ["NewtonOutcome", "NewtonSettings", "NewtonSolver"]
 
 AUGMENTATION_TOLERANCE = 1e-3
 """Relative residual below which contact multipliers are improved: by then the contact set has settled."""
+
+
+LONGEST_CYCLE, SAME = 8, 0.01
+"""Residuals after which they may repeat themselves, and relative difference that counts as none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,7 +127,8 @@ class NewtonSolver:
             reached = history[-1] <= goal and not augmented
             stalled = not reached and self._is_stalled(history)
             tired = len(history) - augmentations > self.settings.maximum_iterations
-            if reached or stalled or tired or not np.isfinite(history[-1]):
+            cycling = augmentations == 0 and _is_cycling(history)
+            if reached or stalled or tired or cycling or not np.isfinite(history[-1]):
                 spurious = reached and self._is_spurious()
                 return NewtonOutcome(
                     converged=reached and not spurious,
@@ -229,3 +235,15 @@ class NewtonSolver:
         if applied == 0.0:
             return 0.0 if out_of_balance == 0.0 else 1.0
         return out_of_balance / applied
+
+
+def _is_cycling(history: Sequence[float]) -> bool:
+    """Whether the last residuals went the same round thrice, or one of three or more twice: it has no end."""
+    for period in range(1, LONGEST_CYCLE + 1):
+        rounds = 3 if period < 3 else 2
+        last = np.array(history[-rounds * period :])
+        if len(last) == rounds * period and np.all(np.isfinite(last)):
+            table = last.reshape(rounds, period)
+            if np.all(np.abs(table - table[-1]) <= SAME * table[-1]):
+                return True
+    return False

@@ -67,7 +67,7 @@ def solve_wheel(
         ``stored_energy_J`` (elastic energy of the body), ``slip_energy_J`` (stored by elastic slip on a rough
         obstacle), ``friction_dissipation_J`` (by sliding, so far), ``inner_penetration_m`` (largest at any point of
         inner contact), ``max_von_mises_{part}_Pa``, which near a weld's end has no limit under refinement, and
-        ``max_linearised_{part}_Pa``, which has one, see `LinearisedStress`
+        ``max_linearised_{part}_Pa`` of rim and springs, which has one, see `LinearisedStress`
 
     Raises
     ------
@@ -106,7 +106,8 @@ class _WheelRun:
         self.mesh, self.problem = self.wheel.mesh, self.wheel.problem
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress, self.energy = StressRecovery(self.problem), StoredEnergy(self.problem)
-        self.linearised = LinearisedStress(self.problem, self.wheel.flexible)
+        strips = [part for part in self.wheel.flexible if part != "grousers" and part not in HUB_PARTS]
+        self.linearised = LinearisedStress(self.problem, strips)
         springs = tuple(part for part in self.wheel.flexible if part not in ("tire", "grousers", *HUB_PARTS))
         followed = springs and "tire_inner" in mesh.faces
         self.overlap = FaceOverlap(self.mesh, springs, "tire_inner") if followed else None

@@ -217,6 +217,17 @@ def planar_bar(length: float, base: float) -> tuple[Array, NDArray[np.int64], ND
     return points, np.arange(9)[None], np.array([[0, 1, 4], [2, 3, 6]])
 
 
+def test_a_long_way_finds_what_a_fresh_search_finds() -> None:
+    """The list of near facets is kept while nodes move little: 40 steps of 1 mm, down, along and up again."""
+    term = term_on(plates(0.1))
+    for k in range(40):
+        u = sunk(term, GAP - 5e-3 + min(k, 40 - k) * 0.7e-3, noise=1e-3)
+        fresh = term_on(plates(0.1)).evaluate(u, 0.0)
+        kept = term.evaluate(u, 0.0)
+        np.testing.assert_array_equal(kept.nodes, fresh.nodes)
+        np.testing.assert_array_equal(kept.force, fresh.force)
+
+
 def wedge() -> TaggedMesh:
     """Two bars in the plane that share the corner (1, 0.1): the upper one's lower edge rises from it to the left."""
     low, high = planar_bar(1.0, 0.0), planar_bar(0.6, 0.0)

@@ -48,7 +48,7 @@ def test_every_section_stands_in_one_group() -> None:
     assert len(set(placed)) == len(placed)
     assert set(placed) == {one.name for one in QUESTIONS} | {"checks", "evidence", "chosen", "origin", "reading"}
     assert list(section_titles(STUDY)) == placed
-    assert [s.name for s in contents(STUDY)[0].sections] == ["models"]
+    assert [s.name for s in contents(STUDY)[0].sections] == ["models", "words"]
     assert {s.name for s in contents(STUDY)[-1].sections} == {"checks", "evidence", "chosen", "origin", "reading"}
 
 

@@ -40,7 +40,12 @@ from workbench.verdict.statements import families
 SHIPPED = sorted(built_in_study().parent.glob("*.toml"))
 TABLE = tomllib.loads(built_in_study().read_text(encoding="utf-8"))
 TITANIUM = "materials.Ti-6Al-4V"
-FREE = {"sweep.seed": "any whole number draws points as well as any other"}
+_AIM = "in the unit of whatever column of the table it is for"
+FREE = {
+    "sweep.seed": "any whole number draws points as well as any other",
+    **{f"sweep.aims.*.{kind}": _AIM for kind in ("target", "at_most", "at_least")},
+    "sweep.aims.*.within": "a relative difference, more than 0 and at most 1",
+}
 """Numbers without a limit, and why."""
 
 ABSURD: dict[str, tuple[str, Any]] = {

@@ -90,7 +90,7 @@ def made(tmp_path: Path) -> tuple[SweepTable, list[Outcome], SweepGraph]:
     entries = _results(tmp_path, graph, slopes)
     failures = {task.name: f"task {task.name} failed: why" for task in graph.tasks if task.name.startswith("p3/")}
     found = outcomes(graph, entries, failures)
-    return sweep_table(study, graph, found, references(study, tmp_path, found)), found, graph
+    return sweep_table(study, graph.keys, found, references(study, tmp_path, found)), found, graph
 
 
 def test_the_table_has_what_was_varied_and_what_was_found(made: tuple[SweepTable, list[Outcome], SweepGraph]) -> None:
@@ -130,7 +130,7 @@ def test_a_curve_that_ends_early_says_where_and_why(tmp_path: Path) -> None:
         write_result(entry.path, {FAILURE: f"{task} stopped"})
     entries = {t: Entry(key=graph.keys[t], path=tmp_path / t, manifest={"wall_s": 2.0}) for t in tasks}
     found = [outcome for outcome in outcomes(graph, entries, {}) if outcome.run.point.number == 1]
-    table = sweep_table(study, graph, found, {})
+    table = sweep_table(study, graph.keys, found, {})
     assert table.column("state") == ("partial",)
     assert table.column("load_at_10mm_N") == (pytest.approx(80.0),)
     assert table.column("load_at_30mm_N") == (None,)

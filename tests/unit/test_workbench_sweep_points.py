@@ -130,6 +130,24 @@ def test_plates_keep_the_contact_stiffness_of_the_whole_rim() -> None:
     assert point.study.ancf.contact_stiffness == 500.0
 
 
+def test_keys_may_be_tied_and_items_of_lists_varied() -> None:
+    """Two bands that stay mirror images of each other."""
+    key = "wheel.springs[0].bands[1][0] = -wheel.springs[0].bands[0][1]"
+    *_, point = _points(**{key: ["38 mm", "42 mm"]})
+    assert point.study.wheel.springs[0].bands == ((-0.060, -0.042), (0.042, 0.060))
+
+
+def test_a_scale_acts_on_every_strip_after_their_own_values() -> None:
+    *_, point = _points(**{"strip_scale": [0.5, 1.5], "wheel.tire.thickness": ["0.8 mm"]})
+    assert point.study.wheel.tire.thickness == pytest.approx(1.2e-3)
+    assert [springs.thickness for springs in point.study.wheel.springs] == pytest.approx([1.5 * 0.609e-3] * 2)
+
+
+def test_an_orientation_step_goes_once_around() -> None:
+    *_, point = _points(orientation_step=["30 deg"])
+    assert point.study.fe.orientations == pytest.approx(np.deg2rad([0.0, 30.0, 60.0, 90.0]))
+
+
 def test_temperature_is_one_of_the_whole_wheel() -> None:
     cold, warm = _points(temperature=["-40 degC", "30 degC"], models=["fe"], base=False)
     assert (cold.temperature, warm.temperature) == (pytest.approx(233.15), pytest.approx(303.15))

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from contracts.materials import TI_6AL_4V
+from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
 from geometry.wheel import WheelDesign
 from reference_fe.material.linearised_stress import LinearisedStress
@@ -24,6 +25,8 @@ from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.problem.supports import Support, Traction
 from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.wheel.case import WheelLoadCase
+from reference_fe.wheel.pressed import solve_wheel
+from reference_fe.wheel.problem import wheel_problem
 from reference_fe.wheel.section import solve_section
 from tests.structured_quadrilaterals import planar_block
 from tests.verification.test_fe_ring import RADIUS, STRIP, THICKNESS, elastica, press, quarter_ring
@@ -86,3 +89,17 @@ def test_it_has_a_limit_under_refinement() -> None:
     """The outer springs' weld, which carries most: 567, 564, 561 MPa (measured)."""
     found = [stresses(size, 1)[0]["springs_outer"] for size in (8e-3, 4e-3, 2e-3)]
     np.testing.assert_allclose(found[1:], found[:-1], rtol=0.015)
+
+
+def test_parts_with_one_and_with_more_cells_through_the_thickness() -> None:
+    """The whole wheel with elastic hubs: some of the hubs' cells are narrower along the axle than they are thick."""
+    design = WheelDesign()
+    mesh = build_mesh(design, element_size=24e-3, axial_size=60e-3, half_width=True)
+    case = WheelLoadCase(orientation_deg=0.0, deflections=(0.002,), rigid_parts=())
+    problem = wheel_problem(mesh, design.materials, case).problem
+    assert set(LinearisedStress(problem, list(mesh.parts)).largest_by_part().values()) == {0.0}
+    columns = solve_wheel(mesh, design.materials, case).curve.columns
+    strips = ("tire", "springs_outer", "springs_inner")
+    assert {name for name in columns if "linearised" in name} == {f"max_linearised_{part}_Pa" for part in strips}
+    for part in strips:
+        assert 0.0 < columns[f"max_linearised_{part}_Pa"][-1] < 1.5 * columns[f"max_von_mises_{part}_Pa"][-1]

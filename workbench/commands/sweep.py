@@ -11,6 +11,7 @@ from typing import Any
 
 from contracts.errors import InputError, StudyError
 from workbench.commands.computing import console, naming, tell_kept, warn
+from workbench.commands.sweep_search import search
 from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_all
@@ -42,6 +43,8 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
     study = study_of(study_path, content)
     if study.sweep is not None and (count := len(design_points(study.sweep))) > _MANY:
         console.print(f"reading {count} points, each as a whole study: some {count // 50} s", soft_wrap=True)
+    if study.sweep is not None and study.sweep.design == "search":
+        return _run_search(study_path, content, study, out, Store(store, study=study_path.stem), computing)
     points = sweep_points(study_path, content)
     section = study.sweep
     assert section is not None
@@ -55,11 +58,25 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
     with naming(study_path), RunDisplay(console, graph.tasks) as display:
         ended = run_all(graph.tasks, Store(store, study=study_path.stem), display, computing)
     found = outcomes(graph, ended.entries, ended.failures)
-    table = sweep_table(study, graph, found, references(study, study_path.parent, found))
+    table = sweep_table(study, graph.keys, found, references(study, study_path.parent, found))
     _publish(out, table, sweep_page(study.title, table, found))
     _print(table, found)
     console.print(f"sweep: {out / 'sweep.html'}", soft_wrap=True)
     _complain(study_path, out, found)
+    return 0
+
+
+def _run_search(
+    path: Path, content: dict[str, Any], study: Study, out: Path, store: Store, computing: Computing
+) -> int:
+    """A search instead of points known beforehand; a point that fails is nothing to complain of."""
+    warn(path, (*unusual(study), *beyond_reach(study, ())))
+    check_folder(out)
+    check_targets(out, _FILES)
+    searched = search(path, content, study, store, computing)
+    table = sweep_table(study, searched.keys, searched.found, {}, searched.judged, searched.confirms)
+    _publish(out, table, sweep_page(study.title, table, searched.found))
+    console.print(f"sweep: {out / 'sweep.html'}", soft_wrap=True)
     return 0
 
 

@@ -110,9 +110,10 @@ def model_curves(model: str, folders: Mapping[str, Path]) -> ModelCurves:
     )
 
 
-def mean_curve(curves: Sequence[StiffnessCurve]) -> StiffnessCurve:
-    """Average over the orientations; on a finer grid where a partial curve leaves less than two steps in common.
+def mean_curve(curves: Sequence[StiffnessCurve], weights: Sequence[float] | None = None) -> StiffnessCurve:
+    """Average over the orientations, with equal or the given weights.
 
+    On a finer grid where a partial curve leaves less than two steps in common.
     Orientations of which no point converged are left out and named in the source, and the average is partial; without
     any other it is one of them.
     """
@@ -120,7 +121,8 @@ def mean_curve(curves: Sequence[StiffnessCurve]) -> StiffnessCurve:
     if not loaded:
         return replace(curves[0], orientation_deg=None, source="no point converged at any orientation")
     common = min(c.deflection[-1] for c in loaded) - max(c.deflection[0] for c in loaded)
-    average = average_curve(loaded, step=min(0.5e-3, 0.5 * common))
+    kept = None if weights is None else [w for c, w in zip(curves, weights, strict=True) if not c.unloaded]
+    average = average_curve(loaded, min(0.5e-3, 0.5 * common), kept)
     if len(loaded) == len(curves):
         return average
     missing = ", ".join(f"{c.orientation_deg} deg" for c in curves if c.unloaded)

@@ -26,12 +26,14 @@ from workbench.questions.speed.question import SPEED
 from workbench.questions.strength.question import STRENGTH
 from workbench.questions.verification.question import VERIFICATION
 from workbench.questions.wheel.question import WHEEL
+from workbench.questions.words.question import WORDS
 from workbench.study.model import Study
 
 __all__ = ["QUESTIONS", "questions_of"]
 
 QUESTIONS: tuple[Question, ...] = (
     MODELS,
+    WORDS,
     WHEEL,
     FE,
     ORIENTATIONS,

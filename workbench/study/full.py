@@ -6,6 +6,9 @@ Verified by tests/unit/test_workbench_full_study.py and tests/end_to_end/test_fu
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+
+import numpy as np
 
 from contracts.errors import InputError
 from geometry.parts import SpringSet
@@ -14,7 +17,7 @@ from workbench.study.orientation import degrees
 from workbench.study.sections import RoverSection
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["full_study", "is_mirrored", "rotational_period"]
+__all__ = ["arc_weights", "full_study", "is_mirrored", "rotational_period", "steps_around"]
 
 _SAME = 1e-6
 """Two angles closer than this are one [deg]."""
@@ -29,6 +32,26 @@ def is_mirrored(study: Study) -> bool:
     """Whether the wheel is its own mirror image about position 0, so that phi and -phi give the same curve."""
     two_sided = all(springs.shape == "hoop" for springs in _springs(study))
     return two_sided and all(_is_whole(2.0 * phase * count / 360.0) for count, phase in _patterns(study))
+
+
+def arc_weights(study: Study, orientations_deg: Sequence[float]) -> list[float]:
+    """Share of the wheel's period that each orientation stands for [-]: up to half way to its neighbours.
+
+    A wheel that is its own mirror image has half a period; its two ends count half as much as what lies between.
+    """
+    period, mirrored = rotational_period(study), is_mirrored(study)
+    turned = [o % period for o in orientations_deg]
+    if mirrored:
+        turned = [min(o, period - o) for o in turned]
+    places = np.unique(np.round(turned, 6) % period)
+    if mirrored:
+        edges = np.concatenate([[0.0], 0.5 * (places[1:] + places[:-1]), [0.5 * period]])
+        arcs = np.diff(edges) / (0.5 * period)
+    else:
+        gaps = np.diff(np.append(places, places[0] + period))
+        arcs = 0.5 * (gaps + np.roll(gaps, 1)) / period
+    which = [int(np.argmin(np.abs(places - o))) for o in np.round(turned, 6) % period]
+    return [float(arcs[k]) / which.count(k) for k in which]
 
 
 def _springs(study: Study) -> list[SpringSet]:
@@ -46,6 +69,21 @@ def _patterns(study: Study) -> list[tuple[int, float]]:
     return patterns + [(part.count, degrees(part.phase)) for part in others if part is not None]
 
 
+def steps_around(study: Study) -> list[float]:
+    """Orientations [deg] from 0 by ``full.orientation_step`` to where the wheel repeats itself.
+
+    Raises
+    ------
+    InputError
+        If the step does not divide the period.
+    """
+    period, step = rotational_period(study), degrees(study.full.orientation_step)
+    if not _is_whole(period / step):
+        rule = f"must divide {period:g} deg, after which the wheel repeats itself"
+        raise InputError("full.orientation_step", f"{step:g} deg", rule, "choose 5 or 10 deg")
+    return [i * step for i in range(round(period / step))]
+
+
 def full_study(study: Study) -> Study:
     """The study with all orientations from 0 to the period, the finer mesh and its own mesh study.
 
@@ -57,12 +95,8 @@ def full_study(study: Study) -> Study:
     InputError
         If the step does not divide the period, or an orientation the study names is not one of its multiples.
     """
-    full, period = study.full, rotational_period(study)
+    full, steps = study.full, steps_around(study)
     step = degrees(full.orientation_step)
-    if not _is_whole(period / step):
-        rule = f"must divide {period:g} deg, after which the wheel repeats itself"
-        raise InputError("full.orientation_step", f"{step:g} deg", rule, "choose 5 or 10 deg")
-    steps = [i * step for i in range(round(period / step))]
     for orientation in (degrees(o) for o in study.fe.orientations):
         if not any(abs(orientation - o) < _SAME for o in steps):
             rule = f"is not among 0 to {steps[-1]:g} deg by {step:g} deg"

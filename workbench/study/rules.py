@@ -13,7 +13,7 @@ from functools import cache
 
 from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
-from workbench.study.key_units import absent, as_written, is_table, parts_of
+from workbench.study.key_units import absent, as_written, is_table, parts_of, tied_keys
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, fit_start
 from workbench.study.wheel_design import SectionInputError, materials, wheel_design
@@ -92,7 +92,7 @@ def _of_the_sweep(study: Study) -> Iterator[BrokenRule]:
         if name in asked and section is None:
             hint = f"add [{name}], or remove it from the sweep"
             yield BrokenRule(key=asked[name], value="", rule=f"needs [{name}]", hint=hint)
-    for key in study.sweep.parameters:
+    for key in (one for keys in study.sweep.parameters for _, one in tied_keys(keys)):
         missing = absent(study, parts_of(key))
         if missing is not None and is_table(missing) and not missing.endswith("]"):
             hint = f"add [{missing}], or remove it from the sweep"

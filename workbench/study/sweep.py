@@ -11,11 +11,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
-from workbench.study.quantities import Force, number_and_unit
+from workbench.study.quantities import Angle, Force, number_and_unit
 from workbench.study.section import Positive, Section, in_key
 from workbench.study.sections import Drop
 
-__all__ = ["MOST_POINTS", "SweepRange", "SweepSection", "SweptModel", "Value"]
+__all__ = ["MOST_POINTS", "Aim", "SweepRange", "SweepSection", "SweptModel", "Value"]
 
 type Value = str | int | float | bool
 """A value as the study file has it, with its unit."""
@@ -32,6 +32,44 @@ class SweepRange(Section):
     """In the same unit."""
 
 
+class Aim(Section):
+    """What one number of the table should be: near a target, no more or no less than a limit; SI, as there."""
+
+    target: Annotated[float, Field(allow_inf_nan=False)] | None = None
+    """Wanted value."""
+    within: Annotated[float, Field(gt=0.0, le=1.0)] | None = None
+    """Relative difference from the target that is still good [-]."""
+    at_most: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] | None = None
+    """Largest good value."""
+    at_least: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] | None = None
+    """Smallest good value."""
+
+    @model_validator(mode="after")
+    def _one_kind(self) -> Aim:
+        given = [name for name in ("target", "at_most", "at_least") if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise in_key(given[-1] if given else "target", len(given), "must be one of three", "give one of " + _KINDS)
+        if (self.within is None) == (self.target is not None) or self.target == 0.0:
+            raise in_key(
+                "within", self.within, "belongs to a target that is not zero", "e.g. target = 8250, within = 0.03"
+            )
+        return self
+
+    def miss(self, value: float) -> float:
+        """How far a value is from good [-]: 0 at the target, 1 at the limit, more beyond it."""
+        if self.target is not None:
+            assert self.within is not None
+            return abs(value / self.target - 1.0) / self.within
+        if self.at_most is not None:
+            return max(value, 0.0) / self.at_most
+        assert self.at_least is not None
+        return self.at_least / value if value > 0.0 else math.inf
+
+
+_AN_AIM = 'e.g. [sweep.aims] "load_at_20mm_N" = { target = 155.8, within = 0.03 }'
+_KINDS = "target (with within), at_most, at_least"
+
+
 class SweepSection(Section):
     """A parameter study: every other key of the section is a key of the study, or one of four names, and its values.
 
@@ -40,28 +78,45 @@ class SweepSection(Section):
     parameters : dotted key of the study (``"fe.friction"``), or ``strip_thickness``, ``orientation``, ``temperature``
         or ``plates`` -> its values, or the range they are drawn from
     models : which of the models each point runs
-    design : every combination of the values, or a Latin hypercube of ``samples`` points drawn with ``seed``
+    design : every combination of the values, a Latin hypercube of ``samples`` points drawn with ``seed``, or a search
+        of so many points for what ``aims`` say
     base : whether the study as it is runs too, as point 0
     deflections : where the load is read [m]
     loads : where deflection and stress are read [N]
+    aims : column of the table -> what it should be; a search makes the largest miss small
+    batch : points that a search chooses at once
+    scaled : whether a search reads each point at the strip thickness that meets the aims best: load goes with its cube,
+        stress with the thickness itself, as where strips bend
+    confirm : points of a search, the best ones, that run again at that thickness, every ``confirm_step``
     """
 
     parameters: dict[str, Annotated[tuple[Value, ...], Field(min_length=1)] | SweepRange]
     """Every other key of the section: values or a range."""
     models: Annotated[tuple[SweptModel, ...], Field(min_length=1)] = ("section",)
     """What each point runs."""
-    design: Literal["grid", "latin-hypercube"] = "grid"
-    """Every combination, or a Latin hypercube."""
+    design: Literal["grid", "latin-hypercube", "search"] = "grid"
+    """Every combination, a Latin hypercube, or a search."""
     samples: Annotated[StrictInt, Field(ge=2, le=MOST_POINTS)] | None = None
-    """Points of the hypercube."""
+    """Points of the hypercube or the search."""
     seed: Annotated[StrictInt, Field(ge=0)] = 0
-    """Of the hypercube."""
+    """Of the hypercube or the search."""
     base: StrictBool = True
     """Whether the study as it is runs too."""
     deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
     """Where the load is read [m]."""
     loads: Annotated[tuple[Annotated[Force, Positive], ...], Field(min_length=1)] = (160.0, 250.0)
     """Where deflection and stress are read [N]."""
+
+    aims: dict[str, Aim] = Field(default_factory=dict)
+    """What a search looks for: column of the table -> aim."""
+    batch: Annotated[StrictInt, Field(ge=4, le=1000)] = 12
+    """Points that a search chooses at once."""
+    scaled: StrictBool = False
+    """Whether a search reads each point at the best strip thickness."""
+    confirm: Annotated[StrictInt, Field(ge=0, le=MOST_POINTS)] = 0
+    """Best points of a search that run again."""
+    confirm_step: Annotated[Angle, Positive] = math.radians(5.0)
+    """Between their orientations, over the wheel's period."""
 
     @model_validator(mode="before")
     @classmethod
@@ -97,6 +152,13 @@ class SweepSection(Section):
                 raise in_key("design", "grid", rule, 'list fewer values, or use "latin-hypercube"')
         elif self.samples is None:
             raise in_key("samples", "", "must say how many points are drawn", "e.g. samples = 30")
+        if (self.design == "search") != bool(self.aims):
+            raise in_key("aims", "", 'belongs to design = "search", which needs it', _AN_AIM)
+        if self.design == "search":
+            if len(self.models) > 1:
+                raise in_key("models", ", ".join(self.models), "must be one for a search", 'e.g. models = ["section"]')
+            if len(self.parameters) < 2:
+                raise in_key("design", "search", "needs two parameters at least", 'use "latin-hypercube" for one')
         if "temperature" in self.parameters and self.models != ("fe",):
             raise in_key("temperature", "given", "acts on the solid model only", 'set models = ["fe"]')
         if len(set(self.models)) < len(self.models):

@@ -19,16 +19,31 @@ from pydantic_core import PydanticCustomError
 from scipy.stats import qmc
 
 from contracts.errors import InputError, StudyError
-from workbench.study.key_units import is_whole_number, parts_of
+from workbench.study.full import steps_around
+from workbench.study.key_units import is_whole_number, parts_of, tied_keys
 from workbench.study.model import Study
 from workbench.study.quantities import number_and_unit, to_si
 from workbench.study.reading import study_of
 from workbench.study.sweep import SweepRange, SweepSection, Value
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["Point", "beyond_reach", "design_points", "end_points", "probes", "sweep_points"]
+__all__ = [
+    "Point",
+    "beyond_reach",
+    "design_points",
+    "drawn_values",
+    "end_points",
+    "probes",
+    "study_point",
+    "sweep_points",
+]
 
-NAMED = {"strip_thickness": "wheel.tire.thickness", "plates": "ancf.circumferential_plates"}
+NAMED = {
+    "strip_thickness": "wheel.tire.thickness",
+    "strip_scale": "",
+    "plates": "ancf.circumferential_plates",
+    "orientation_step": "full.orientation_step",
+}
 """Names of parameters that are more than one key -> the key that says what kind of value they take."""
 _MOST_ENDS = 40
 
@@ -59,16 +74,25 @@ class Point:
 def design_points(section: SweepSection) -> list[dict[str, Value]]:
     """Values of every point: all combinations, the last parameter fastest, or a Latin hypercube.
 
-    Of a hypercube every parameter's range is cut into as many equal pieces as there are points, and each piece holds
-    one of them (scipy.stats.qmc.LatinHypercube); values of a list are drawn equally often, as far as that goes.
+    A search chooses its own, see `workbench.questions.sweep.search`. Of a hypercube every parameter's range is cut into
+    as many equal pieces as there are points, and each piece holds one of them (scipy.stats.qmc.LatinHypercube); values
+    of a list are drawn equally often, as far as that goes.
     """
     parameters = section.parameters
+    if section.design == "search":
+        return []
     if section.design == "grid":
         lists = [values for values in parameters.values() if not isinstance(values, SweepRange)]
         return [dict(zip(parameters, chosen, strict=True)) for chosen in itertools.product(*lists)]
     assert section.samples is not None
     drawn = qmc.LatinHypercube(d=len(parameters), rng=np.random.default_rng(section.seed)).random(section.samples)
-    columns = [_drawn(key, values, drawn[:, i]) for i, (key, values) in enumerate(parameters.items())]
+    return drawn_values(section, drawn)
+
+
+def drawn_values(section: SweepSection, u: NDArray[np.float64]) -> list[dict[str, Value]]:
+    """Values of the points at ``u`` (n, parameters) in [0, 1)."""
+    parameters = section.parameters
+    columns = [_drawn(key, values, u[:, i]) for i, (key, values) in enumerate(parameters.items())]
     return [dict(zip(parameters, row, strict=True)) for row in zip(*columns, strict=True)]
 
 
@@ -77,7 +101,7 @@ def _drawn(key: str, values: Sequence[Value] | SweepRange, u: NDArray[np.float64
     if not isinstance(values, SweepRange):
         return [values[int(len(values) * x)] for x in u]
     (low, unit), (high, _) = (number_and_unit(end) or (math.nan, "") for end in (values.low, values.high))
-    if is_whole_number(NAMED.get(key, key)):
+    if is_whole_number(NAMED.get(key, tied_keys(key)[0][1])):
         return [int(low + math.floor((high - low + 1.0) * x)) for x in u]
     numbers = [float(f"{low + (high - low) * x:.6g}") for x in u]
     return [f"{number:.6g} {unit}" if unit else number for number in numbers]
@@ -103,7 +127,7 @@ def sweep_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
     base = {key: value for key, value in table.items() if key != "sweep"}
     points = [Point(number=0, values={}, study=study_of(path, base))] if study.sweep.base else []
     for number, values in enumerate(design_points(study.sweep), start=1):
-        points.append(_point(path, base, number, values))
+        points.append(study_point(path, base, number, values))
     return points
 
 
@@ -120,7 +144,7 @@ def end_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
     base = {key: value for key, value in table.items() if key != "sweep"}
     every = design_points(study.sweep)
     places = range(len(every)) if len(every) <= _MOST_ENDS else _ends(study.sweep, every)[:_MOST_ENDS]
-    return [_point(path, base, place + 1, every[place]) for place in places]
+    return [study_point(path, base, place + 1, every[place]) for place in places]
 
 
 def _ends(section: SweepSection, every: Sequence[Mapping[str, Value]]) -> list[int]:
@@ -157,16 +181,19 @@ def beyond_reach(study: Study, points: Sequence[Point]) -> list[str]:
 def probes(path: Path, table: Mapping[str, Any], key: str, values: Sequence[Value]) -> list[Point]:
     """The study with each of the ``values`` of one parameter, else as it is; raises StudyError as `sweep_points`."""
     base = {name: value for name, value in table.items() if name != "sweep"}
-    return [_point(path, base, number, {key: value}) for number, value in enumerate(values, start=1)]
+    return [study_point(path, base, number, {key: value}) for number, value in enumerate(values, start=1)]
 
 
-def _point(path: Path, base: Mapping[str, Any], number: int, values: Mapping[str, Value]) -> Point:
+def study_point(path: Path, base: Mapping[str, Any], number: int, values: Mapping[str, Value]) -> Point:
+    """A study file's table, without [sweep], with the values of one point; raises StudyError as `sweep_points`."""
     shown = ", ".join(f"{key} = {value!r}" for key, value in values.items())
     table = copy.deepcopy(dict(base))
     try:
-        for key, value in values.items():
+        for key, value in sorted(values.items(), key=lambda item: item[0] in NAMED):
             _set_parameter(path, table, key, value, base)
         study = study_of(path, table)
+        if "orientation_step" in values:
+            study = _all_around(study)
         temperature = _temperature(path, study, values.get("temperature"))
     except StudyError as error:
         key = f"[sweep] point {number} ({shown}): {error.key}"
@@ -195,16 +222,47 @@ def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value, ba
     if key == "temperature":
         return
     if key == "strip_thickness":
-        wheel = table.get("wheel", {})
-        for part in (wheel.get("tire"), *wheel.get("springs", ()), wheel.get("sidewall_springs")):
-            if part is not None:
-                part["thickness"] = value
+        for part in _strips(table):
+            part["thickness"] = value
+    elif key == "strip_scale":
+        _scale(table, value)
+    elif key == "orientation_step":
+        table["full"] = table.get("full", {}) | {"orientation_step": value}
     elif key == "orientation":
         _turn(table, value)
     elif key == "plates":
         table["ancf"] |= _replated(base["ancf"], value)
     else:
-        _set_key(path, table, key, value)
+        for sign, name in tied_keys(key):
+            _set_key(path, table, name, value if sign > 0.0 else _negative(path, name, value))
+
+
+def _strips(table: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Tables of the parts that have a strip's thickness."""
+    wheel = table.get("wheel", {})
+    parts = (wheel.get("tire"), *wheel.get("springs", ()), wheel.get("sidewall_springs"))
+    return [part for part in parts if part is not None]
+
+
+def _scale(table: Mapping[str, Any], factor: Value) -> None:
+    """Thickness of rim and springs times a factor."""
+    for part in _strips(table):
+        number = number_and_unit(part.get("thickness"))
+        if number is not None and isinstance(factor, int | float) and not isinstance(factor, bool):
+            part["thickness"] = f"{number[0] * factor:.9g} {number[1]}".rstrip()
+
+
+def _negative(path: Path, key: str, value: Value) -> Value:
+    number = number_and_unit(value)
+    if number is None:
+        raise StudyError(path, key, value, "has no negative", "tie it without a minus sign")
+    return f"{-number[0]:.9g} {number[1]}" if number[1] else -number[0]
+
+
+def _all_around(study: Study) -> Study:
+    """With the orientations of a whole period, by `full.orientation_step`."""
+    around = tuple(math.radians(o) for o in steps_around(study))
+    return study.model_copy(update={"fe": study.fe.model_copy(update={"orientations": around})})
 
 
 def _turn(table: dict[str, Any], value: Value) -> None:
@@ -236,9 +294,10 @@ def _set_key(path: Path, table: dict[str, Any], key: str, value: Value) -> None:
             at = at[part]
         except (KeyError, IndexError, TypeError):
             raise StudyError(path, key, value, "names no key of the study", "correct its spelling") from None
-    if not isinstance(at, dict) or not isinstance(last, str):
+    in_list = isinstance(at, list) and isinstance(last, int) and last < len(at)
+    if not in_list and (not isinstance(at, dict) or not isinstance(last, str)):
         raise StudyError(path, key, value, "names no key of the study", "give a dotted key such as fe.friction")
-    if isinstance(at.get(last), dict | list):
+    if isinstance(at[last] if in_list else at.get(last), dict | list):
         hint = 'name one of its keys, e.g. "wheel.springs[0].count"; orientations are varied by orientation'
         raise StudyError(path, key, value, "is a table or a list, not one value", hint)
     at[last] = value

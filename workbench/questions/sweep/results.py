@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_sweep.py.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,10 +20,11 @@ from workbench.questions.model_curves import CURVE, mean_curve
 from workbench.questions.models.metrics import compare_curves
 from workbench.questions.sweep.graph import SweepGraph, SweepRun
 from workbench.study.curve_file import read_measured_curve
+from workbench.study.full import arc_weights
 from workbench.study.model import Study
 from workbench.study.sweep import SweepSection
 
-__all__ = ["Outcome", "Reference", "measured", "outcomes", "references"]
+__all__ = ["Outcome", "Reference", "measured", "nearest_orientation", "outcomes", "own_curves", "references"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,10 +80,16 @@ def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str,
     return Outcome(
         run=run,
         by_orientation=tuple(curves),
-        curve=curves[0] if len(curves) == 1 else mean_curve(curves),
+        curve=curves[0] if len(curves) == 1 else mean_curve(curves, _weights(run, curves)),
         note="; ".join(_reach(curves) + list(early_ends(folders).values())),
         wall_s=sum(entries[name].wall_s for name in run.tasks),
     )
+
+
+def _weights(run: SweepRun, curves: Sequence[StiffnessCurve]) -> list[float] | None:
+    """Arcs that the orientations of a finite element curve stand for; an ANCF tire's count alike."""
+    angles = [c.orientation_deg for c in curves if c.orientation_deg is not None]
+    return arc_weights(run.point.study, angles) if run.model in ("fe", "section") else None
 
 
 def _reach(curves: Sequence[StiffnessCurve]) -> list[str]:
@@ -108,8 +116,19 @@ def references(study: Study, folder: Path, found: Sequence[Outcome]) -> dict[str
     return {m: Reference(label=label, curve=c) for m, c in base.items() if c is not None and not c.unloaded}
 
 
+def own_curves(study: Study) -> dict[str, StiffnessCurve]:
+    """The study's own curves by their labels: small letters, underscores for what is neither letter nor digit."""
+    names = [re.sub(r"[^0-9a-z]+", "_", one.label.lower()).strip("_") for one in study.compare.curves]
+    files = [Path(one.file) for one in study.compare.curves]
+    return {name: read_measured_curve(file).curve for name, file in zip(names, files, strict=True)}
+
+
 def measured(
-    outcome: Outcome, section: SweepSection, up_to: float, reference: Reference | None
+    outcome: Outcome,
+    section: SweepSection,
+    up_to: float,
+    reference: Reference | None = None,
+    followed: Mapping[str, StiffnessCurve] | None = None,
 ) -> dict[str, float | str | None]:
     """Numbers of one outcome by name, with units in the names; None where the curve does not reach.
 
@@ -119,6 +138,7 @@ def measured(
     section : deflections [m] and loads [N] at which the curve is read
     up_to : range of the initial tangent [m]
     reference : what the curve is held against over the range both have, up to the largest of the section's loads
+    followed : curves that some orientation may follow between the section's loads, by a name for their column
     """
     curve = outcome.curve if outcome.curve is not None and not outcome.curve.unloaded else None
     found: dict[str, float | str | None] = {
@@ -129,7 +149,15 @@ def measured(
     for load in section.loads:
         found[f"deflection_at_{load:g}N_m"] = _or_none(curve, lambda c, load=load: c.deflection_at(load))  # type: ignore[misc]
     for load in section.loads:
-        found[f"max_von_mises_at_{load:g}N_Pa"] = _largest_stress(outcome.by_orientation, load)
+        found[f"max_von_mises_at_{load:g}N_Pa"] = _largest_stress(outcome.by_orientation, load, "max_von_mises_")
+    for load in section.loads:
+        found[f"max_linearised_at_{load:g}N_Pa"] = _largest_stress(outcome.by_orientation, load, "max_linearised_")
+    for d in section.deflections:
+        found[f"spread_at_{1e3 * d:g}mm"] = None if curve is None else _spread(curve, d)
+    found["negative_pivots"] = _negative_pivots(outcome.by_orientation, max(section.loads))
+    for name, own in (followed or {}).items():
+        loads = min(section.loads), max(section.loads)
+        found[f"follows_{name}"] = nearest_orientation(outcome.by_orientation, own, loads)
     metrics = None
     if reference is not None:
         metrics = _or_none(curve, lambda c: compare_curves(c, reference.curve, max(section.loads)))
@@ -146,11 +174,44 @@ def _or_none[T](curve: StiffnessCurve | None, read: Callable[[StiffnessCurve], T
         return None
 
 
-def _largest_stress(curves: Sequence[StiffnessCurve], load: float) -> float | None:
-    """Largest von Mises stress [Pa] of all parts and orientations where the load [N] is reached; None if one is not."""
+def _spread(curve: StiffnessCurve, deflection: float) -> float | None:
+    """Largest less smallest load of the orientations, over their mean [-], at a deflection [m]."""
+    if deflection > curve.deflection[-1] or "load_min_N" not in curve.columns:
+        return None
+    low, high = (np.interp(deflection, curve.deflection, curve.columns[f"load_{end}_N"]) for end in ("min", "max"))
+    return float((high - low) / curve.load_at(deflection))
+
+
+def _negative_pivots(curves: Sequence[StiffnessCurve], load: float) -> float | None:
+    """Largest number of negative pivots of all orientations up to a load [N]."""
+    name = "negative_pivots"
+    counts = [c.columns[name][: int(np.searchsorted(c.load, load)) + 1] for c in curves if name in c.columns]
+    return max((float(np.max(count)) for count in counts), default=None)
+
+
+def nearest_orientation(
+    curves: Sequence[StiffnessCurve], reference: StiffnessCurve, loads: tuple[float, float]
+) -> float | None:
+    """How nearly the best of the orientations follows a curve [-].
+
+    Smallest, over the orientations, of the largest |F/F_ref - 1| at the points of the reference whose loads lie within
+    ``loads`` [N]; None where no orientation reaches them all.
+    """
+    wanted = (reference.load >= loads[0]) & (reference.load <= loads[1])
+    at, target = reference.deflection[wanted], reference.load[wanted]
+    misses = [
+        float(np.abs(curve.load_at(at) / target - 1.0).max())
+        for curve in curves
+        if len(at) and curve.deflection[-1] >= at[-1]
+    ]
+    return min(misses, default=None)
+
+
+def _largest_stress(curves: Sequence[StiffnessCurve], load: float, kind: str) -> float | None:
+    """Largest stress [Pa] of all parts and orientations where the load [N] is reached; None if one is not."""
     found = []
     for curve in curves:
-        stresses = [values for name, values in curve.columns.items() if name.startswith("max_von_mises_")]
+        stresses = [values for name, values in curve.columns.items() if name.startswith(kind)]
         deflection = _or_none(curve, lambda c: c.deflection_at(load))
         if not stresses or deflection is None:
             return None

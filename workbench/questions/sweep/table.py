@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from contracts.text import for_cell
-from workbench.questions.sweep.graph import SweepGraph
-from workbench.questions.sweep.results import Outcome, Reference, measured
-from workbench.study.key_units import unit_of
+from workbench.questions.sweep.results import Outcome, Reference, measured, own_curves
+from workbench.questions.sweep.search import Judged, pareto
+from workbench.study.key_units import tied_keys, unit_of
 from workbench.study.model import Study
 from workbench.study.quantities import number_and_unit
 from workbench.study.sweep import SweepRange, SweepSection, Value
@@ -55,25 +55,50 @@ def _written(cell: Cell) -> float | int | str:
 
 
 def sweep_table(
-    study: Study, graph: SweepGraph, found: Sequence[Outcome], against: Mapping[str, Reference]
+    study: Study,
+    keys: Mapping[str, str],
+    found: Sequence[Outcome],
+    against: Mapping[str, Reference],
+    judged: Mapping[int, Judged] | None = None,
+    confirms: Mapping[int, int] | None = None,
 ) -> SweepTable:
-    """One row for each outcome; ``against`` is what each model is held against."""
+    """One row for each outcome.
+
+    Parameters
+    ----------
+    keys : of every task, by its name
+    against : what each model is held against
+    judged, confirms : of a search: what each point misses, and which point of the search one is that ran again
+    """
     section = study.sweep
     assert section is not None
+    followed, best = own_curves(study), pareto(judged or {})
     columns = {key: _column(section, key) for key in section.parameters}
     inputs = tuple(name for name, _, _ in columns.values())
     rows, outputs = [], tuple[str, ...]()
     for outcome in found:
         values = outcome.run.point.values
         told = [convert(values[key]) if key in values else None for key, (_, _, convert) in columns.items()]
-        numbers = measured(outcome, section, study.tolerances.initial_tangent_up_to, against.get(outcome.run.model))
+        up_to, reference = study.tolerances.initial_tangent_up_to, against.get(outcome.run.model)
+        numbers = measured(outcome, section, up_to, reference, followed)
+        if judged:
+            number = outcome.run.point.number
+            numbers |= _judged_cells(judged[number], number in best, (confirms or {}).get(number))
         outputs = tuple(numbers)
-        keys = " ".join(graph.keys[task] for task in outcome.run.curves.values())
+        own = " ".join(keys[task] for task in outcome.run.curves.values())
         first = (outcome.run.point.number, outcome.run.model, *told, outcome.state)
-        rows.append((*first, *numbers.values(), outcome.wall_s, keys, outcome.note or None))
+        rows.append((*first, *numbers.values(), outcome.wall_s, own, outcome.note or None))
     names = ("point", "model", *inputs, "state", *outputs, "wall_time_s", "task_key", "note")
     labels = tuple(label for _, label, _ in columns.values())
     return SweepTable(names=names, rows=tuple(rows), inputs=inputs, labels=labels, outputs=outputs)
+
+
+def _judged_cells(judged: Judged, best: bool, confirms: int | None) -> dict[str, float | str | None]:
+    """What a search adds to the row of a point."""
+    scale = judged.outcome.run.point.values.get("strip_scale", judged.scale)
+    cells: dict[str, float | str | None] = {"strip_scale": float(scale), "confirms": confirms}
+    cells |= {f"miss_{name}": miss for name, miss in judged.misses.items()}
+    return cells | {"largest_miss": judged.largest, "cost": judged.cost, "pareto": float(best)}
 
 
 def _column(section: SweepSection, key: str) -> tuple[str, str, Callable[[Value], Cell]]:
@@ -84,7 +109,7 @@ def _column(section: SweepSection, key: str) -> tuple[str, str, Callable[[Value]
     words = key.replace("_", " ")
     if None in numbers:
         return key, words, _as_text
-    unit = next((number[1] for number in numbers if number), "") or unit_of(key) or ""
+    unit = next((number[1] for number in numbers if number), "") or unit_of(tied_keys(key)[0][1]) or ""
     header = f"{key}_{_in_a_name(unit)}" if unit else key
     whole = all(isinstance(value, int) for value in given) and not unit
     return header, f"{words} [{unit or '-'}]", _as_whole_number if whole else _as_number

@@ -1,0 +1,27 @@
+"""A Newton iteration that goes round in circles is given up, one that only rests is not."""
+
+from __future__ import annotations
+
+import pytest
+
+from reference_fe.solver.newton import _is_cycling
+
+ROUND = [6.4e-3, 1.6e-3, 4.0e-4, 1.1e-4, 3.3e-5, 2.3e-5]
+
+
+@pytest.mark.parametrize(
+    ("history", "cycling"),
+    [
+        ([1.0, 30.0, *ROUND, *ROUND], True),
+        ([1.0, 30.0, *ROUND, *ROUND[:-1]], False),
+        ([1.0, 30.0, *ROUND, *[0.9 * value for value in ROUND]], False),
+        ([1.0, 8.0e-4, 8.0e-4, 8.0e-4], True),
+        ([1.0, 8.0e-4, 8.0e-4], False),
+        ([1.0, 2e-3, 3e-4, 2e-3, 3e-4], False),
+        ([1.0, 2e-3, 3e-4, 2e-3, 3e-4, 2e-3, 3e-4], True),
+        ([1.0, float("inf"), float("inf"), float("inf")], False),
+        ([1.0], False),
+    ],
+)
+def test_cycles(history: list[float], cycling: bool) -> None:
+    assert _is_cycling(history) is cycling

@@ -1,0 +1,120 @@
+"""The thesis' sentences as findings: a wheel that satisfies them, and one for each sentence that does not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from contracts.curves import StiffnessCurve
+from workbench.questions.model_curves import ModelCurves, RunNumbers, mean_curve
+from workbench.questions.words.graph import asked, in_phase, twin_tasks
+from workbench.questions.words.question import words_checks
+from workbench.questions.words.results import Words, follows, spread
+from workbench.study.reading import built_in_study, read_study
+
+Array = NDArray[np.float64]
+DEFLECTION = np.linspace(0.0, 0.04, 81)
+SOFTENING = 8250.0 * DEFLECTION * (1.0 - 2.5 * DEFLECTION)
+"""Starts with the brush line, 6.3 N below it at 160 N, 18.9 N at 250 N."""
+
+
+def _curve(load: Array, orientation: float, stress: float = 3e6, negative: float = 0.0) -> StiffnessCurve:
+    columns = {"max_linearised_tire_Pa": stress * load, "negative_pivots": np.where(load > 200.0, negative, 0.0)}
+    return StiffnessCurve(model="x", orientation_deg=orientation, deflection=DEFLECTION, load=load, columns=columns)
+
+
+def _model(loads: dict[float, Array], **changes: float) -> ModelCurves:
+    curves = {o: _curve(load, o, **changes) for o, load in loads.items()}
+    runs = dict.fromkeys(curves, RunNumbers())
+    return ModelCurves(model="x", by_orientation=curves, average=mean_curve(list(curves.values())), runs=runs)
+
+
+def _words(share: float = 0.1, **changes: float) -> Words:
+    fe = _model({0.0: (1.0 + share) * SOFTENING, 30.0: SOFTENING, 60.0: (1.0 - share) * SOFTENING}, **changes)
+    twin = _model({0.0: (1.0 + 2.0 * share) * SOFTENING, 60.0: (1.0 - 2.0 * share) * SOFTENING})
+    return Words(
+        fe=fe,
+        average=fe.average,
+        ancf=_model({0.0: 1.1 * SOFTENING, 45.0: 0.9 * SOFTENING}),
+        brush=replace(_curve(8250.0 * DEFLECTION, 0.0), orientation_deg=None),
+        section=fe,
+        twin=twin,
+        yield_strength={"tire": 880e6},
+    )
+
+
+def _status(words: Words) -> dict[str, str]:
+    return {check.id.removeprefix("words."): check.status for check in words_checks(words)}
+
+
+def test_a_wheel_that_satisfies_every_sentence() -> None:
+    assert set(_status(_words()).values()) == {"pass"}
+    assert all(check.role == "finding" and check.claim and check.why for check in words_checks(_words()))
+
+
+def _stiff(words: Words) -> Words:
+    """An average that follows the brush line to the end."""
+    return replace(words, average=replace(words.average, load=8250.0 * words.average.deflection))
+
+
+@pytest.mark.parametrize(
+    ("words", "failed"),
+    [
+        (_stiff(_words()), {"brush_fails", "average_20mm", "average_30mm", "average_35mm"}),
+        (_words(share=0.02), {"follows_0deg", "follows_45deg"}),
+        (replace(_words(), twin=_words().section, section=_words().twin), {"out_of_phase"}),
+        (_words(stress=4e6), {"no_yielding"}),
+        (_words(negative=1.0), {"stable"}),
+        (
+            replace(_words(), average=replace(_words().average, load=1.06 * _words().average.load)),
+            {"small.slope", "average_20mm", "average_30mm", "average_35mm", "brush_fails"},
+        ),
+    ],
+)
+def test_each_sentence_fails_where_it_is_not_so(words: Words, failed: set[str]) -> None:
+    status = _status(words)
+    assert {name for name, found in status.items() if found != "pass"} == failed
+
+
+def test_numbers_of_the_sentences() -> None:
+    """At 250 N / 8.25 N/mm = 30.3 mm the average lies 2.5 * 30.3 mm = 7.6 % below the line."""
+    words = _words()
+    assert words.brush_slope == pytest.approx(8250.0)
+    assert words.brush_misses(250.0) == pytest.approx(-2.5 * 250.0 / 8250.0, rel=1e-3)
+    assert words.average_over_ancf(0.02) == pytest.approx(1.0)
+    assert follows(words.fe, words.ancf.by_orientation[45.0]) == (60.0, pytest.approx(0.0, abs=1e-12))
+    assert spread(words.section, 0.02) == pytest.approx(0.2)
+    assert words.stress(250.0) == pytest.approx(750.0 / 880.0)
+    assert words.shown["spread"] == "20 % as it is, 40 % in phase"
+    assert words.shown["followed"] == "0° by 0° within 0.0 %, 45° by 60° within 0.0 %"
+
+
+def test_a_curve_that_ends_early_is_an_error_and_no_verdict() -> None:
+    words = _words()
+    short = {
+        o: replace(c, deflection=c.deflection[:40], load=c.load[:40], columns={k: v[:40] for k, v in c.columns.items()})
+        for o, c in words.fe.by_orientation.items()
+    }
+    fe = replace(words.fe, by_orientation=short)
+    ended = replace(words, fe=fe, average=replace(fe.by_orientation[30.0], orientation_deg=None))
+    assert ended.shown["large"] == "the curve ends before"
+    assert ended.shown["averages"].count("the curve ends before") == 3
+    status = _status(replace(words, fe=fe))
+    assert {name for name, found in status.items() if found == "error"} == {
+        "follows_0deg",
+        "follows_45deg",
+        "no_yielding",
+        "stable",
+    }
+
+
+def test_the_twin_is_the_wheel_with_its_springs_in_phase() -> None:
+    study = read_study(built_in_study())
+    assert asked(study)
+    assert [springs.phase for springs in in_phase(study).wheel.springs] == [0.0, 0.0]
+    tasks = twin_tasks(study)
+    assert len(tasks) == len(study.fe.orientations)
+    assert not asked(study.model_copy(update={"brush": None}))

@@ -1,0 +1,1 @@
+"""What do the thesis' words say of the reference wheel, and which of them does this wheel satisfy?"""

@@ -1,0 +1,35 @@
+"""Tasks of the wheel with its springs in phase. Verified by tests/unit/test_workbench_thesis_words.py."""
+
+from __future__ import annotations
+
+from workbench.execution.task import Task
+from workbench.questions.section.graph import section_task, without_planar_model
+from workbench.study.model import Study
+from workbench.study.orientation import degrees, orientation_name
+
+__all__ = ["TWIN", "asked", "in_phase", "twin_tasks"]
+
+TWIN = "words_twin"
+DEFLECTIONS = (0.005, 0.010, 0.015, 0.020, 0.025, 0.030)
+"""Of the twin's curves [m]."""
+
+
+def asked(study: Study) -> bool:
+    """Whether the study has the wheel of the reference, the thesis' tires, and more than one set of springs."""
+    tires = study.ancf is not None and len(study.ancf.orientations) > 1 and study.brush is not None
+    springs = len(study.wheel.springs) > 1 and without_planar_model(study) is None
+    return bool(study.tolerances.reference_wheel and tires and springs)
+
+
+def in_phase(study: Study) -> Study:
+    """The study with every set of springs at the phase of the first."""
+    first, *others = study.wheel.springs
+    springs = (first, *(one.model_copy(update={"phase": dict(first)["phase"]}) for one in others))
+    return study.model_copy(update={"wheel": study.wheel.model_copy(update={"springs": springs})})
+
+
+def twin_tasks(study: Study) -> list[Task]:
+    """The section model of the twin, ``words_twin_phi015``, at the study's orientations."""
+    twin = in_phase(study)
+    angles = [degrees(o) for o in study.fe.orientations]
+    return [section_task(twin, orientation_name(TWIN, o), o, DEFLECTIONS) for o in angles]

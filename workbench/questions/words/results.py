@@ -1,0 +1,143 @@
+"""What the thesis' sentences become as numbers. Verified by tests/unit/test_workbench_thesis_words.py."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
+from workbench.questions.model_curves import ModelCurves
+
+__all__ = ["AT", "LOADS", "SMALL", "SPREAD_AT", "Words", "follows", "spread"]
+
+LOADS = 160.0, 250.0
+"""Range of the thesis' sweep [N] (Samarini 2020, section 3.2, Fig. 20)."""
+AT = 0.020, 0.030, 0.035
+"""Deflections at which the averages are held against each other [m]."""
+SMALL, SPREAD_AT = 0.005, 0.020
+"""Deflection up to which the slope is taken, and at which the spread of the orientations is [m]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Words:
+    """Curves that the sentences speak of.
+
+    Attributes
+    ----------
+    fe : the continuum's curves
+    average : of them, weighted by the arcs that the orientations stand for
+    ancf : the thesis' tire by our reading
+    brush : the line of Table II
+    section, twin : planar model of the wheel, and of its twin with all springs in phase
+    yield_strength : of each part [Pa]
+    """
+
+    fe: ModelCurves
+    average: StiffnessCurve
+    ancf: ModelCurves
+    brush: StiffnessCurve
+    section: ModelCurves
+    twin: ModelCurves
+    yield_strength: Mapping[str, float]
+
+    @property
+    def brush_slope(self) -> float:
+        """[N/m]."""
+        return float(self.brush.load[-1] / self.brush.deflection[-1])
+
+    def brush_misses(self, load: float) -> float:
+        """Relative difference of the average from the brush line where that carries a load [N] [-]."""
+        return float(self.average.load_at(load / self.brush_slope) / load - 1.0)
+
+    def average_over_ancf(self, deflection: float) -> float:
+        """Load of the average over the mean of the ANCF tire's orientations, at a deflection [m] [-]."""
+        return float(self.average.load_at(deflection) / self.ancf.average.load_at(deflection))
+
+    @property
+    def shown(self) -> dict[str, str]:
+        """Numbers of the table by name, in words where a curve does not reach."""
+        averages = [_or_words(lambda d=d: f"{100.0 * self.average_over_ancf(d) - 100.0:+.1f} %") for d in AT]  # type: ignore[misc]
+        return {
+            "slope": _or_words(lambda: f"{1e-3 * self.average.initial_tangent(SMALL):.2f} N/mm"),
+            "small": _or_words(lambda: f"{100.0 * self.brush_misses(LOADS[0]):+.1f} %"),
+            "large": _or_words(lambda: f"{100.0 * self.brush_misses(LOADS[1]):+.1f} %"),
+            "averages": ", ".join(averages),
+            "followed": ", ".join(self._followed(o) for o in self.ancf.loaded),
+            "spread": _or_words(
+                lambda: (
+                    f"{100.0 * spread(self.section, SPREAD_AT):.0f} % as it is, "
+                    f"{100.0 * spread(self.twin, SPREAD_AT):.0f} % in phase"
+                )
+            ),
+            "stress": _or_words(lambda: f"{100.0 * self.stress(LOADS[1]):.0f} % of the yield strength"),
+        }
+
+    def _followed(self, orientation: float) -> str:
+        def told() -> str:
+            best, miss = follows(self.fe, self.ancf.by_orientation[orientation])
+            return f"{orientation:g}° by {best:g}° within {100.0 * miss:.1f} %"
+
+        return _or_words(told)
+
+    def stress(self, load: float) -> float:
+        """Largest linearised stress over yield strength of any part and orientation, at a load [N] [-]."""
+        return max(self._stress(curve, load) for curve in self.fe.by_orientation.values())
+
+    def _stress(self, curve: StiffnessCurve, load: float) -> float:
+        at = curve.deflection_at(load)
+        columns = {part: curve.columns.get(f"max_linearised_{part}_Pa") for part in self.yield_strength}
+        found = [
+            float(np.interp(at, curve.deflection, values)) / self.yield_strength[part]
+            for part, values in columns.items()
+            if values is not None
+        ]
+        if not found:
+            raise InputError("stress", "none", "is not in the curve", "compute the curve again")
+        return max(found)
+
+    def negative_pivots(self, load: float) -> float:
+        """Largest number of negative pivots of any orientation up to a load [N]."""
+        counts = []
+        for curve in self.fe.by_orientation.values():
+            if "negative_pivots" not in curve.columns:
+                raise InputError("negative pivots", "none", "are counted with friction on the ground", "set it to 0")
+            curve.deflection_at(load)
+            counts.append(curve.columns["negative_pivots"][: int(np.argmax(curve.load >= load)) + 1].max())
+        return float(max(counts))
+
+
+def _or_words(number: Callable[[], str]) -> str:
+    try:
+        return number()
+    except InputError:
+        return "the curve ends before"
+
+
+def follows(curves: ModelCurves, reference: StiffnessCurve) -> tuple[float, float]:
+    """Which orientation [deg] follows a curve best over the thesis' sweep, and its largest relative difference [-].
+
+    Raises
+    ------
+    InputError
+        If none of them reaches so far.
+    """
+    wanted = (reference.load >= LOADS[0]) & (reference.load <= LOADS[1])
+    at, target = reference.deflection[wanted], reference.load[wanted]
+    misses = {
+        orientation: float(np.abs(curve.load_at(at) / target - 1.0).max())
+        for orientation, curve in curves.by_orientation.items()
+        if len(at) and curve.deflection[-1] >= at[-1] - 1e-12
+    }
+    if not misses:
+        raise InputError("curves", "none", "reaches the end of the ANCF tire's sweep", "raise fe.max_deflection")
+    best = min(misses, key=lambda orientation: misses[orientation])
+    return best, misses[best]
+
+
+def spread(curves: ModelCurves, deflection: float) -> float:
+    """Largest less smallest load of the orientations over their mean, at a deflection [m] [-]."""
+    loads = [float(curve.load_at(deflection)) for curve in curves.by_orientation.values()]
+    return (max(loads) - min(loads)) / float(np.mean(loads))
