@@ -75,10 +75,26 @@ def test_the_same_search_computes_nothing_again_and_a_longer_one_goes_on(searche
     assert len(after) > len(stored)
 
 
-def test_an_aim_that_is_no_number_of_the_table_is_refused(tmp_path: Path) -> None:
-    text = f"{small_study_text()}\n{SEARCH}".replace("load_at_5mm_N", "load_at_6mm_N")
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("load_at_5mm_N", "load_at_6mm_N", "sweep.aims.load_at_6mm_N: is no number of the table; e.g. load_at_5mm_N"),
+        ("wheel.springs[0].bands", "wheel.springs[7].bands", "wheel.springs[7].bands[1][0] = 30 mm: names no key"),
+        ('high = "0.9 mm"', 'high = "900 mm"', "sweep: none of its first points can be used: "),
+    ],
+)
+def test_a_search_that_cannot_be_made_is_one_message(tmp_path: Path, old: str, new: str, message: str) -> None:
+    text = f"{small_study_text()}\n{SEARCH}".replace(old, new)
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
     ended = said("sweep", "study.toml", "--out", "out", "--store", "store", folder=tmp_path)
     assert ended.returncode == 2
     (line,) = ended.stderr.splitlines()
-    assert "sweep.aims.load_at_6mm_N: is no number of the table; e.g. load_at_5mm_N" in line
+    assert message in line
+
+
+def test_check_refuses_a_search_over_a_key_that_is_none(tmp_path: Path) -> None:
+    text = f"{small_study_text()}\n{SEARCH}".replace("wheel.springs[0].bands", "wheel.springs[7].bands")
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    ended = said("check", "study.toml", folder=tmp_path)
+    assert ended.returncode == 2
+    assert "names no key of the study" in ended.stderr

@@ -129,6 +129,7 @@ def test_best_points_and_those_that_none_beats() -> None:
         ({"aims": {"load_at_20mm_N": {"at_most": 1.0, "at_least": 2.0}}}, "must be one of three"),
         ({"samples": None}, "must say how many"),
         ({"batch": 2}, "batch"),
+        ({"design": "latin-hypercube", "aims": {}, "scaled": True}, 'scaled = .*belongs to design = "search"'),
     ],
 )
 def test_a_bad_search_is_one_message(change: dict[str, Any], message: str) -> None:

@@ -22,9 +22,11 @@ from workbench.questions.sweep.results import Outcome, measured, outcomes, own_c
 from workbench.questions.sweep.search import Judged, Strategy, best_points, judge
 from workbench.study.model import Study
 from workbench.study.sweep import SweepSection, Value
-from workbench.study.sweep_points import Point, drawn_values, study_point
+from workbench.study.sweep_points import Point, drawn_values, require_keys, study_point
 
 __all__ = ["Searched", "search"]
+
+_MEND = "correct the key or its range"
 
 
 @dataclass(slots=True, kw_only=True)
@@ -65,13 +67,14 @@ def search(path: Path, content: Mapping[str, Any], study: Study, store: Store, c
     Raises
     ------
     StudyError
-        If an aim is no column of the table.
+        If an aim is no column of the table, a parameter no key of the study, or no point of the first batch a wheel.
     """
     section = study.sweep
     assert section is not None
     base = {key: value for key, value in content.items() if key != "sweep"}
     run = _Batches(path, base, study, store, computing)
     run.require_columns(section)
+    require_keys(path, base, section)
     strategy = Strategy(dimensions=len(section.parameters), batch=section.batch, seed=section.seed)
     assert section.samples is not None
     while len(run.searched.judged) < section.samples:
@@ -89,6 +92,9 @@ def search(path: Path, content: Mapping[str, Any], study: Study, store: Store, c
         for start in range(0, len(again), section.batch):
             run.batch(again[start : start + section.batch], fixed)
         searched.confirms = {first + i: number for i, number in enumerate(chosen)}
+        failed = [one for one in searched.found[-len(again) :] if one.state == "failed"]
+        if failed:
+            console.print(f"{len(failed)} of them have no curve; the first: {failed[0].note}", soft_wrap=True)
     return searched
 
 
@@ -129,7 +135,9 @@ class _Batches:
                 sweep_graph([point], section.models)
                 points.append(point)
             except (StudyError, InputError) as error:
-                refused[number] = f"{error.rule}" if isinstance(error, StudyError) else str(error)
+                refused[number] = f"{error.key}: {error.rule}" if isinstance(error, StudyError) else str(error)
+        if not points and first == 1:
+            raise StudyError(self._path, "sweep", "", f"none of its first points can be used: {refused[1]}", _MEND)
         graph = sweep_graph(points, section.models)
         with naming(self._path):
             ended = run_all(graph.tasks, self._store, _Quiet(), self._computing)

@@ -154,7 +154,11 @@ class SweepSection(Section):
             raise in_key("samples", "", "must say how many points are drawn", "e.g. samples = 30")
         if (self.design == "search") != bool(self.aims):
             raise in_key("aims", "", 'belongs to design = "search", which needs it', _AN_AIM)
-        if self.design == "search":
+        if self.design != "search":
+            for name in ("batch", "scaled", "confirm", "confirm_step"):
+                if name in self.model_fields_set:
+                    raise in_key(name, getattr(self, name), 'belongs to design = "search"', "remove it")
+        else:
             if len(self.models) > 1:
                 raise in_key("models", ", ".join(self.models), "must be one for a search", 'e.g. models = ["section"]')
             if len(self.parameters) < 2:

@@ -34,6 +34,7 @@ __all__ = [
     "drawn_values",
     "end_points",
     "probes",
+    "require_keys",
     "study_point",
     "sweep_points",
 ]
@@ -142,9 +143,18 @@ def end_points(path: Path, table: Mapping[str, Any]) -> list[Point]:
     if study.sweep is None:
         return []
     base = {key: value for key, value in table.items() if key != "sweep"}
+    if study.sweep.design == "search":
+        require_keys(path, base, study.sweep)
+        return []
     every = design_points(study.sweep)
     places = range(len(every)) if len(every) <= _MOST_ENDS else _ends(study.sweep, every)[:_MOST_ENDS]
     return [study_point(path, base, place + 1, every[place]) for place in places]
+
+
+def require_keys(path: Path, base: Mapping[str, Any], section: SweepSection) -> None:
+    """Refuse a parameter whose key a value cannot be put at; StudyError names it."""
+    for key, value in drawn_values(section, np.full((1, len(section.parameters)), 0.5))[0].items():
+        _set_parameter(path, copy.deepcopy(dict(base)), key, value, base)
 
 
 def _ends(section: SweepSection, every: Sequence[Mapping[str, Value]]) -> list[int]:
