@@ -148,7 +148,7 @@ class InnerContactTerm:
             self.pattern_version += 1
         deepest = max((side.largest_penetration for side in self._sides), default=0.0)
         self.largest_penetration = float(max(self._of_all(deepest)))
-        return _joined([batch for share in self._of_all(batches) for batch in share], self._dim)
+        return _joined([batch for share in self._of_all(batches) for batch in share if len(batch.nodes)], self._dim)
 
     def _share(self) -> slice:
         """This process' slave facets."""
@@ -222,6 +222,9 @@ class _TwoSides:
         facet, xi, gap = self._nearest(x, law.ramp, 1e-3)
         gap[self.excluded] = np.inf
         f, q = np.nonzero(gap < law.ramp)
+        if not len(f):
+            self.touching, self.largest_penetration = np.zeros((0, 2), dtype=np.int64), 0.0
+            return _joined([], dim)
         m, g = facet[f, q], gap[f, q]
         self.touching = np.unique(np.column_stack([f, m]), axis=0)
         self.largest_penetration = float(np.max(-g, initial=0.0))
