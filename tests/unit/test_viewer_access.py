@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import base64
 import hashlib
+from pathlib import Path
 
 import pytest
+from trame.app import get_server
 
+from workbench.viewer import page
 from workbench.viewer.access import Access, headers
 
 ACCESS = Access("127.0.0.1", 8765)
@@ -59,3 +62,11 @@ def test_the_policy_names_the_page_s_scripts_and_no_other_host() -> None:
     assert "unsafe-inline" not in policy["script-src"]
     hosts = {word for rule in policy.values() for word in rule.split() if "//" in word}
     assert hosts == {"ws://127.0.0.1:8765", "ws://localhost:8765"}
+
+
+def test_a_secret_may_begin_with_a_dash() -> None:
+    """One in 64 does; behind a blank it was taken for an option, and the viewer did not start."""
+    server = get_server("secret with a dash")
+    assert server.cli.parse_known_args(["--authKey=-abc"])[0].authKey == "-abc"
+    source = Path(page.__file__).read_text(encoding="utf-8")
+    assert 'f"--authKey={secret}"' in source

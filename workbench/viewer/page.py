@@ -63,7 +63,7 @@ async def open_page(results: Results, secret: str, number: int) -> Window:
     page = Window(server, Session(state, view, results, scene))
     _connect(server, page)
     server.controller.on_server_bind.add(page.bind)
-    server.cli.parse_known_args = lambda *_: type(server.cli).parse_known_args(server.cli, ["--authKey", secret])
+    server.cli.parse_known_args = lambda *_: type(server.cli).parse_known_args(server.cli, [f"--authKey={secret}"])
     server.start(backend="generic", exec_mode="task", port=0, show_connection_info=False, disable_logging=True)
     await server.ready
     return page
