@@ -81,7 +81,7 @@ def test_the_best_of_the_orientations_follows_a_curve() -> None:
 
 def _run(seed: int, batches: int) -> tuple[NDArray[np.float64], float]:
     """All points asked, and the least cost, for a bowl at (0.3, 0.7, 0.2)."""
-    strategy, asked, least = Strategy(dimensions=3, batch=12, seed=seed), [], np.inf
+    strategy, asked, least = Strategy(start=np.full(3, 0.5), batch=12, seed=seed), [], np.inf
     for _ in range(batches):
         batch = strategy.ask()
         costs = (np.abs(batch - [0.3, 0.7, 0.2])).max(axis=1)

@@ -18,7 +18,7 @@ from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study_table
 from workbench.study.section import Section
 from workbench.study.sweep import SweepSection
-from workbench.study.sweep_points import Point, design_points, sweep_points
+from workbench.study.sweep_points import Point, design_points, place_of, sweep_points
 
 PATH = built_in_study()
 TABLE = read_study_table(PATH)
@@ -135,6 +135,24 @@ def test_keys_may_be_tied_and_items_of_lists_varied() -> None:
     key = "wheel.springs[0].bands[1][0] = -wheel.springs[0].bands[0][1]"
     *_, point = _points(**{key: ["38 mm", "42 mm"]})
     assert point.study.wheel.springs[0].bands == ((-0.060, -0.042), (0.042, 0.060))
+
+
+def test_a_search_begins_at_the_study() -> None:
+    """0.609 mm between 0.5 and 0.7 mm; the third of three counts; -40 mm between -50 and -30 mm; else the middle."""
+    section = SweepSection.model_validate(
+        {
+            "design": "search",
+            "samples": 4,
+            "aims": {"load_at_10mm_N": {"at_least": 1.0}},
+            "strip_thickness": {"low": "0.5 mm", "high": "0.7 mm"},
+            "wheel.grousers.count": [4, 6, 12],
+            "wheel.springs[0].bands[0][1] = -wheel.springs[0].bands[1][0]": {"low": "-50 mm", "high": "-30 mm"},
+            "wheel.outer_hub.outer_radius": {"low": "10 mm", "high": "20 mm"},
+            "fe.friction": {"low": 0, "high": 1},
+            "wheel.grousers.material": ["a", "b"],
+        }
+    )
+    assert place_of(section, TABLE) == pytest.approx([0.545, 2.5 / 3.0, 0.5, 0.5, 0.0, 0.5])
 
 
 def test_a_scale_acts_on_every_strip_after_their_own_values() -> None:

@@ -22,7 +22,7 @@ from workbench.questions.sweep.results import Outcome, measured, outcomes, own_c
 from workbench.questions.sweep.search import Judged, Strategy, best_points, judge
 from workbench.study.model import Study
 from workbench.study.sweep import SweepSection, Value
-from workbench.study.sweep_points import Point, drawn_values, require_keys, study_point
+from workbench.study.sweep_points import Point, drawn_values, place_of, require_keys, study_point
 
 __all__ = ["Searched", "search"]
 
@@ -75,7 +75,7 @@ def search(path: Path, content: Mapping[str, Any], study: Study, store: Store, c
     run = _Batches(path, base, study, store, computing)
     run.require_columns(section)
     require_keys(path, base, section)
-    strategy = Strategy(dimensions=len(section.parameters), batch=section.batch, seed=section.seed)
+    strategy = Strategy(start=place_of(section, base), batch=section.batch, seed=section.seed)
     assert section.samples is not None
     while len(run.searched.judged) < section.samples:
         values = drawn_values(section, strategy.ask())

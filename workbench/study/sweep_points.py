@@ -33,6 +33,7 @@ __all__ = [
     "design_points",
     "drawn_values",
     "end_points",
+    "place_of",
     "probes",
     "require_keys",
     "study_point",
@@ -95,6 +96,27 @@ def drawn_values(section: SweepSection, u: NDArray[np.float64]) -> list[dict[str
     parameters = section.parameters
     columns = [_drawn(key, values, u[:, i]) for i, (key, values) in enumerate(parameters.items())]
     return [dict(zip(parameters, row, strict=True)) for row in zip(*columns, strict=True)]
+
+
+def place_of(section: SweepSection, base: Mapping[str, Any]) -> NDArray[np.float64]:
+    """Where a study file's table stands among the ranges, (parameters,) in [0, 1); 0.5 where it is beyond or silent."""
+    return np.array([_place(key, values, base) for key, values in section.parameters.items()])
+
+
+def _place(key: str, values: Sequence[Value] | SweepRange, base: Mapping[str, Any]) -> float:
+    found: Any = base
+    try:
+        for part in parts_of(NAMED.get(key) or tied_keys(key)[0][1]):
+            found = found[part]
+    except (KeyError, IndexError, TypeError):
+        return 0.5
+    if not isinstance(values, SweepRange):
+        return (values.index(found) + 0.5) / len(values) if found in values else 0.5
+    ends = [number_and_unit(one) for one in (values.low, found, values.high)]
+    if any(end is None or end[1] != ends[0][1] for end in ends):  # type: ignore[index]
+        return 0.5
+    low, here, high = (end[0] for end in ends if end is not None)
+    return (here - low) / (high - low) if low <= here < high else 0.5
 
 
 def _drawn(key: str, values: Sequence[Value] | SweepRange, u: NDArray[np.float64]) -> list[Value]:

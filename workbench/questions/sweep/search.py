@@ -2,8 +2,8 @@
 
 The cost of a point is its largest miss (`study.sweep.Aim.miss`) plus a tenth of what the misses exceed 1 by, so that it
 falls while any of them does. The strategy (Hansen, arXiv:1604.00772; package cmaes) sees parameters as numbers in
-[0, 1]; it is drawn from the section's seed alone, so that the same study goes the same way again, over the results that
-the store holds. When it has converged it starts anew, elsewhere.
+[0, 1] and begins around the study as it is. It is drawn from the section's seed alone, so that the same study goes the
+same way again, over the results that the store holds. When it has converged it starts anew, elsewhere.
 Verified by tests/unit/test_workbench_search.py and tests/end_to_end/test_search.py.
 """
 
@@ -96,9 +96,9 @@ def _scaled(outcome: Outcome, scale: float) -> Outcome:
 
 @dataclass(slots=True, kw_only=True)
 class Strategy:
-    """Asks for batches of points in [0, 1)^d and is told their costs."""
+    """Asks for batches of points in [0, 1)^d and is told their costs; the first ones lie around ``start`` (d,)."""
 
-    dimensions: int
+    start: NDArray[np.float64]
     batch: int
     seed: int
     _runs: int = 0
@@ -109,8 +109,8 @@ class Strategy:
         """The next batch, (batch, dimensions)."""
         if self._cma is None or self._cma.should_stop():
             rng = np.random.default_rng((self.seed, self._runs))
-            mean = np.full(self.dimensions, 0.5) if self._runs == 0 else rng.uniform(0.2, 0.8, self.dimensions)
-            bounds = np.tile([0.0, np.nextafter(1.0, 0.0)], (self.dimensions, 1))
+            mean = self.start if self._runs == 0 else rng.uniform(0.2, 0.8, len(self.start))
+            bounds = np.tile([0.0, np.nextafter(1.0, 0.0)], (len(self.start), 1))
             seed = int(rng.integers(2**31 - 1))
             self._cma = CMA(mean=mean, sigma=FIRST_STEP, bounds=bounds, population_size=self.batch, seed=seed)
             self._runs += 1
