@@ -24,7 +24,7 @@ loads = ["20 N", "40 N"]
 
 [sweep.aims]
 load_at_5mm_N = { target = 41.25, within = 0.03 }
-max_linearised_at_40N_Pa = { at_most = 200e6 }
+max_linearised_at_40N_Pa = { at_most = 100e6 }
 """
 
 
