@@ -14,7 +14,16 @@ from contracts.curves import StiffnessCurve, average_curve, read_curve
 from contracts.errors import IncrementRecord
 from workbench.execution.result_files import FAILURE, read_result
 
-__all__ = ["CURVE", "ModelCurves", "RunNumbers", "UserCurve", "mean_curve", "model_curves", "read_run"]
+__all__ = [
+    "CURVE",
+    "ModelCurves",
+    "RunNumbers",
+    "UserCurve",
+    "distances_from",
+    "mean_curve",
+    "model_curves",
+    "read_run",
+]
 
 CURVE = "curve.csv"
 
@@ -108,6 +117,21 @@ def model_curves(model: str, folders: Mapping[str, Path]) -> ModelCurves:
         average=mean_curve([curve for curve, _ in ordered.values()]),
         runs={o: run for o, (_, run) in ordered.items()},
     )
+
+
+def distances_from(
+    curves: Sequence[StiffnessCurve], reference: StiffnessCurve, loads: tuple[float, float]
+) -> list[float | None]:
+    """Largest |F/F_ref - 1| of each curve at the points of a reference whose loads lie within ``loads`` [N] [-].
+
+    None for a curve that ends before, and where the reference has no such point.
+    """
+    wanted = (reference.load >= loads[0]) & (reference.load <= loads[1])
+    at, target = reference.deflection[wanted], reference.load[wanted]
+    return [
+        float(abs(curve.load_at(at) / target - 1.0).max()) if len(at) and curve.deflection[-1] >= at[-1] else None
+        for curve in curves
+    ]
 
 
 def mean_curve(curves: Sequence[StiffnessCurve], weights: Sequence[float] | None = None) -> StiffnessCurve:

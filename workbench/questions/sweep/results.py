@@ -16,7 +16,7 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.execution.result_files import early_ends
 from workbench.execution.store import Entry
-from workbench.questions.model_curves import CURVE, mean_curve
+from workbench.questions.model_curves import CURVE, distances_from, mean_curve
 from workbench.questions.models.metrics import compare_curves
 from workbench.questions.sweep.graph import SweepGraph, SweepRun
 from workbench.study.curve_file import read_measured_curve
@@ -197,14 +197,8 @@ def nearest_orientation(
     Smallest, over the orientations, of the largest |F/F_ref - 1| at the points of the reference whose loads lie within
     ``loads`` [N]; None where no orientation reaches them all.
     """
-    wanted = (reference.load >= loads[0]) & (reference.load <= loads[1])
-    at, target = reference.deflection[wanted], reference.load[wanted]
-    misses = [
-        float(np.abs(curve.load_at(at) / target - 1.0).max())
-        for curve in curves
-        if len(at) and curve.deflection[-1] >= at[-1]
-    ]
-    return min(misses, default=None)
+    misses = distances_from(curves, reference, loads)
+    return min((miss for miss in misses if miss is not None), default=None)
 
 
 def _largest_stress(curves: Sequence[StiffnessCurve], load: float, kind: str) -> float | None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.questions.model_curves import ModelCurves
+from workbench.questions.model_curves import ModelCurves, distances_from
 
 __all__ = ["AT", "LOADS", "SMALL", "SPREAD_AT", "Words", "follows", "spread"]
 
@@ -124,13 +124,8 @@ def follows(curves: ModelCurves, reference: StiffnessCurve) -> tuple[float, floa
     InputError
         If none of them reaches so far.
     """
-    wanted = (reference.load >= LOADS[0]) & (reference.load <= LOADS[1])
-    at, target = reference.deflection[wanted], reference.load[wanted]
-    misses = {
-        orientation: float(np.abs(curve.load_at(at) / target - 1.0).max())
-        for orientation, curve in curves.by_orientation.items()
-        if len(at) and curve.deflection[-1] >= at[-1] - 1e-12
-    }
+    found = distances_from(list(curves.by_orientation.values()), reference, LOADS)
+    misses = {o: miss for o, miss in zip(curves.by_orientation, found, strict=True) if miss is not None}
     if not misses:
         raise InputError("curves", "none", "reaches the end of the ANCF tire's sweep", "raise fe.max_deflection")
     best = min(misses, key=lambda orientation: misses[orientation])
