@@ -100,6 +100,38 @@ class StiffnessCurve:
         return float(d @ self.load_at(d) / (d @ d))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Around:
+    """How a wheel repeats itself around its axle.
+
+    Attributes
+    ----------
+    period : turn that maps it onto itself [deg]
+    mirrored : whether it is its own mirror image about position 0, so that phi and -phi give one curve
+    """
+
+    period: float = 360.0
+    mirrored: bool = False
+
+    def weights(self, orientations_deg: Sequence[float]) -> list[float]:
+        """Share of the period that each orientation stands for [-]: up to half way to its neighbours.
+
+        A mirrored wheel has half a period; its two ends count half as much as what lies between. Verified by
+        tests/unit/test_curves.py.
+        """
+        turned = np.asarray(orientations_deg, dtype=np.float64) % self.period
+        if self.mirrored:
+            turned = np.minimum(turned, self.period - turned)
+        turned = np.round(turned, 6) % self.period
+        places, which, count = np.unique(turned, return_inverse=True, return_counts=True)
+        if self.mirrored:
+            arcs = np.diff([0.0, *(0.5 * (places[1:] + places[:-1])), 0.5 * self.period]) / (0.5 * self.period)
+        else:
+            gaps = np.diff(np.append(places, places[0] + self.period))
+            arcs = 0.5 * (gaps + np.roll(gaps, 1)) / self.period
+        return [float(arcs[k] / count[k]) for k in which]
+
+
 def average_curve(
     curves: Sequence[StiffnessCurve], step: float = 0.5e-3, weights: Sequence[float] | None = None
 ) -> StiffnessCurve:

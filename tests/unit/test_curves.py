@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contracts.curves import StiffnessCurve, average_curve
+from contracts.curves import Around, StiffnessCurve, average_curve
 from contracts.errors import InputError
 
 
@@ -139,3 +139,13 @@ def test_only_a_partial_curve_may_be_first_contact_alone() -> None:
         nothing.deflection_at(1.0)
     with pytest.raises(InputError, match="needs two or more points"):
         replace(nothing, partial=False)
+
+
+def test_an_average_by_arc_weighs_the_ends_of_a_mirrored_wheel_half() -> None:
+    """Period 120 deg, mirrored: 0 and 60 deg are ends, 30 deg stands for half of all; alike they give another mean."""
+    curves = [curve([0.0, 0.01], [0.0, load]) for load in (100.0, 40.0, 60.0)]
+    weights = Around(period=120.0, mirrored=True).weights([0.0, 30.0, 60.0])
+    assert weights == pytest.approx([0.25, 0.5, 0.25])
+    assert average_curve(curves, 1e-3, weights).load[-1] == pytest.approx(60.0)
+    assert average_curve(curves, 1e-3).load[-1] == pytest.approx(200.0 / 3.0)
+    assert Around(period=60.0).weights([5.0, 65.0, 35.0]) == pytest.approx([0.25, 0.25, 0.5])  # 5 and 65 are one place

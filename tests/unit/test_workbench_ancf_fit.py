@@ -31,6 +31,8 @@ from workbench.study.rewrite import rewritten_table
 D = np.linspace(0.0, 0.03, 16)
 LINE = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=D, load=8e3 * D)
 SMALL = replace(thesis_preset(), quadrature=(3, 3, 2), contact_points=(6, 3))
+ALL = {"period": 60.0, "mirrored": True}
+"""The wheel's two orientations, 0 and 30 deg, weigh alike."""
 MESH_STUDY = {"orientation_deg": 0.0, "deflections": [0.01, 0.02], "factors": [1, 1.5, 2], "curves_factor": 1.0}
 
 
@@ -108,7 +110,14 @@ def test_a_fit_and_its_result(folders: Mapping[str, Path], tmp_path: Path) -> No
     """The modulus that made the curves is found, with an interval and a spread; the mass is that of Table I."""
     preset = asdict(SMALL) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
     inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "points": 4}
-    inputs |= {"average_weight": 3.0, "realisations": 4, "mesh_study": MESH_STUDY, "phase_starts": 1, "mirrored": True}
+    inputs |= {
+        "average_weight": 3.0,
+        "realisations": 4,
+        "mesh_study": MESH_STUDY,
+        "phase_starts": 1,
+        "mirrored": True,
+        "around": ALL,
+    }
     fit(inputs | {"free": [["young_modulus", 1e4, 1e7]]}, folders, tmp_path, lambda fraction: None)
     tire = read_fit("test", tmp_path, Fitted)
     (row,) = tire.numbers.parameters
@@ -129,7 +138,7 @@ def test_a_fit_and_its_result(folders: Mapping[str, Path], tmp_path: Path) -> No
 
 def test_a_turned_tire_is_found_by_its_mirror_image(folders: Mapping[str, Path], tmp_path: Path) -> None:
     """Curves of spokes at 20 deg meet themselves at 0 and 30 deg; minus 30 deg is 50 deg from a spoke, not 10."""
-    inputs = {"orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "mirrored": True}
+    inputs = {"orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "mirrored": True, "around": ALL}
     turned = replace(SMALL, phase=np.radians(20.0))
     preset = asdict(turned) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
     evaluate(inputs | {"preset": preset}, folders, tmp_path, lambda fraction: None)
@@ -145,7 +154,14 @@ def test_phases_are_tried_as_the_study_asks(study: Study, folders: Mapping[str, 
     assert three.inputs["mirrored"]
     preset = asdict(SMALL) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
     inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [30.0, 150.0], "points": 3}
-    inputs |= {"average_weight": 1.0, "realisations": 0, "mesh_study": None, "phase_starts": 2, "mirrored": True}
+    inputs |= {
+        "average_weight": 1.0,
+        "realisations": 0,
+        "mesh_study": None,
+        "phase_starts": 2,
+        "mirrored": True,
+        "around": ALL,
+    }
     free = [["young_modulus", 1e4, 1e7], ["phase", -0.8, 0.8]]
     fit(inputs | {"free": free}, folders, tmp_path, lambda fraction: None)
     trials = read_fit("test", tmp_path, Fitted).numbers.phase_trials
@@ -155,7 +171,13 @@ def test_phases_are_tried_as_the_study_asks(study: Study, folders: Mapping[str, 
 
 def test_curves_too_short_for_the_range_leave_the_reason(folders: Mapping[str, Path], tmp_path: Path) -> None:
     preset = asdict(SMALL) | {"contact_points": [6, 3], "quadrature": [3, 3, 2]}
-    inputs = {"preset": preset, "orientations_deg": [0.0, 30.0], "load_range": [300.0, 350.0], "mirrored": False}
+    inputs = {
+        "preset": preset,
+        "orientations_deg": [0.0, 30.0],
+        "load_range": [300.0, 350.0],
+        "mirrored": False,
+        "around": ALL,
+    }
     evaluate(inputs, folders, tmp_path, lambda fraction: None)
     with pytest.raises(InputError, match="beyond the end of the FE average"):
         read_fit("own", tmp_path, Held)

@@ -13,7 +13,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.orientations.question import ORIENTATIONS, OrientationMap
 from workbench.questions.study_graph import report_tasks
-from workbench.study.full import arc_weights, full_study, is_mirrored, rotational_period
+from workbench.study.full import around, full_study, is_mirrored, rotational_period
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.rules import broken_rules
@@ -72,12 +72,12 @@ def test_the_wheel_repeats_itself_after_the_common_divisor_of_its_counts(study: 
 
 def test_orientations_stand_for_arcs_of_the_period(study: Study) -> None:
     """A mirrored wheel has half a period, 60 deg, whose ends count half; a one-way wheel a circle of 120 deg."""
-    assert arc_weights(study, [0.0, 15.0, 30.0, 45.0, 60.0]) == pytest.approx([0.125, 0.25, 0.25, 0.25, 0.125])
-    assert arc_weights(study, [0.0, 120.0, 60.0]) == pytest.approx([0.25, 0.25, 0.5])
+    assert around(study).weights([0.0, 15.0, 30.0, 45.0, 60.0]) == pytest.approx([0.125, 0.25, 0.25, 0.25, 0.125])
+    assert around(study).weights([0.0, 120.0, 60.0]) == pytest.approx([0.25, 0.25, 0.5])
     one_way = _springs(study, shape="arc")
-    assert arc_weights(one_way, [0.0, 30.0, 60.0, 90.0]) == pytest.approx([0.25] * 4)
-    assert arc_weights(one_way, [0.0, 15.0, 60.0]) == pytest.approx([37.5 / 120.0, 30.0 / 120.0, 52.5 / 120.0])
-    assert arc_weights(one_way, [45.0]) == [1.0]
+    assert around(one_way).weights([0.0, 30.0, 60.0, 90.0]) == pytest.approx([0.25] * 4)
+    assert around(one_way).weights([0.0, 15.0, 60.0]) == pytest.approx([37.5 / 120.0, 30.0 / 120.0, 52.5 / 120.0])
+    assert around(one_way).weights([45.0]) == [1.0]
 
 
 def test_mirror_symmetry_needs_phases_and_two_sided_springs(study: Study) -> None:

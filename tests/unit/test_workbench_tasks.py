@@ -56,7 +56,12 @@ def test_metrics_task_pairs_models_and_user_curves(tmp_path: Path) -> None:
     needs = {name: _folder(tmp_path, name, slope) for name, slope in slopes.items()}
     text = "deflection_m,load_N\n0,0\n0.036,252\n"
     user = {"text": text, "label": "mine", "orientation": 45.0}
-    metrics.measure({"max_load": 250.0, "user_curves": [user]}, needs, tmp_path, _ignore)
+    metrics.measure(
+        {"max_load": 250.0, "user_curves": [user], "around": {"period": 30.0, "mirrored": True}},
+        needs,
+        tmp_path,
+        _ignore,
+    )
     numbers = read_result(tmp_path)
     assert set(numbers) == {"ancf_average", "brush", "ancf_phi45", "user_0"}
     assert numbers["brush"]["relative_l2"] == pytest.approx(0.0, abs=1e-12)
@@ -69,7 +74,12 @@ def test_metrics_task_refuses_a_user_orientation_nobody_computed(tmp_path: Path)
     needs = {name: _folder(tmp_path, name, 8000.0) for name in ("fe_phi000", "ancf_phi000", "brush")}
     user = {"text": "deflection_m,load_N\n0,0\n0.03,240\n", "label": "mine", "orientation": 30.0}
     with pytest.raises(InputError, match="30 deg"):
-        metrics.measure({"max_load": 250.0, "user_curves": [user]}, needs, tmp_path, _ignore)
+        metrics.measure(
+            {"max_load": 250.0, "user_curves": [user], "around": {"period": 30.0, "mirrored": True}},
+            needs,
+            tmp_path,
+            _ignore,
+        )
 
 
 def _cube() -> TaggedMesh:

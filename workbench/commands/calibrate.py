@@ -28,6 +28,7 @@ from workbench.questions.section.graph import without_planar_model
 from workbench.questions.study_graph import stiffness_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish, to_json
+from workbench.study.full import around
 from workbench.study.magnitudes import above_zero
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
@@ -111,7 +112,7 @@ class _Runs:
         curves = [read_curve(folder / CURVE, model=model) for folder in folders]
         if any(curve.partial for curve in curves):
             raise RunError(f"{_NAMES[model]}: a run to the initial tangent does not converge; see workbench stiffness")
-        return mean_curve(curves).initial_tangent(self.study.tolerances.initial_tangent_up_to)
+        return mean_curve(curves, around(self.study)).initial_tangent(self.study.tolerances.initial_tangent_up_to)
 
 
 def _summary(study: Study, found: Calibration) -> dict[str, Any]:

@@ -25,6 +25,7 @@ from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
 from workbench.questions.study_graph import report_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish, to_json
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset
 from workbench.study.reading import built_in_study, study_of
@@ -55,8 +56,8 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     tasks = _with_needs(fit_tasks(study), report_tasks(study))
     with RunDisplay(console, tasks) as display:
         entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
-    own = read_fit("own", entries[AS_IT_IS].path, Held)
-    tires = [read_fit(t.name, entries[fit_name(t.name)].path, Fitted) for t in section.tires]
+    own = read_fit("own", entries[AS_IT_IS].path, Held, around(study))
+    tires = [read_fit(t.name, entries[fit_name(t.name)].path, Fitted, around(study)) for t in section.tires]
     kept = next(t for t in tires if t.name == section.kept.name)
     note = f"ANCF tire fitted to the FE curves by workbench calibrate ancf: {kept.name}"
     text = rewritten_study(input_text(path, "study file"), {}, note, path.parent)

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from contracts.curves import StiffnessCurve, average_curve, read_curve
+from contracts.curves import Around, StiffnessCurve, average_curve, read_curve
 from contracts.errors import IncrementRecord
 from workbench.execution.result_files import FAILURE, read_result
 
@@ -102,8 +102,11 @@ class UserCurve:
     orientation_deg: float | None
 
 
-def model_curves(model: str, folders: Mapping[str, Path]) -> ModelCurves:
-    """Curves of ``fe`` or ``ancf`` from the tasks ``{model}_phi...`` among ``folders``, in order of orientation."""
+def model_curves(model: str, folders: Mapping[str, Path], around: Around | None = None) -> ModelCurves:
+    """Curves of ``fe`` or ``ancf`` from the tasks ``{model}_phi...`` among ``folders``, in order of orientation.
+
+    Their average weighs each by the arc it stands for ``around`` the wheel, all alike if left out.
+    """
     found = {}
     for name, folder in folders.items():
         if name.startswith(f"{model}_phi"):
@@ -114,7 +117,7 @@ def model_curves(model: str, folders: Mapping[str, Path]) -> ModelCurves:
     return ModelCurves(
         model=model,
         by_orientation={o: curve for o, (curve, _) in ordered.items()},
-        average=mean_curve([curve for curve, _ in ordered.values()]),
+        average=mean_curve([curve for curve, _ in ordered.values()], around),
         runs={o: run for o, (_, run) in ordered.items()},
     )
 
@@ -134,8 +137,8 @@ def distances_from(
     ]
 
 
-def mean_curve(curves: Sequence[StiffnessCurve], weights: Sequence[float] | None = None) -> StiffnessCurve:
-    """Average over the orientations, with equal or the given weights.
+def mean_curve(curves: Sequence[StiffnessCurve], around: Around | None = None) -> StiffnessCurve:
+    """Average over the orientations, weighted by the arcs they stand for ``around`` the wheel, alike if left out.
 
     On a finer grid where a partial curve leaves less than two steps in common.
     Orientations of which no point converged are left out and named in the source, and the average is partial; without
@@ -145,8 +148,9 @@ def mean_curve(curves: Sequence[StiffnessCurve], weights: Sequence[float] | None
     if not loaded:
         return replace(curves[0], orientation_deg=None, source="no point converged at any orientation")
     common = min(c.deflection[-1] for c in loaded) - max(c.deflection[0] for c in loaded)
-    kept = None if weights is None else [w for c, w in zip(curves, weights, strict=True) if not c.unloaded]
-    average = average_curve(loaded, min(0.5e-3, 0.5 * common), kept)
+    angles = [c.orientation_deg for c in loaded if c.orientation_deg is not None]
+    weights = None if around is None else around.weights(angles)
+    average = average_curve(loaded, min(0.5e-3, 0.5 * common), weights)
     if len(loaded) == len(curves):
         return average
     missing = ", ".join(f"{c.orientation_deg} deg" for c in curves if c.unloaded)

@@ -6,10 +6,8 @@ Verified by tests/unit/test_workbench_full_study.py and tests/end_to_end/test_fu
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
-import numpy as np
-
+from contracts.curves import Around
 from contracts.errors import InputError
 from geometry.parts import SpringSet
 from workbench.study.model import Study
@@ -17,7 +15,7 @@ from workbench.study.orientation import degrees
 from workbench.study.sections import RoverSection
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["arc_weights", "full_study", "is_mirrored", "rotational_period", "steps_around"]
+__all__ = ["around", "full_study", "is_mirrored", "rotational_period", "steps_around"]
 
 _SAME = 1e-6
 """Two angles closer than this are one [deg]."""
@@ -34,24 +32,9 @@ def is_mirrored(study: Study) -> bool:
     return two_sided and all(_is_whole(2.0 * phase * count / 360.0) for count, phase in _patterns(study))
 
 
-def arc_weights(study: Study, orientations_deg: Sequence[float]) -> list[float]:
-    """Share of the wheel's period that each orientation stands for [-]: up to half way to its neighbours.
-
-    A wheel that is its own mirror image has half a period; its two ends count half as much as what lies between.
-    """
-    period, mirrored = rotational_period(study), is_mirrored(study)
-    turned = [o % period for o in orientations_deg]
-    if mirrored:
-        turned = [min(o, period - o) for o in turned]
-    places = np.unique(np.round(turned, 6) % period)
-    if mirrored:
-        edges = np.concatenate([[0.0], 0.5 * (places[1:] + places[:-1]), [0.5 * period]])
-        arcs = np.diff(edges) / (0.5 * period)
-    else:
-        gaps = np.diff(np.append(places, places[0] + period))
-        arcs = 0.5 * (gaps + np.roll(gaps, 1)) / period
-    which = [int(np.argmin(np.abs(places - o))) for o in np.round(turned, 6) % period]
-    return [float(arcs[k]) / which.count(k) for k in which]
+def around(study: Study) -> Around:
+    """How the study's wheel repeats itself."""
+    return Around(period=rotational_period(study), mirrored=is_mirrored(study))
 
 
 def _springs(study: Study) -> list[SpringSet]:

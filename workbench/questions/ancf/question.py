@@ -22,6 +22,7 @@ from workbench.questions.ancf.preset_table import COLUMNS, preset_table
 from workbench.questions.ancf.results import AncfTireResults
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
+from workbench.study.full import around
 from workbench.study.model import Study, stated
 from workbench.study.model_parameters import ancf_tire
 from workbench.study.orientation import degrees, orientation_name
@@ -91,7 +92,7 @@ def read_ancf(study: Study, folders: Mapping[str, Path]) -> AncfTireResults:
     """The results from the folders of their tasks."""
     return AncfTireResults(
         ancf=model_curves("ancf", folders),
-        fe_average=model_curves("fe", folders).average,
+        fe_average=model_curves("fe", folders, around(study)).average,
         read_back=read_result(folders[SURFACES])["read_back_m"],
     )
 

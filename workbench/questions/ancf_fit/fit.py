@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.curves import StiffnessCurve, read_curve
+from contracts.curves import Around, StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.execution.result_files import FAILURE, read_record, read_result
 from workbench.questions.model_curves import CURVE, mean_curve
@@ -73,8 +73,13 @@ def fe_curves(folders: Mapping[str, Path], orientations_deg: Sequence[float]) ->
     return loaded
 
 
-def read_fit[Numbers: Held](name: str, folder: Path, kind: type[Numbers]) -> FittedTire[Numbers]:
-    """One tire from its result folder; InputError with the reason if it could not be fitted."""
+def read_fit[Numbers: Held](
+    name: str, folder: Path, kind: type[Numbers], around: Around | None = None
+) -> FittedTire[Numbers]:
+    """One tire from its result folder; InputError with the reason if it could not be fitted.
+
+    Its average has the weights of the FE curves', ``around`` their wheel.
+    """
     failure = read_result(folder).get(FAILURE)
     if failure is not None:
         raise InputError("ANCF tire", name, f"could not be held against the FE curves: {failure}", "mend that")
@@ -83,7 +88,7 @@ def read_fit[Numbers: Held](name: str, folder: Path, kind: type[Numbers]) -> Fit
         o: read_curve(folder / f"{orientation_name('ancf', o)}.csv", model=f"ancf_{name}", orientation_deg=o)
         for o in numbers.orientations_deg
     }
-    return FittedTire(name=name, curves=curves, average=mean_curve(list(curves.values())), numbers=numbers)
+    return FittedTire(name=name, curves=curves, average=mean_curve(list(curves.values()), around), numbers=numbers)
 
 
 def fitted_deflections(average: StiffnessCurve, load_range: Sequence[float], points: int) -> FloatArray:

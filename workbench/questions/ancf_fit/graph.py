@@ -8,7 +8,7 @@ from dataclasses import asdict
 from workbench.execution.task import Task
 from workbench.questions.mesh_study.question import mesh_study_inputs, mesh_study_runs
 from workbench.study.fit import FittedTireSection
-from workbench.study.full import is_mirrored
+from workbench.study.full import around, is_mirrored
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_tire, fit_start
 from workbench.study.orientation import degrees, orientation_name
@@ -30,7 +30,12 @@ def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) ->
     if section is None:
         return []
     orientations = [degrees(o) for o in study.fe.orientations]
-    common = {"orientations_deg": orientations, "load_range": list(section.load_range), "mirrored": is_mirrored(study)}
+    common = {
+        "orientations_deg": orientations,
+        "load_range": list(section.load_range),
+        "mirrored": is_mirrored(study),
+        "around": asdict(around(study)),
+    }
     needs = tuple(orientation_name("fe", o) for o in orientations)
     own = ancf_tire(study) | common
     tasks = [

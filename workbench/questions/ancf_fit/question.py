@@ -18,7 +18,7 @@ from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
 from workbench.questions.ancf_fit.results import AncfFits
 from workbench.questions.model_curves import model_curves
 from workbench.questions.question import Question
-from workbench.study.full import rotational_period
+from workbench.study.full import around, rotational_period
 from workbench.study.model import Study, stated
 from workbench.verdict.rules import Claim, at_most
 
@@ -32,10 +32,12 @@ def _read(study: Study, folders: Mapping[str, Path]) -> AncfFits:
     from workbench.questions.ancf_fit.records import Fitted, Held
 
     section = stated(study.ancf_fit, "ancf_fit")
-    fe, period, kept = model_curves("fe", folders), rotational_period(study), section.kept.name
+    fe, period, kept = model_curves("fe", folders, around(study)), rotational_period(study), section.kept.name
     try:
-        own = read_fit("own", folders[AS_IT_IS], Held)
-        fitted = tuple(read_fit(tire.name, folders[fit_name(tire.name)], Fitted) for tire in section.tires)
+        own = read_fit("own", folders[AS_IT_IS], Held, around(study))
+        fitted = tuple(
+            read_fit(tire.name, folders[fit_name(tire.name)], Fitted, around(study)) for tire in section.tires
+        )
     except InputError as error:
         return AncfFits(own=None, fitted=(), kept=kept, fe=fe, period=period, failure=error)
     return AncfFits(own=own, fitted=fitted, kept=kept, fe=fe, period=period)

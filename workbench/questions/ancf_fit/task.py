@@ -21,7 +21,7 @@ from ancf_reduced.fit.phase_search import fit_from_phases
 from ancf_reduced.plates.mass import flexible_mass
 from ancf_reduced.tire.mesh import Tire, build_tire
 from ancf_reduced.tire.static import solve_tire, tire_curve
-from contracts.curves import StiffnessCurve, write_curve
+from contracts.curves import Around, StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, InputError
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.questions.ancf_fit.fit import (
@@ -73,7 +73,7 @@ def fit(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progres
 def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> Fitted:
     """The fit's numbers."""
     solid = fe_curves(needs, inputs["orientations_deg"])
-    average = mean_curve(solid)
+    average = mean_curve(solid, Around(**inputs["around"]))
     deflection = fitted_deflections(average, inputs["load_range"], inputs["points"])
     load = np.array([curve.load_at(deflection) for curve in solid])
     scale = np.broadcast_to(average.load_at(deflection), load.shape)
@@ -134,7 +134,7 @@ def _refits(found: CurveFit, uncertainty: FloatArray, realisations: int, progres
 
 def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[StiffnessCurve], out: Path) -> Held:
     """Write the tire's curves; its numbers, and its errors in percent of the load over the range of loads."""
-    average = mean_curve(solid)
+    average = mean_curve(solid, Around(**inputs["around"]))
     end = float(fitted_deflections(average, inputs["load_range"], 2)[-1])
     grid = [*np.arange(0.0, end - 0.1 * _STEP, _STEP).round(9).tolist(), end]
     orientations = [o for curve in solid if (o := curve.orientation_deg) is not None]

@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from contracts.curves import StiffnessCurve
+from contracts.curves import Around, StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check, Role
 from workbench.questions.model_curves import ModelCurves, mean_curve
@@ -29,12 +29,12 @@ _OVERLAP_ALLOWED = 50e-6
 _LOADS = (160.0, 250.0)
 
 
-def band_checks(fe: ModelCurves, band: Band, tolerances: ToleranceSection) -> list[Check]:
+def band_checks(fe: ModelCurves, band: Band, tolerances: ToleranceSection, around: Around | None = None) -> list[Check]:
     """Average curve against the band: tangent near first contact, deflection at each of the band's loads.
 
     The tangent is a gate for the wheel that the band describes, a finding for any other.
     """
-    checks = [_tangent_check(fe, band, tolerances)]
+    checks = [_tangent_check(fe, band, tolerances, around)]
     for point in band.points:
         name, title = f"fe.deflection_at_{point.load:g}N", f"Average FE curve: deflection at {point.load:g} N"
         claim = _claim(name, title, "deflection", "m", "finding", band.source)
@@ -42,12 +42,12 @@ def band_checks(fe: ModelCurves, band: Band, tolerances: ToleranceSection) -> li
     return checks
 
 
-def _tangent_check(fe: ModelCurves, band: Band, tolerances: ToleranceSection) -> Check:
+def _tangent_check(fe: ModelCurves, band: Band, tolerances: ToleranceSection, around: Around | None) -> Check:
     up_to, named = tolerances.initial_tangent_up_to, tolerances.initial_tangent_orientations
     average, which = fe.average, "Average FE curve"
     if named is not None and len(named) < len(fe.by_orientation):
         chosen = {o: c for o, c in fe.by_orientation.items() if any(abs(math.degrees(n) - o) < 1e-6 for n in named)}
-        average = mean_curve(list(chosen.values()))
+        average = mean_curve(list(chosen.values()), around)
         which = f"Average FE curve of {', '.join(f'{o:g}' for o in chosen)} degrees alone"
     title = f"{which}: slope from first contact to {up_to * 1e3:g} mm"
     claim = _claim("fe.initial_tangent", title, "initial tangent", "N/m", _role(tolerances), band.source)

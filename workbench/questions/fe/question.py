@@ -21,7 +21,7 @@ from workbench.questions.fe.results import ContinuumCurves, read_continuum
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.wheel.graph import MESH, MESH_WHOLE
-from workbench.study.full import rotational_period
+from workbench.study.full import around, rotational_period
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
 from workbench.study.wheel_design import wheel_design
@@ -46,7 +46,7 @@ def _tasks(study: Study) -> Sequence[Task]:
 
 def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
     tolerances, fe = study.tolerances, results.fe
-    checks = [] if study.reference is None else band_checks(fe, study.reference, tolerances)
+    checks = [] if study.reference is None else band_checks(fe, study.reference, tolerances, around(study))
     checks += [reach_check(fe, tolerances)] if tolerances.asks_for_reach else []
     checks += spread_checks(fe, tolerances, study.judged_deflection)
     checks += overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.judged_load)

@@ -11,6 +11,7 @@ from workbench.questions.mesh_study.question import mesh_study_of
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves
 from workbench.questions.wheel.graph import MESH
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
 
@@ -46,7 +47,7 @@ class ContinuumCurves:
 
 def read_continuum(study: Study, folders: Mapping[str, Path]) -> ContinuumCurves:
     """The curves from the folders of their tasks."""
-    fe = model_curves("fe", folders)
+    fe = model_curves("fe", folders, around(study))
     return ContinuumCurves(
         fe=fe,
         mesh_study=mesh_study_of(study, folders),

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
 from workbench.questions.model_curves import CURVE, model_curves
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.model_parameters import brush_parameters
 
@@ -28,5 +29,5 @@ def stiffness_curves(study: Study, model: str, folders: Mapping[str, Path]) -> l
     """
     if model == "brush":
         return [brush_curve(study, folders["brush"])]
-    found = model_curves(model, folders)
+    found = model_curves(model, folders, around(study) if model in ("fe", "section") else None)
     return [*found.by_orientation.values(), found.average]

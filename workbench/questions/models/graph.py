@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 
 from workbench.execution.task import Task
 from workbench.study.curve_file import in_si
+from workbench.study.full import around
 from workbench.study.model import Study, stated
 from workbench.study.model_parameters import brush_parameters
 from workbench.study.orientation import degrees, orientation_name
@@ -37,6 +39,6 @@ def metrics_task(study: Study) -> Task:
     if study.ancf is not None:
         curves += [orientation_name("ancf", degrees(o)) for o in study.ancf.orientations]
     curves += [] if study.brush is None else ["brush"]
-    inputs = {"max_load": _COMPARED_UP_TO, "user_curves": users}
+    inputs = {"max_load": _COMPARED_UP_TO, "user_curves": users, "around": asdict(around(study))}
     function = "workbench.questions.models.metrics_task:measure"
     return Task(name="metrics", function=function, inputs=inputs, needs=tuple(curves), cost=8.0)

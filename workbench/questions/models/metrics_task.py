@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from contracts.curves import StiffnessCurve, read_curve
+from contracts.curves import Around, StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.execution.result_files import write_result
 from workbench.questions.model_curves import CURVE, ModelCurves, model_curves
@@ -26,7 +26,7 @@ def measure(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
 
     A study may have none of these. Pairs with a continuum curve of which no point converged are left out.
     """
-    fe, pairs = model_curves("fe", needs), {}
+    fe, pairs = model_curves("fe", needs, Around(**inputs["around"])), {}
     ancf = model_curves("ancf", needs) if any(name.startswith("ancf_phi") for name in needs) else None
     if ancf is not None:
         pairs["ancf_average"] = (ancf.average, fe.average)

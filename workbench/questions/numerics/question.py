@@ -24,6 +24,7 @@ from workbench.questions.model_curves import ModelCurves, RunNumbers, model_curv
 from workbench.questions.numerics.energy import energy_check
 from workbench.questions.question import Question
 from workbench.questions.wheel.question import WheelMeshes, read_wheel
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.sections import ToleranceSection
 from workbench.verdict.rules import Claim, at_most, stated
@@ -83,7 +84,7 @@ def read_numerics(study: Study, folders: Mapping[str, Path]) -> Numerics:
     """Everything about the runs from the folders of their tasks."""
     mesh_study = mesh_study_of(study, folders)
     return Numerics(
-        fe=model_curves("fe", folders),
+        fe=model_curves("fe", folders, around(study)),
         others=() if mesh_study is None else mesh_study.runs,
         meshes=read_wheel(study, folders),
         early_ends=early_ends(folders),

@@ -13,7 +13,7 @@ from workbench.questions.model_curves import model_curves
 from workbench.questions.orientations.figures import orientation_figures
 from workbench.questions.orientations.results import OrientationMap
 from workbench.questions.question import Question
-from workbench.study.full import is_mirrored, rotational_period
+from workbench.study.full import around, is_mirrored, rotational_period
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_most
 
@@ -25,7 +25,7 @@ _MIRROR_LIMIT = 0.005
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> OrientationMap:
-    fe = model_curves("fe", folders)
+    fe = model_curves("fe", folders, around(study))
     return OrientationMap(
         curves=fe.loaded, missing=tuple(fe.missing), period=rotational_period(study), mirrored=is_mirrored(study)
     )

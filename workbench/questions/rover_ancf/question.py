@@ -21,6 +21,7 @@ from workbench.questions.rover.drive import Drive, read_drive
 from workbench.questions.rover_ancf.figures import rover_ancf_figures
 from workbench.questions.rover_ancf.results import OBSERVED, AncfRover
 from workbench.questions.rover_mission.requirements import mission_checks
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, on_tire_of_thesis, rover_ancf, rover_on_ancf
 from workbench.study.sections import runs_on_ancf_tires
@@ -77,7 +78,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> AncfRover:
     return AncfRover(
         runs={name: read_drive(folders[f"rover_ancf_{name}"], name, "ancf") for name in runs_of(study)},
         brush={name: read_drive(folders[f"rover_{name}"], name, "brush") for name in brush},
-        fe=model_curves("fe", folders).average,
+        fe=model_curves("fe", folders, around(study)).average,
         preset=rover_ancf(study),
         friction=study.ground.friction,
         of_thesis=on_tire_of_thesis(study),

@@ -32,7 +32,7 @@ from workbench.questions.rover_crosscheck.results import (
     unsolved,
 )
 from workbench.questions.section.graph import section_task, without_planar_model
-from workbench.study.full import is_mirrored, rotational_period
+from workbench.study.full import around, is_mirrored, rotational_period
 from workbench.study.model import Study, stated
 from workbench.study.model_parameters import fits_rover
 from workbench.study.orientation import degrees, orientation_name
@@ -86,7 +86,7 @@ def _section_orientations(study: Study) -> list[float]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> CrossCheck:
-    section, fe = stated(study.ancf_fit, "ancf_fit"), model_curves("fe", folders)
+    section, fe = stated(study.ancf_fit, "ancf_fit"), model_curves("fe", folders, around(study))
     planar = {
         o: read_curve(folders[_section_name(o)] / CURVE, model="section", orientation_deg=o)
         for o in _section_orientations(study)

@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from contracts.curves import StiffnessCurve
+from contracts.curves import Around, StiffnessCurve
 from contracts.records import Check
 from workbench.questions.model_curves import ModelCurves, mean_curve, model_curves
 from workbench.questions.question import Question
 from workbench.questions.section.figures import section_figures
 from workbench.questions.section.graph import section_tasks, without_planar_model
 from workbench.questions.section.results import SectionRuns, largest_difference
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.sections import ToleranceSection
@@ -23,11 +24,13 @@ __all__ = ["SECTION", "section_checks"]
 _SOURCE = "our own solid model; a planar one leaves out the rim's bending along the axle"
 
 
-def section_checks(section: ModelCurves, fe: ModelCurves, tolerances: ToleranceSection) -> list[Check]:
+def section_checks(
+    section: ModelCurves, fe: ModelCurves, tolerances: ToleranceSection, around: Around | None = None
+) -> list[Check]:
     """Each orientation and the average: largest difference of load along the curve, relative to the solid model's."""
     solid = fe.by_orientation
     pairs = {orientation_name("vs_solid", o): (curve, solid.get(o)) for o, curve in section.by_orientation.items()}
-    pairs["agreement"] = _averages(section, fe)
+    pairs["agreement"] = _averages(section, fe, around)
     return [
         at_most(
             Claim(
@@ -45,12 +48,12 @@ def section_checks(section: ModelCurves, fe: ModelCurves, tolerances: ToleranceS
     ]
 
 
-def _averages(section: ModelCurves, fe: ModelCurves) -> tuple[StiffnessCurve, StiffnessCurve]:
+def _averages(section: ModelCurves, fe: ModelCurves, around: Around | None) -> tuple[StiffnessCurve, StiffnessCurve]:
     """Both averages; where a model misses an orientation, over those that neither misses."""
     both = [o for o in section.loaded if o in fe.loaded]
     if not (both and (section.missing or fe.missing)):
         return section.average, fe.average
-    of_section, of_solid = (mean_curve([model.by_orientation[o] for o in both]) for model in (section, fe))
+    of_section, of_solid = (mean_curve([model.by_orientation[o] for o in both], around) for model in (section, fe))
     return of_section, of_solid
 
 
@@ -59,11 +62,13 @@ def _where(curve: StiffnessCurve) -> str:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> SectionRuns:
-    return SectionRuns(section=model_curves("section", folders), fe=model_curves("fe", folders))
+    return SectionRuns(
+        section=model_curves("section", folders, around(study)), fe=model_curves("fe", folders, around(study))
+    )
 
 
 def _checks(study: Study, runs: SectionRuns) -> Sequence[Check]:
-    return section_checks(runs.section, runs.fe, study.tolerances)
+    return section_checks(runs.section, runs.fe, study.tolerances, around(study))
 
 
 def _curves(study: Study, runs: SectionRuns) -> Sequence[StiffnessCurve]:

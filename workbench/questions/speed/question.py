@@ -19,6 +19,7 @@ from workbench.questions.section.graph import without_planar_model
 from workbench.questions.speed.aims import ARITHMETIC, CHRONO, TIRE, Aim, ancf_aims, flexible_aims, rover_aims
 from workbench.questions.speed.record import BenchmarkRecord, BenchmarkRow, read_record
 from workbench.questions.verification.question import VERIFICATION
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_most
 
@@ -149,9 +150,9 @@ def kept_runs() -> dict[str, BenchmarkRecord]:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> SpeedResults:
-    costs = _costs("fe", model_curves("fe", folders))
+    costs = _costs("fe", model_curves("fe", folders, around(study)))
     if without_planar_model(study) is None:
-        costs += _costs("section", model_curves("section", folders))
+        costs += _costs("section", model_curves("section", folders, around(study)))
     return SpeedResults(**kept_runs(), curves=tuple(costs))
 
 

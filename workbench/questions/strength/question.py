@@ -22,6 +22,7 @@ from workbench.questions.strength.yielding import (
     utilisation,
     yield_strengths,
 )
+from workbench.study.full import around
 from workbench.study.model import LARGEST_WHEEL_LOAD, Study
 from workbench.verdict.rules import Claim, at_least, at_most
 
@@ -61,7 +62,7 @@ def _largest_up_to(curve: StiffnessCurve, column: str, load: float) -> float:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
-    fe = model_curves("fe", folders)
+    fe = model_curves("fe", folders, around(study))
     curves = fe.loaded
     stressed = {
         part: s for part, s in yield_strengths(study).items() if any(utilisation(c, {part: s}) for c in curves.values())

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from contracts.curves import StiffnessCurve, read_curve
+from contracts.curves import Around, StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.execution.result_files import early_ends
 from workbench.execution.store import Entry
@@ -20,7 +20,7 @@ from workbench.questions.model_curves import CURVE, distances_from, mean_curve
 from workbench.questions.models.metrics import compare_curves
 from workbench.questions.sweep.graph import SweepGraph, SweepRun
 from workbench.study.curve_file import read_measured_curve
-from workbench.study.full import arc_weights
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.sweep import SweepSection
 
@@ -80,16 +80,15 @@ def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str,
     return Outcome(
         run=run,
         by_orientation=tuple(curves),
-        curve=curves[0] if len(curves) == 1 else mean_curve(curves, _weights(run, curves)),
+        curve=curves[0] if len(curves) == 1 else mean_curve(curves, _around(run)),
         note="; ".join(_reach(curves) + list(early_ends(folders).values())),
         wall_s=sum(entries[name].wall_s for name in run.tasks),
     )
 
 
-def _weights(run: SweepRun, curves: Sequence[StiffnessCurve]) -> list[float] | None:
-    """Arcs that the orientations of a finite element curve stand for; an ANCF tire's count alike."""
-    angles = [c.orientation_deg for c in curves if c.orientation_deg is not None]
-    return arc_weights(run.point.study, angles) if run.model in ("fe", "section") else None
+def _around(run: SweepRun) -> Around | None:
+    """Of a finite element curve; an ANCF tire's orientations count alike."""
+    return around(run.point.study) if run.model in ("fe", "section") else None
 
 
 def _reach(curves: Sequence[StiffnessCurve]) -> list[str]:

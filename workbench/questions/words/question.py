@@ -13,14 +13,14 @@ from pathlib import Path
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.model_curves import mean_curve, model_curves
+from workbench.questions.model_curves import model_curves
 from workbench.questions.models.curves import brush_curve
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.words.figures import words_figures
 from workbench.questions.words.graph import TWIN, asked, twin_tasks
 from workbench.questions.words.results import AT, LOADS, SMALL, SPREAD_AT, Words, follows, spread
-from workbench.study.full import arc_weights
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_least, at_most, near
 
@@ -96,16 +96,16 @@ def _claim(name: str, title: str, quantity: str, unit: str = "-") -> Claim:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> Words:
-    fe = model_curves("fe", folders)
+    fe = model_curves("fe", folders, around(study))
     if study.brush is None:
         raise InputError("[brush]", "", "is not in the study", "add it")
     return Words(
         fe=fe,
-        average=mean_curve(list(fe.by_orientation.values()), arc_weights(study, list(fe.by_orientation))),
+        average=fe.average,
         ancf=model_curves("ancf", folders),
         brush=brush_curve(study, folders["brush"]),
-        section=model_curves("section", folders),
-        twin=model_curves(TWIN, folders),
+        section=model_curves("section", folders, around(study)),
+        twin=model_curves(TWIN, folders, around(study)),
         yield_strength=yield_strengths(study),
     )
 
