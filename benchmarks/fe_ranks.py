@@ -93,7 +93,7 @@ def solve(size: str, answer: Path) -> None:
     """Solve the wheel, as one of the processes; the first one writes the numbers."""
     from contracts.materials import TI_6AL_4V
     from geometry.build import build_mesh
-    from geometry.wheel import WheelDesign
+    from geometry.wheel import exomars_hoops
     from reference_fe.dolfinx_api import COMM, MPI
     from reference_fe.problem.domain import Domain
     from reference_fe.solver.newton import NewtonSolver
@@ -101,7 +101,7 @@ def solve(size: str, answer: Path) -> None:
 
     element_size, axial_size = SIZES[size]
     mesh = build_mesh(
-        WheelDesign(), element_size=element_size, axial_size=axial_size, parts="flexible", half_width=True
+        exomars_hoops(), element_size=element_size, axial_size=axial_size, parts="flexible", half_width=True
     )
     spent: list[tuple[float, int, float, float]] = []
     NewtonSolver.solve = timed(NewtonSolver.solve, spent)  # type: ignore[method-assign]

@@ -9,7 +9,7 @@ from contracts.declared import In, PositiveDensity, PositivePressure, require_de
 from contracts.errors import InputError
 from contracts.materials_temperature import REFERENCE_TEMPERATURE, temperature_data
 
-__all__ = ["AISI_301", "SPRING_STEEL", "TI_6AL_4V", "Material"]
+__all__ = ["AISI_301", "SPRING_STEEL", "TI_6AL_4V", "TI_6AL_4V_AGED", "Material"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,6 +103,11 @@ TI_6AL_4V = Material(
     yield_strength=880.0e6,
     source="MatWeb/ASM data sheet, Ti-6Al-4V grade 5 annealed, 20 C",
     temperature_data="Ti-6Al-4V",
+)
+TI_6AL_4V_AGED = replace(
+    TI_6AL_4V,
+    yield_strength=1100.0e6,
+    source="MatWeb/ASM data sheets, Ti-6Al-4V grade 5, 20 C: modulus annealed, strength solution treated and aged",
 )
 AISI_301 = Material(
     name="AISI 301 full hard",

@@ -4,46 +4,59 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from contracts.materials import Material
+from contracts.materials import TI_6AL_4V, TI_6AL_4V_AGED, Material
 from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
 from geometry.sidewall import SidewallSprings
 from geometry.validation import validate_wheel
 
-__all__ = ["WheelDesign", "exomars"]
+__all__ = ["WheelDesign", "exomars", "exomars_hoops"]
 
-_STRIP = 0.609e-3
-_WELD = 8.0e-3
+_WELD = 12.0e-3
 
 
 def _tire() -> Tire:
-    return Tire(outer_radius=142.5e-3, width=120.0e-3, thickness=_STRIP)
+    return Tire(outer_radius=142.5e-3, width=120.0e-3, thickness=0.9231e-3, material=TI_6AL_4V_AGED)
 
 
 def _grousers() -> Grousers:
-    return Grousers(count=12, height=3.0e-3, thickness=1.0e-3)
+    phase = math.radians(0.97)
+    return Grousers(count=12, height=3.0e-3, thickness=1.0e-3, phase=phase, material=TI_6AL_4V_AGED)
 
 
 def _spring_sets() -> tuple[SpringSet, ...]:
     outer = SpringSet(
         name="springs_outer",
-        count=3,
-        bands=((-60.0e-3, -40.0e-3), (40.0e-3, 60.0e-3)),
-        thickness=_STRIP,
-        shape="hoop",
+        count=6,
+        bands=((-60.0e-3, -25.65e-3), (25.65e-3, 60.0e-3)),
+        thickness=0.59e-3,
+        shape="spline",
+        points=((0.33, math.radians(26.82)), (0.67, math.radians(35.51))),
         weld_length=_WELD,
+        material=TI_6AL_4V_AGED,
     )
     inner = SpringSet(
         name="springs_inner",
         count=3,
-        phase=math.radians(60.0),
-        bands=((-20.0e-3, 20.0e-3),),
-        thickness=_STRIP,
-        shape="hoop",
+        phase=math.radians(50.14),
+        bands=((-22.08e-3, 22.08e-3),),
+        thickness=0.4196e-3,
+        shape="spline",
+        direction=-1,
+        points=((0.33, math.radians(22.46)), (0.67, math.radians(40.0))),
         weld_length=_WELD,
+        material=TI_6AL_4V_AGED,
     )
     return (outer, inner)
+
+
+def _outer_hub() -> HubRing:
+    return HubRing(outer_radius=31.24e-3, thickness=2.0e-3, width=120.0e-3, material=TI_6AL_4V_AGED)
+
+
+def _cone() -> Cone:
+    return Cone(thickness=1.5e-3, outer_position=36.0e-3, inner_position=22.0e-3, material=TI_6AL_4V_AGED)
 
 
 def _impact_springs() -> SpringSet:
@@ -55,24 +68,29 @@ def _impact_springs() -> SpringSet:
         thickness=1.0e-3,
         shape="arc",
         weld_length=6.0e-3,
+        material=TI_6AL_4V_AGED,
     )
+
+
+def _inner_hub() -> HubRing:
+    return HubRing(outer_radius=20.0e-3, thickness=3.0e-3, width=60.0e-3, material=TI_6AL_4V_AGED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WheelDesign:
-    """An airless wheel: rim, springs and hub. The default is the ExoMars rover's wheel with hoop springs of Ti-6Al-4V.
+    """An airless wheel: rim, springs and hub. The default is the ExoMars rover's wheel as the thesis' words allow it.
 
-    Published (thesis, theory notes 8): outside size 285 x 120 mm; 12 grousers at 30 degrees; 6 outer springs as 3
-    stations of two at the lateral faces; 3 inner springs at mid-width; outer hub, cone, impact springs and inner hub as
-    parts.
+    Published (thesis, theory notes 8): outside size 285 x 120 mm; 12 grousers at 30 degrees; 6 outer springs; 3 inner
+    springs, out of phase with them; outer hub, cone, impact springs and inner hub as parts.
 
-    **Inferred, not published**: the inner springs' turn of 60 degrees against the outer ones; that a spring is a hoop
-    of two mirrored semicircles; the strip thickness 0.609 mm, one for rim and springs (chosen so that the solid
-    model's average curve starts at 8.25 N/mm with hub radius 50 mm); the spring bands -60..-40, -20..20 and
-    40..60 mm; a weld of 8 mm; height 3 mm, thickness 1 mm and phase 0 of the grousers; the outer hub's radius 50 mm,
-    thickness 2 mm and width 120 mm; everything of the cone (a mirrored pair, 1.5 mm, from y = 36 mm at the outer to
-    y = 22 mm at the inner hub), of the impact springs (6 semicircles of 1 mm strip, y = -15..15 mm, weld 6 mm, phase 30
-    degrees) and of the inner hub (radius 20 mm, thickness 3 mm, width 60 mm); Ti-6Al-4V for every part.
+    **Inferred, not published**: springs as leaves bowed one way (splines through two points), the inner ones the other
+    way; six stations of outer leaves, each in two halves at the lateral faces; their points, bands, welds and phases,
+    the thicknesses of rim and leaves and the outer hub's radius, all from the search for wheels that satisfy what the
+    thesis says of its reference (docs/theory/words.md, studies/words_search.toml); height and thickness of the
+    grousers; the outer hub's thickness 2 mm and width 120 mm; everything of the cone (a mirrored pair, 1.5 mm, from
+    y = 36 mm at the outer to y = 22 mm at the inner hub), of the impact springs (6 semicircles of 1 mm strip,
+    y = -15..15 mm, weld 6 mm, phase 30 degrees) and of the inner hub (radius 20 mm, thickness 3 mm, width 60 mm);
+    Ti-6Al-4V, solution treated and aged, for every part.
 
     Attributes
     ----------
@@ -99,14 +117,10 @@ class WheelDesign:
     grousers: Grousers | None = field(default_factory=_grousers)
     spring_sets: tuple[SpringSet, ...] = field(default_factory=_spring_sets)
     sidewall_springs: SidewallSprings | None = None
-    outer_hub: HubRing = field(default_factory=lambda: HubRing(outer_radius=50.0e-3, thickness=2.0e-3, width=120.0e-3))
-    cone: Cone | None = field(
-        default_factory=lambda: Cone(thickness=1.5e-3, outer_position=36.0e-3, inner_position=22.0e-3)
-    )
+    outer_hub: HubRing = field(default_factory=_outer_hub)
+    cone: Cone | None = field(default_factory=_cone)
     impact_springs: SpringSet | None = field(default_factory=_impact_springs)
-    inner_hub: HubRing | None = field(
-        default_factory=lambda: HubRing(outer_radius=20.0e-3, thickness=3.0e-3, width=60.0e-3)
-    )
+    inner_hub: HubRing | None = field(default_factory=_inner_hub)
 
     def __post_init__(self) -> None:
         validate_wheel(self)
@@ -129,3 +143,33 @@ class WheelDesign:
 def exomars() -> WheelDesign:
     """Return the default design: the ExoMars rover's wheel (see ``WheelDesign`` for what is inferred)."""
     return WheelDesign()
+
+
+def exomars_hoops() -> WheelDesign:
+    """Return the wheel that the project had before (studies/exomars_hoops.toml): hoops of one thickness.
+
+    Three stations of two outer and three inner hoops, each of two mirrored semicircles; 0.609 mm, chosen so that the
+    solid model's average curve starts at 8.25 N/mm; hub radius 50 mm. It is its own mirror image, and its springs touch
+    the rim. Verified by tests/unit/test_geometry_validation.py.
+    """
+    strip, weld = 0.609e-3, 8.0e-3
+    inner = SpringSet(
+        name="springs_inner",
+        count=3,
+        phase=math.radians(60.0),
+        bands=((-20.0e-3, 20.0e-3),),
+        thickness=strip,
+        shape="hoop",
+        weld_length=weld,
+    )
+    sides = ((-60.0e-3, -40.0e-3), (40.0e-3, 60.0e-3))
+    return WheelDesign(
+        name="exomars_hoops",
+        tire=Tire(outer_radius=142.5e-3, width=120.0e-3, thickness=strip),
+        grousers=Grousers(count=12, height=3.0e-3, thickness=1.0e-3),
+        spring_sets=(replace(inner, name="springs_outer", phase=0.0, bands=sides), inner),
+        outer_hub=HubRing(outer_radius=50.0e-3, thickness=2.0e-3, width=120.0e-3),
+        cone=replace(_cone(), material=TI_6AL_4V),
+        impact_springs=replace(_impact_springs(), material=TI_6AL_4V),
+        inner_hub=replace(_inner_hub(), material=TI_6AL_4V),
+    )

@@ -12,7 +12,7 @@ from contracts.materials import TI_6AL_4V, Material
 from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
 from geometry.inp import TWENTY_NODES
-from geometry.wheel import exomars
+from geometry.wheel import exomars_hoops
 from reference_fe.cells.orientation import curved_axis_first
 from reference_fe.verification.structured_hexahedra import block_mesh
 
@@ -99,10 +99,10 @@ def wheel(element_size: float, axial_size: float, orientation_deg: float = 30.0)
 
     The edge stands for the ground: every mesh has it at the same place, and no code needs contact to press on it.
     """
-    mesh = build_mesh(exomars(), element_size=element_size, axial_size=axial_size, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=element_size, axial_size=axial_size, parts="flexible")
     mesh = curved_axis_first(mesh, straight=np.array([0.0, 1.0, 0.0]))
     mesh = _turn(mesh, np.deg2rad(orientation_deg))
-    foot = 0.5 * exomars().grousers.thickness
+    foot = 0.5 * exomars_hoops().grousers.thickness
     mesh = _split(mesh, "grouser_outer", lambda x: (x[:, 2] < 0.0) & (np.abs(x[:, 0]) < 1.001 * foot))
     return LoadCase(
         mesh=mesh,

@@ -34,7 +34,7 @@ from workbench.study.reading import built_in_study, read_study
 PAGE = Path(__file__).parents[1] / "reference" / "study_keys.md"
 REPORT_ONLY = ("name", "title", "*.source", "inferred.*", "reference.*", "tolerances.*", "ancf.thesis_preset")
 """Words, limits and what results are held against: the comparison reads them, nothing is computed again."""
-ASKS = ("tolerances.reference_wheel",)
+ASKS = ("tolerances.reference_wheel", "ancf.thesis_preset")
 """Keys among those that ask a question of their own."""
 GROUPS = {
     "mesh": ("mesh", "mesh_*"),
@@ -43,7 +43,7 @@ GROUPS = {
     "penalty study": ("fe_penalty*", "mesh_penalty"),
     "temperature": ("environment_*",),
     "section model": ("section_*", "crosscheck_*", "words_twin_*"),
-    "ANCF tire": ("ancf_*",),
+    "ANCF tire": ("ancf_*", "words_hub*"),
     "fitted ANCF tires": ("ancf_fit_*", "ancf_as_it_is"),
     "brush line": ("brush",),
     "rover": ("rover_*",),
@@ -147,7 +147,10 @@ def changed(study: Study, base: Mapping[str, Given], key: Key, value: Any, annot
     """
     for other in others(value, annotation):
         with suppress(WorkbenchError):
-            now = given(with_value(study, key, other))
+            moved = with_value(study, key, other)
+            if key[-1] == "shape" and value == "spline":  # whose points no other shape has
+                moved = with_value(moved, (*key[:-1], "points"), ())
+            now = given(moved)
             found = {name for name in base.keys() | now.keys() if base.get(name) != now.get(name)}
             for name, one in now.items():  # each after those that it needs
                 if found.intersection(one.needs):

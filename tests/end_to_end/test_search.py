@@ -25,6 +25,10 @@ loads = ["20 N", "40 N"]
 [sweep.aims]
 load_at_5mm_N = { target = 41.25, within = 0.03 }
 max_linearised_at_40N_Pa = { at_most = 100e6 }
+
+[sweep.one_of.reading]
+soft = { deflection_at_20N_m = { at_least = 1e-3 } }
+stiff = { deflection_at_20N_m = { at_most = 1e-4 } }
 """
 
 
@@ -57,6 +61,7 @@ def test_every_point_is_judged_and_the_best_run_again(searched: tuple[Path, str]
     assert float(again[0]["load_at_5mm_N"]) == pytest.approx(float(ranked[0]["load_at_5mm_N"]), rel=0.03)
     assert all(len(row["task_key"].split()) == 2 for row in again)
     assert {row["pareto"] for row in rows} == {"0.0", "1.0"}
+    assert {row["reading"] for row in rows} == {"soft"}
     assert float(ranked[0]["largest_miss"]) < float(ranked[-1]["largest_miss"])
 
 

@@ -13,7 +13,7 @@ from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.contact.inner import ContactPair, InnerContact, InnerContactTerm
 from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.inner_pairs import wheel_contact_pairs
@@ -262,7 +262,7 @@ def test_no_point_slips_off_where_a_strip_is_welded(overhang: float, touching: i
 @pytest.mark.parametrize("thickness_elements", [1, 2, 3])
 def test_faces_of_thin_rings_look_away_from_them(thickness_elements: int) -> None:
     """The middle of a curved facet bulges beyond the middle of its own thin cell: corners tell the side."""
-    mesh = build_planar_mesh(WheelDesign(), element_size=16e-3, thickness_elements=thickness_elements)
+    mesh = build_planar_mesh(exomars_hoops(), element_size=16e-3, thickness_elements=thickness_elements)
     domain = Domain.from_tagged(mesh)
     V = fem.functionspace(domain.mesh, ("Lagrange", 2, (2,)))
     for face, outward in (("tire_inner", -1.0), ("outer_hub_outer", 1.0)):
@@ -273,7 +273,7 @@ def test_faces_of_thin_rings_look_away_from_them(thickness_elements: int) -> Non
 
 def test_a_planar_rim_has_no_hole_under_another_bands_weld() -> None:
     """Rim's inside less the welds of the slave's own set: 2 pi R - 3 x 8 mm; less both sets' without the joints."""
-    design = WheelDesign()
+    design = exomars_hoops()
     mesh = build_planar_mesh(design, element_size=16e-3)
     domain = Domain.from_tagged(mesh)
     V = fem.functionspace(domain.mesh, ("Lagrange", 2, (2,)))
@@ -314,14 +314,14 @@ def test_bad_settings_are_refused() -> None:
 
 
 def test_spring_sets_of_a_planar_wheel_pass_each_other() -> None:
-    pairs = wheel_contact_pairs(build_planar_mesh(WheelDesign(), element_size=14e-3))
+    pairs = wheel_contact_pairs(build_planar_mesh(exomars_hoops(), element_size=14e-3))
     names = {(pair.slave, pair.master) for pair in pairs}
     assert {("springs_outer_front", "tire_inner"), ("springs_outer_front", "springs_outer_front")} <= names
     assert ("springs_outer_front", "springs_inner_front") not in names
 
 
 def test_pairs_of_a_wheel() -> None:
-    design = WheelDesign()
+    design = exomars_hoops()
     flexible = wheel_contact_pairs(build_mesh(design, element_size=14e-3, parts="flexible"))
     names = {(pair.slave, pair.master) for pair in flexible}
     assert {("springs_outer_front", "tire_inner"), ("springs_inner_back", "springs_inner_back")} <= names

@@ -11,7 +11,7 @@ from contracts.errors import InputError
 from geometry.build import build_mesh, mesh_size
 from geometry.counting import LARGEST_MESH, count_planar, count_solid
 from geometry.planar import build_planar_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 
 SIZES: dict[str, Any] = {"element_size": 0.016, "axial_size": 0.04, "thickness_elements": 1, "refinement": None}
 
@@ -22,7 +22,7 @@ SIZES: dict[str, Any] = {"element_size": 0.016, "axial_size": 0.04, "thickness_e
 )
 def test_the_count_is_that_of_the_mesh(choice: str, order: int, factor: float) -> None:
     """Cells exactly, nodes to 8 %; all parts with the cone as well."""
-    design, sizes = WheelDesign(), SIZES | ({"thickness_elements": 2} if choice == "thick" else {})
+    design, sizes = exomars_hoops(), SIZES | ({"thickness_elements": 2} if choice == "thick" else {})
     half, parts = choice != "whole", "all" if choice == "whole" else "flexible"
     size = replace(mesh_size(design, **sizes), factor=factor)
     count = count_solid(design, size, order, parts, half_width=half)  # type: ignore[arg-type]
@@ -32,8 +32,8 @@ def test_the_count_is_that_of_the_mesh(choice: str, order: int, factor: float) -
 
 
 def test_the_count_of_a_section() -> None:
-    mesh = build_planar_mesh(WheelDesign(), element_size=0.01)
-    count = count_planar(WheelDesign(), mesh_size(WheelDesign(), 0.01, None, 1, None), 2)
+    mesh = build_planar_mesh(exomars_hoops(), element_size=0.01)
+    count = count_planar(exomars_hoops(), mesh_size(exomars_hoops(), 0.01, None, 1, None), 2)
     assert count.cells == len(mesh.cells)
     assert count.nodes == pytest.approx(len(mesh.points), rel=0.08)
 
@@ -46,12 +46,12 @@ def test_billions_of_cells_are_refused_before_gmsh_starts(size: float, monkeypat
     monkeypatch.setattr("geometry.build.gmsh_session", never)
     monkeypatch.setattr("geometry.planar.gmsh_session", never)
     with pytest.raises(InputError, match=rf"element_size = .* mm .* cells, at most {LARGEST_MESH}"):
-        build_mesh(WheelDesign(), element_size=size)
+        build_mesh(exomars_hoops(), element_size=size)
     if size < 1e-8:
         with pytest.raises(InputError, match="cells, at most"):
-            build_planar_mesh(WheelDesign(), element_size=size)
+            build_planar_mesh(exomars_hoops(), element_size=size)
 
 
 def test_a_huge_factor_is_refused() -> None:
     with pytest.raises(InputError, match="cells, at most"):
-        build_mesh(WheelDesign(), element_size=0.016, factor=1e6)
+        build_mesh(exomars_hoops(), element_size=0.016, factor=1e6)

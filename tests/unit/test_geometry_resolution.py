@@ -13,9 +13,9 @@ from contracts.errors import InputError
 from geometry.build import build_mesh
 from geometry.parts import Cone
 from geometry.resolution import MeshSize, Ring, axial_bands, axial_levels, hub_ring, part_names, rim_ring
-from geometry.wheel import exomars
+from geometry.wheel import exomars_hoops
 
-WHEEL = exomars()
+WHEEL = exomars_hoops()
 
 
 def size(element: float = 8e-3, thickness_elements: int = 1, **refinement: float) -> MeshSize:

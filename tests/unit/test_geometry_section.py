@@ -10,9 +10,9 @@ import pytest
 
 from geometry.resolution import MeshSize, hub_ring, rim_ring
 from geometry.section import Section, build_section
-from geometry.wheel import exomars
+from geometry.wheel import exomars_hoops
 
-WHEEL = exomars()
+WHEEL = exomars_hoops()
 
 
 def section(*active: str, thickness_elements: int = 1) -> Section:

@@ -26,6 +26,12 @@ def study() -> Study:
     return read_study(built_in_study())
 
 
+@pytest.fixture(scope="module")
+def hoops() -> Study:
+    """Its own mirror image."""
+    return read_study(HERE / "exomars_hoops.toml")
+
+
 def _springs(study: Study, **changes: object) -> Study:
     """The study with its first spring set changed."""
     first, *others = study.wheel.springs
@@ -56,7 +62,7 @@ def test_meshes_of_default_and_full_study_are_shared(study: Study) -> None:
     assert default["fe_x2"].key({"mesh_x2": "m"}) == full["fe_x2"].key({"mesh_x2": "m"})
 
 
-@pytest.mark.parametrize("path", sorted(HERE.glob("*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(set(HERE.glob("*.toml")) - {HERE / "words_search.toml"}), ids=lambda p: p.stem)
 def test_every_shipped_study_has_a_full_study(path: Path) -> None:
     full = full_study(read_study(path))
     steps = np.diff([math.degrees(o) for o in full.fe.orientations])
@@ -70,21 +76,23 @@ def test_the_wheel_repeats_itself_after_the_common_divisor_of_its_counts(study: 
     assert rotational_period(study.model_copy(update={"wheel": bare})) == 120.0
 
 
-def test_orientations_stand_for_arcs_of_the_period(study: Study) -> None:
+def test_orientations_stand_for_arcs_of_the_period(study: Study, hoops: Study) -> None:
     """A mirrored wheel has half a period, 60 deg, whose ends count half; a one-way wheel a circle of 120 deg."""
-    assert around(study).weights([0.0, 15.0, 30.0, 45.0, 60.0]) == pytest.approx([0.125, 0.25, 0.25, 0.25, 0.125])
-    assert around(study).weights([0.0, 120.0, 60.0]) == pytest.approx([0.25, 0.25, 0.5])
-    one_way = _springs(study, shape="arc")
+    assert around(hoops).weights([0.0, 15.0, 30.0, 45.0, 60.0]) == pytest.approx([0.125, 0.25, 0.25, 0.25, 0.125])
+    assert around(hoops).weights([0.0, 120.0, 60.0]) == pytest.approx([0.25, 0.25, 0.5])
+    assert around(study).weights([0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0]) == pytest.approx([0.125] * 8)
+    one_way = _springs(hoops, shape="arc")
     assert around(one_way).weights([0.0, 30.0, 60.0, 90.0]) == pytest.approx([0.25] * 4)
     assert around(one_way).weights([0.0, 15.0, 60.0]) == pytest.approx([37.5 / 120.0, 30.0 / 120.0, 52.5 / 120.0])
     assert around(one_way).weights([45.0]) == [1.0]
 
 
-def test_mirror_symmetry_needs_phases_and_two_sided_springs(study: Study) -> None:
-    assert is_mirrored(study)
-    assert not is_mirrored(_springs(study, phase=math.radians(10.0)))
-    assert not is_mirrored(_springs(study, shape="arc"))
-    elastic = study.model_copy(update={"fe": study.fe.model_copy(update={"hub": "elastic"})})
+def test_mirror_symmetry_needs_phases_and_two_sided_springs(study: Study, hoops: Study) -> None:
+    assert not is_mirrored(study)
+    assert is_mirrored(hoops)
+    assert not is_mirrored(_springs(hoops, phase=math.radians(10.0)))
+    assert not is_mirrored(_springs(hoops, shape="arc"))
+    elastic = hoops.model_copy(update={"fe": hoops.fe.model_copy(update={"hub": "elastic"})})
     assert not is_mirrored(elastic)  # the impact springs are arcs
 
 

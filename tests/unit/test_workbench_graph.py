@@ -19,6 +19,7 @@ from workbench.questions.rover_closer.question import ROVER_CLOSER
 from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.questions.study_graph import mesh_tasks, report_tasks, stiffness_tasks
 from workbench.questions.verification.question import VERIFICATION
+from workbench.questions.words.readings import reading_tasks
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study, read_study
@@ -86,6 +87,7 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
     refined = {f"ancf_plates_x{factor}" for factor in (1, 2, 4, 8)} | {"ancf_drop", "ancf_drop_share", "ancf_ride"}
     driven = {task.name for question in (ROVER_ANCF, ROVER_CLOSER) for task in question.tasks(study)}
     curves = {"ancf_phi000", "ancf_phi045", "ancf_surfaces", "ancf_as_it_is", "metrics"}
+    curves |= {task.name for task in reading_tasks(study)}
     assert _new_keys(before, ancf) == curves | refined | driven
     finest = report_tasks(_changed(study, "mesh_study", factors=(1.0, 1.5, 2.5)))
     on_the_fit = {"rover_stands_six_spokes"} | {task.name for task in ROVER_MISSION.tasks(study)}
@@ -96,6 +98,7 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
     closed = (VERIFICATION, MULTIBODY, ROVER, ROVER_ANCF, ROVER_CLOSER)
     verified = {task.name for question in closed for task in question.tasks(study)}
     kept = {"ancf_phi000", "ancf_phi045", "brush", "ancf_surfaces"} | refined | verified
+    kept |= {task.name for task in reading_tasks(study)}
     assert kept == set(task_keys(before)) - _new_keys(before, mesh)
 
 

@@ -44,7 +44,10 @@ _AIM = "in the unit of whatever column of the table it is for"
 FREE = {
     "sweep.seed": "any whole number draws points as well as any other",
     **{f"sweep.aims.*.{kind}": _AIM for kind in ("target", "at_most", "at_least")},
+    **{f"sweep.one_of.*.*.*.{kind}": _AIM for kind in ("target", "at_most", "at_least")},
     "sweep.aims.*.within": "a relative difference, more than 0 and at most 1",
+    "sweep.one_of.*.*.*.within": "a relative difference, more than 0 and at most 1",
+    "sweep.first_step": "a part of a range, more than 0 and at most 1",
 }
 """Numbers without a limit, and why."""
 

@@ -54,6 +54,17 @@ def test_misses_are_one_at_the_limits() -> None:
     assert found.cost == pytest.approx(found.largest)
 
 
+def test_of_a_group_the_best_alternative_counts_with_all_its_aims() -> None:
+    """8240 N/m: 3 % over 160 N at 20 mm, 0.5 % under 82.8 N at 10 mm, 3.8 % under 257 N at 30 mm."""
+    near = {"load_at_10mm_N": {"target": 82.8, "within": 0.01}}
+    groups = {"reading": {"late": {"load_at_30mm_N": {"target": 257.0, "within": 0.03}}, "early": near}}
+    found = judge(_outcome(8240.0, 2.5e6), _section(one_of=groups), 0.005, {})
+    assert found.chosen == {"reading": "early"}
+    assert found.misses["reading"] == pytest.approx(abs(82.4 / 82.8 - 1.0) / 0.01)
+    both = {"reading": {"early": near | groups["reading"]["late"]}}
+    assert judge(_outcome(8240.0, 2.5e6), _section(one_of=both), 0.005, {}).misses["reading"] > 1.0
+
+
 def test_a_search_may_read_a_point_at_the_thickness_that_meets_the_aims_best() -> None:
     """Twice as stiff: thinner by the cube root of two; at the same load its stress is higher by the square of that."""
     found = judge(_outcome(16000.0, 1e6), _section(scaled=True), 0.005, {})
@@ -110,7 +121,8 @@ def test_a_strategy_that_has_converged_starts_anew() -> None:
 
 
 def _judged(number: int, *misses: float) -> Judged:
-    return Judged(scale=1.0, misses=dict(enumerate(misses)), outcome=_outcome(8000.0, 1e6, number))  # type: ignore[arg-type]
+    outcome = _outcome(8000.0, 1e6, number)
+    return Judged(scale=1.0, misses=dict(enumerate(misses)), chosen={}, outcome=outcome)  # type: ignore[arg-type]
 
 
 def test_best_points_and_those_that_none_beats() -> None:
@@ -129,6 +141,9 @@ def test_best_points_and_those_that_none_beats() -> None:
         ({"aims": {"load_at_20mm_N": {"at_most": 1.0, "at_least": 2.0}}}, "must be one of three"),
         ({"samples": None}, "must say how many"),
         ({"batch": 2}, "batch"),
+        ({"one_of": {"load_at_20mm_N": {"a": AIMS}}}, "is a column of the table too"),
+        ({"one_of": {"reading": {}}}, "one_of.reading"),
+        ({"one_of": {"reading": {"a": {}}}}, "one_of.reading.a"),
         ({"design": "latin-hypercube", "aims": {}, "scaled": True}, 'scaled = .*belongs to design = "search"'),
     ],
 )

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from contracts.errors import StudyError
+from geometry.wheel import WheelDesign, exomars, exomars_hoops
 from workbench.study.model_parameters import ancf_preset, brush_parameters
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.wheel_design import wheel_design
 
-TEXT = built_in_study().read_text(encoding="utf-8")
+HOOPS = built_in_study().parent / "exomars_hoops.toml"
+TEXT = HOOPS.read_text(encoding="utf-8")
 
 
 THICKNESS = r'thickness = "[^"]*"'
@@ -22,7 +26,7 @@ USER = '[[compare.curves]]\nfile = "none.csv"\nlabel = "a"\n'
 
 
 def _write(tmp_path: Path, old: str, new: str) -> Path:
-    """The built-in study with the first match of a pattern replaced."""
+    """The study of the hoops with the first match of a pattern replaced."""
     text, count = re.subn(old, lambda _: new, TEXT, count=1)
     assert count == 1, f"the study no longer contains {old!r}: mend this test"
     path = tmp_path / "study.toml"
@@ -40,8 +44,26 @@ def test_built_in_study_is_read_in_si() -> None:
     assert study.name == "exomars"
     assert study.wheel.tire.outer_radius == 0.1425
     assert study.materials["Ti-6Al-4V"].young_modulus == 113.8e9
-    assert study.fe.orientations == pytest.approx([math.radians(d) for d in (0, 15, 30, 45, 60)], abs=1e-14)
+    assert study.fe.orientations == pytest.approx([math.radians(d) for d in range(0, 120, 15)], abs=1e-14)
     assert study.reference.initial_tangent == 8250.0
+
+
+@pytest.mark.parametrize(("path", "design"), [(built_in_study(), exomars()), (HOOPS, exomars_hoops())])
+def test_the_wheels_of_python_are_those_of_the_studies(path: Path, design: WheelDesign) -> None:
+    _require_alike(asdict(wheel_design(read_study(path))), asdict(design))
+
+
+def _require_alike(found: Any, expected: Any) -> None:
+    if isinstance(expected, dict):
+        assert found.keys() == expected.keys()
+        for key, value in expected.items():
+            _require_alike(found[key], value)
+    elif isinstance(expected, tuple | list):
+        assert len(found) == len(expected)
+        for one, other in zip(found, expected, strict=True):
+            _require_alike(one, other)
+    else:
+        assert found == (pytest.approx(expected, rel=1e-12) if isinstance(expected, float) else expected)
 
 
 def test_models_take_the_study_values() -> None:
@@ -70,7 +92,7 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     "string without unit": (THICKNESS, 'thickness = "0.6"', ["wheel.tire.thickness", "needs its unit"]),
     "full turn": (r'orientations = \["0 deg"', 'orientations = ["360 deg"', ["'360 deg': must be less than 360 deg"]),
     "few factors": (r"factors = \[1, 1.5, 2\]", "factors = [1]", ["must have at least 3 items"]),
-    "name with a blank": (r'name = "exomars"', 'name = " "', ["must begin with a letter or a digit"]),
+    "name with a blank": (r'name = "exomars_hoops"', 'name = " "', ["must begin with a letter or a digit"]),
     "not a number": (THICKNESS, 'thickness = "thin"', ["wheel.tire.thickness = 'thin'", "must be a length"]),
     "nan with unit": (THICKNESS, 'thickness = "nan mm"', ["wheel.tire.thickness", "finite"]),
     "infinite": (THICKNESS, "thickness = inf", ["wheel.tire.thickness = inf", "finite"]),
@@ -210,7 +232,7 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     ),
     "orientation twice": ('"0 deg", "15 deg"', '"15 deg", "15 deg"', ["fe.orientations", "holds 15 deg twice"]),
     "decimal comma": (THICKNESS, 'thickness = "0,6 mm"', ["wheel.tire.thickness = '0,6 mm'", "use a point"]),
-    "not toml": ('name = "exomars"', "name = exomars", ["not valid TOML", "line"]),
+    "not toml": ('name = "exomars_hoops"', "name = exomars", ["not valid TOML", "line"]),
     "no curve file": (r"\[tolerances\]", USER + 'source = "b"\n[tolerances]', ["compare.curves[0].file = none.csv"]),
     "curve without source": (r"\[tolerances\]", USER + "[tolerances]", ["compare.curves[0].source", "is missing"]),
 }

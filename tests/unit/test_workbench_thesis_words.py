@@ -11,8 +11,11 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from workbench.questions.model_curves import ModelCurves, RunNumbers, mean_curve
 from workbench.questions.words.graph import asked, in_phase, twin_tasks
+from workbench.questions.words.plausible import Plausible, PlausibleWheel
 from workbench.questions.words.question import words_checks
+from workbench.questions.words.readings import READINGS
 from workbench.questions.words.results import Words, follows, spread
+from workbench.study.model import stated
 from workbench.study.reading import built_in_study, read_study
 
 Array = NDArray[np.float64]
@@ -38,12 +41,38 @@ def _words(share: float = 0.1, **changes: float) -> Words:
     return Words(
         fe=fe,
         average=fe.average,
-        ancf=_model({0.0: 1.1 * SOFTENING, 45.0: 0.9 * SOFTENING}),
+        ancf=_model({0.0: 1.2 * SOFTENING, 45.0: 1.0 * SOFTENING}),
+        readings={
+            READINGS[0]: _model({0.0: 1.3 * SOFTENING, 45.0: 1.1 * SOFTENING}),
+            READINGS[1]: _model({0.0: 1.1 * SOFTENING, 45.0: 0.9 * SOFTENING}),
+        },
         brush=replace(_curve(8250.0 * DEFLECTION, 0.0), orientation_deg=None),
         section=fe,
         twin=twin,
         yield_strength={"tire": 880e6},
+        plausible=_set(),
     )
+
+
+def _set() -> Plausible:
+    """Two wheels 4 % to both sides of the curve."""
+    at = DEFLECTION[1:]
+    wheels = [
+        PlausibleWheel(
+            point=i,
+            values={},
+            misses={"tire": 0.5},
+            chosen={"tire": READINGS[1].name},
+            numbers={},
+            deflection=at,
+            orientation_deg=np.array([0.0]),
+            load=np.array([share * SOFTENING[1:]]),
+            average=share * SOFTENING[1:],
+        )
+        for i, share in enumerate((0.96, 1.04))
+    ]
+    numbers = {"searched": 2, "confirmed": 2, "annealed": 0, "strength": 1.1e9}
+    return Plausible(study={}, empty=False, wheels=tuple(wheels), stale=False, **numbers)  # type: ignore[arg-type]
 
 
 def _status(words: Words) -> dict[str, str]:
@@ -63,14 +92,14 @@ def _stiff(words: Words) -> Words:
 @pytest.mark.parametrize(
     ("words", "failed"),
     [
-        (_stiff(_words()), {"brush_fails", "average_20mm", "average_30mm", "average_35mm"}),
+        (_stiff(_words()), {"brush_fails", "average_20mm", "average_30mm", "average_35mm", "band"}),
         (_words(share=0.02), {"follows_0deg", "follows_45deg"}),
         (replace(_words(), twin=_words().section, section=_words().twin), {"out_of_phase"}),
         (_words(stress=4e6), {"no_yielding"}),
         (_words(negative=1.0), {"stable"}),
         (
             replace(_words(), average=replace(_words().average, load=1.06 * _words().average.load)),
-            {"small.slope", "average_20mm", "average_30mm", "average_35mm", "brush_fails"},
+            {"small.slope", "average_20mm", "average_30mm", "average_35mm", "brush_fails"},  # 1.9 % outside the band
         ),
     ],
 )
@@ -84,8 +113,10 @@ def test_numbers_of_the_sentences() -> None:
     words = _words()
     assert words.brush_slope == pytest.approx(8250.0)
     assert words.brush_misses(250.0) == pytest.approx(-2.5 * 250.0 / 8250.0, rel=1e-3)
-    assert words.average_over_ancf(0.02) == pytest.approx(1.0)
-    assert follows(words.fe, words.ancf.by_orientation[45.0]) == (60.0, pytest.approx(0.0, abs=1e-12))
+    assert words.reading == READINGS[1]
+    assert words.average_over(words.tire, 0.02) == pytest.approx(1.0)
+    assert words.average_over(words.ancf, 0.02) == pytest.approx(1.0 / 1.1)
+    assert follows(words.fe, words.tire.by_orientation[45.0]) == (60.0, pytest.approx(0.0, abs=1e-12))
     assert spread(words.section, 0.02) == pytest.approx(0.2)
     assert words.stress(250.0) == pytest.approx(750.0 / 880.0)
     assert words.shown["spread"] == "20 % as it is, 40 % in phase"
@@ -118,3 +149,15 @@ def test_the_twin_is_the_wheel_with_its_springs_in_phase() -> None:
     tasks = twin_tasks(study)
     assert len(tasks) == len(study.fe.orientations)
     assert not asked(study.model_copy(update={"brush": None}))
+    other = stated(study.ancf, "ancf").model_copy(update={"thesis_preset": False})
+    assert not asked(study.model_copy(update={"ancf": other}))
+
+
+def test_the_band_is_what_the_set_spans() -> None:
+    """Of two wheels 4 % to both sides; a curve 10 % high leaves it by 1.10 / 1.04 - 1."""
+    found, curve = _set(), _curve(SOFTENING, 0.0)
+    np.testing.assert_allclose(found.band.load, SOFTENING)
+    np.testing.assert_allclose(found.band.columns["load_high_N"], 1.04 * SOFTENING)
+    assert found.outside(curve) == 0.0
+    assert found.outside(replace(curve, load=1.1 * curve.load)) == pytest.approx(1.1 / 1.04 - 1.0)
+    assert found.outside(replace(curve, load=0.9 * curve.load)) == pytest.approx(1.0 - 0.9 / 0.96)

@@ -18,7 +18,7 @@ from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.contact import obstacle as contact_obstacle
 from reference_fe.contact.facets import gauss_line
 from reference_fe.contact.obstacle import ContactMethod, ObstacleTerm
@@ -58,7 +58,7 @@ def test_a_soft_penalty_is_caught() -> None:
 
 @functools.cache
 def coarse_mesh(*, half_width: bool) -> TaggedMesh:
-    return build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=half_width)
+    return build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=half_width)
 
 
 def wheel(case: WheelLoadCase, *, half_width: bool = True) -> WheelResult:

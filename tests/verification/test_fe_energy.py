@@ -20,7 +20,7 @@ from contracts.curves import StiffnessCurve
 from contracts.materials import TI_6AL_4V
 from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.contact.obstacles import HalfRoundRock
 from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 from reference_fe.wheel.section import solve_section
@@ -32,7 +32,7 @@ END = 0.004
 
 @pytest.fixture(scope="module")
 def curve() -> StiffnessCurve:
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
     deflections = tuple(float(d) for d in END * np.arange(1, STEPS + 1) / STEPS)
     case = WheelLoadCase(orientation_deg=0.0, deflections=deflections)
     return solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case).curve
@@ -65,7 +65,7 @@ def rough() -> StiffnessCurve:
         friction=0.1,
         contact_stiffness=1e12,
     )
-    return solve_section(build_planar_mesh(WheelDesign(), element_size=14e-3), WheelDesign(), case).curve
+    return solve_section(build_planar_mesh(exomars_hoops(), element_size=14e-3), exomars_hoops(), case).curve
 
 
 def test_work_of_a_rough_ground_is_stored_or_dissipated(rough: StiffnessCurve) -> None:

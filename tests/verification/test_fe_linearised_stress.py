@@ -17,7 +17,7 @@ import pytest
 from contracts.materials import TI_6AL_4V
 from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.material.linearised_stress import LinearisedStress
 from reference_fe.material.plane_state import PLANE_STRESS
 from reference_fe.problem.domain import Domain
@@ -72,7 +72,7 @@ def test_a_cantilever_is_judged_at_the_distance(distance: float) -> None:
 @functools.cache
 def stresses(size: float, through: int) -> tuple[dict[str, float], dict[str, float]]:
     """Linearised and largest stress of each part at 15 deg and 20 mm [Pa]."""
-    design = WheelDesign()
+    design = exomars_hoops()
     mesh = build_planar_mesh(design, element_size=size, thickness_elements=through)
     case = WheelLoadCase(orientation_deg=15.0, deflections=(0.005, 0.010, 0.015, 0.020))
     columns = solve_section(mesh, design, case).curve.columns
@@ -93,7 +93,7 @@ def test_it_has_a_limit_under_refinement() -> None:
 
 def test_parts_with_one_and_with_more_cells_through_the_thickness() -> None:
     """The whole wheel with elastic hubs: some of the hubs' cells are narrower along the axle than they are thick."""
-    design = WheelDesign()
+    design = exomars_hoops()
     mesh = build_mesh(design, element_size=24e-3, axial_size=60e-3, half_width=True)
     case = WheelLoadCase(orientation_deg=0.0, deflections=(0.002,), rigid_parts=())
     problem = wheel_problem(mesh, design.materials, case).problem

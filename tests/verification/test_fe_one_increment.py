@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from geometry.planar import build_planar_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.contact import newton_step as contact_step
 from reference_fe.problem.static_problem import Discretisation
 from reference_fe.solver import increments
@@ -31,7 +31,7 @@ class CutBackError(Exception):
 
 
 def to_30_mm(orientation_deg: float, points: int, *, inner_contact: bool = True) -> WheelResult:
-    design = WheelDesign()
+    design = exomars_hoops()
     mesh = build_planar_mesh(design, element_size=16e-3)
     deflections = tuple(np.linspace(0.0, END, points + 1)[1:].tolist())
     case = WheelLoadCase(orientation_deg=orientation_deg, deflections=deflections, inner_contact=inner_contact)

@@ -19,7 +19,7 @@ from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
 from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import WheelDesign, exomars_hoops
 from reference_fe.cells.discretisation import Discretisation
 from reference_fe.contact.inner_pairs import wheel_contact_pairs
 from reference_fe.material.hyperelastic import MaterialLaw
@@ -40,7 +40,7 @@ CASE = WheelLoadCase(orientation_deg=0.0, deflections=DEFLECTIONS)
 
 def prismatic() -> WheelDesign:
     """Three hoops over the full width, no grousers: every section along the axle is the same."""
-    outer = WheelDesign().spring_sets[0]
+    outer = exomars_hoops().spring_sets[0]
     full = replace(outer, bands=((-60e-3, 60e-3),))
     return WheelDesign(spring_sets=(full,), grousers=None, cone=None, impact_springs=None, inner_hub=None)
 
@@ -80,7 +80,7 @@ def test_a_lost_width_is_caught() -> None:
 
 def test_records_of_a_section_run() -> None:
     """Columns of the solid model; standing on one grouser the patch is its tip, 1 mm x 120 mm."""
-    result = section_curve(WheelDesign())
+    result = section_curve(exomars_hoops())
     curve = result.curve
     assert curve.model == "section"
     assert curve.columns["contact_area_m2"][-1] == pytest.approx(120e-6, rel=0.02)
@@ -91,7 +91,7 @@ def test_records_of_a_section_run() -> None:
 
 def test_springs_are_held_off_the_rim_and_cross_each_other() -> None:
     """At 30 mm they would overlap by 3.7 mm. Sets of different bands may lie over each other and must not touch."""
-    design = WheelDesign()
+    design = exomars_hoops()
     mesh = build_planar_mesh(design, element_size=10e-3)
     pairs = {(pair.slave, pair.master) for pair in wheel_contact_pairs(mesh)}
     assert ("springs_outer_front", "tire_inner") in pairs
@@ -109,7 +109,7 @@ def test_iterations_to_30_mm() -> None:
     Without inner contact 85 were measured.
     """
     case = WheelLoadCase(orientation_deg=15.0, deflections=tuple(np.linspace(0.0, 0.03, 21)[1:].tolist()))
-    design = WheelDesign()
+    design = exomars_hoops()
     result = solve_section(build_planar_mesh(design, element_size=8e-3), design, case)
     assert sum(len(record.residuals) - 1 for record in result.increments) <= 130
     assert all(record.converged for record in result.increments)
@@ -179,7 +179,7 @@ def test_free_expansion_stores_no_stress(constraint: float) -> None:
 
 
 def test_strips_of_the_wheel_are_between_beam_and_plate() -> None:
-    found = strip_constraints(WheelDesign())
+    found = strip_constraints(exomars_hoops())
     assert 0.5 < found["springs_outer"] < found["springs_inner"] < found["tire"] < 1.0
 
 
@@ -195,7 +195,7 @@ def test_what_has_no_planar_form_is_refused() -> None:
 
 def leaf_wheel() -> WheelDesign:
     """Six outer leaves that run over the welds of three inner ones on their way round the rim; one was found stuck."""
-    tire, outer = WheelDesign().tire, WheelDesign().spring_sets[0]
+    tire, outer = exomars_hoops().tire, exomars_hoops().spring_sets[0]
     thin = replace(outer, count=6, bands=((-60e-3, -46e-3), (46e-3, 60e-3)), thickness=0.52e-3, weld_length=12.6e-3)
     points = tuple((f, np.deg2rad(a)) for f, a in ((0.33, 47.8), (0.67, 17.1)))
     inside = tuple((f, np.deg2rad(a)) for f, a in ((0.33, 28.7), (0.67, 24.3)))
@@ -206,7 +206,7 @@ def leaf_wheel() -> WheelDesign:
             replace(thin, shape="spline", points=points, direction=1),
             replace(inner, shape="spline", points=inside, direction=-1),
         ),
-        outer_hub=replace(WheelDesign().outer_hub, outer_radius=45.5e-3),
+        outer_hub=replace(exomars_hoops().outer_hub, outer_radius=45.5e-3),
         cone=None,
         impact_springs=None,
         inner_hub=None,
@@ -227,7 +227,7 @@ def test_a_spring_touches_the_rim_where_another_band_is_welded() -> None:
 def test_two_elements_through_the_thickness_keep_the_contact() -> None:
     """Loads of one and two elements differ by 0.2 %; with the springs' faces turned round they differed by 9 %."""
     case = replace(CASE, orientation_deg=15.0)
-    design = WheelDesign()
+    design = exomars_hoops()
     one, two = (
         solve_section(build_planar_mesh(design, element_size=16e-3, thickness_elements=n), design, case).curve
         for n in (1, 2)

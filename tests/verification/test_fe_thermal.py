@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from contracts.materials import TI_6AL_4V, Material
 from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe import dolfinx_api as api
 from reference_fe.dolfinx_api import fem, ufl
 from reference_fe.material.hyperelastic import MaterialLaw
@@ -188,7 +188,7 @@ def test_a_bimetal_strip_curves_as_timoshenko_has_it(layers: tuple[int, int], st
 
 
 def wheel_load(materials: dict[str, Material], deflection: float) -> float:
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
     case = WheelLoadCase(orientation_deg=15.0, deflections=(deflection,))
     return float(solve_wheel(mesh, materials, case).curve.load[-1])
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from contracts.materials import TI_6AL_4V, Material
 from geometry.build import build_mesh
 from geometry.parts import HubRing
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.contact.inner import ContactPair, InnerContact
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import StaticProblem
@@ -155,7 +155,7 @@ HUB_GAP = 17e-3
 
 def low_wheel(*, inner_contact: bool) -> WheelResult:
     """A wheel with a large rigid hub, on the soft place between its springs, pressed until the hub catches the rim."""
-    design = WheelDesign()
+    design = exomars_hoops()
     design = replace(
         design,
         grousers=None,
@@ -182,7 +182,7 @@ def test_a_wheel_stiffens_where_it_bottoms_out_on_its_hub() -> None:
 
 def test_springs_and_rim_hold_each_other_off() -> None:
     """At 15 degrees the springs meet the rim at about 10 mm; without contact they pass into it (negative control)."""
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
     curves = {}
     for on in (True, False):
         case = WheelLoadCase(orientation_deg=15.0, deflections=(10e-3, 22e-3), inner_contact=on)

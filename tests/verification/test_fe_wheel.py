@@ -15,7 +15,7 @@ import pytest
 from contracts.errors import ConvergenceError
 from contracts.materials import TI_6AL_4V
 from geometry.build import build_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.contact.obstacle import ObstacleTerm
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.solver.newton import NewtonOutcome, NewtonSolver
@@ -26,7 +26,7 @@ DEFLECTIONS = (0.002, 0.005)
 
 @functools.cache
 def coarse_wheel(orientation_deg: float, *, half_width: bool = True) -> WheelResult:
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=half_width)
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=half_width)
     case = WheelLoadCase(
         orientation_deg=orientation_deg, deflections=DEFLECTIONS, snapshot_loads=(20.0,), keep_points=True
     )
@@ -52,14 +52,14 @@ def test_parts_keep_their_own_material_and_stress() -> None:
     assert len(set(largest)) == 3
     assert largest[1] > 1.5 * largest[2]  # the outer springs stand over the ground
     stiff = replace(TI_6AL_4V, young_modulus=2.0 * TI_6AL_4V.young_modulus)
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
     materials = dict.fromkeys(mesh.parts, TI_6AL_4V) | {"springs_outer": stiff, "springs_inner": stiff}
     other = solve_wheel(mesh, materials, WheelLoadCase(orientation_deg=0.0, deflections=DEFLECTIONS)).curve
     assert 1.1 < other.load[-1] / curve.load[-1] < 1.9
 
 
 def test_the_run_ends_at_its_maximum_load() -> None:
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
     case = WheelLoadCase(orientation_deg=0.0, deflections=(0.001, 0.002, 0.003, 0.006), maximum_load=15.0)
     result = solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
     assert result.curve.load[-2] < 15.0 <= result.curve.load[-1]
@@ -70,7 +70,7 @@ def test_force_balance_is_measured_not_assumed(monkeypatch: pytest.MonkeyPatch) 
     """Negative control of the balance: a contact force that is one per cent off shows as one per cent."""
     measured = StaticProblem.contact_force
     monkeypatch.setattr(StaticProblem, "contact_force", lambda self: 1.01 * measured(self))
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
     case = WheelLoadCase(orientation_deg=0.0, deflections=(0.002,))
     result = solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
     assert result.curve.columns["force_imbalance"][-1] == pytest.approx(0.01 / 1.01, rel=0.01)
@@ -80,7 +80,7 @@ def test_moment_balance_is_measured_not_assumed(monkeypatch: pytest.MonkeyPatch)
     """Negative control: a contact moment that is one per cent off shows."""
     measured = ObstacleTerm.moment
     monkeypatch.setattr(ObstacleTerm, "moment", lambda self: 1.01 * measured(self))
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
     case = WheelLoadCase(orientation_deg=0.0, deflections=(0.002,))
     result = solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
     assert result.curve.columns["moment_imbalance"][-1] > 1e-4
@@ -118,7 +118,7 @@ def test_a_snapshot_is_taken_at_its_load() -> None:
 
 def test_a_snapshot_leaves_the_curve_as_it_is() -> None:
     """Springs and rim touch; what the terms of contact found at the kept load belongs to no point of the curve."""
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
     plain = WheelLoadCase(orientation_deg=15.0, deflections=(0.011, 0.019))
     without, kept = (
         solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
@@ -154,7 +154,7 @@ def test_a_run_that_does_not_converge_keeps_its_partial_curve(monkeypatch: pytes
 
     limit_reached: list[bool] = []
     monkeypatch.setattr(NewtonSolver, "solve", give_up)
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible")
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
     case = WheelLoadCase(orientation_deg=15.0, deflections=(2e-3, 5e-3))
     with pytest.raises(ConvergenceError, match=r"orientation 15 deg.*does not converge") as caught:
         solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)

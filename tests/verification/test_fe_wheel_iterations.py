@@ -15,7 +15,7 @@ import pytest
 from contracts.materials import TI_6AL_4V
 from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.contact import newton_step as contact_step
 from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel
 from reference_fe.wheel.section import solve_section
@@ -29,12 +29,12 @@ def load_case(orientation_deg: float, points: int) -> WheelLoadCase:
 
 
 def planar(orientation_deg: float) -> WheelResult:
-    design = WheelDesign()
+    design = exomars_hoops()
     return solve_section(build_planar_mesh(design, element_size=16e-3), design, load_case(orientation_deg, POINTS))
 
 
 def solid(points: int) -> WheelResult:
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
     return solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), load_case(15.0, points))
 
 

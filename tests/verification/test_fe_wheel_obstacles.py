@@ -21,7 +21,7 @@ from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.contact.obstacle import ObstacleTerm
 from reference_fe.contact.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
 from reference_fe.solver.increments import solve_increments
@@ -43,12 +43,12 @@ class Pressed:
 
 @functools.cache
 def planar_mesh() -> TaggedMesh:
-    return build_planar_mesh(WheelDesign(), element_size=16e-3)
+    return build_planar_mesh(exomars_hoops(), element_size=16e-3)
 
 
 @functools.cache
 def full_width_mesh() -> TaggedMesh:
-    return build_mesh(WheelDesign(), element_size=14e-3, axial_size=60e-3, parts="flexible", half_width=False)
+    return build_mesh(exomars_hoops(), element_size=14e-3, axial_size=60e-3, parts="flexible", half_width=False)
 
 
 @functools.cache
@@ -75,7 +75,7 @@ def test_a_rock_of_huge_radius_is_the_plane() -> None:
     plane, radius = press(Plane(), orientation=15.0), 500.0
     rock = press(HalfRoundRock(radius=radius), orientation=15.0)
     assert rock.normal != plane.normal
-    assert rock.normal == pytest.approx(plane.normal, rel=WheelDesign().tire.outer_radius / radius)
+    assert rock.normal == pytest.approx(plane.normal, rel=exomars_hoops().tire.outer_radius / radius)
     assert abs(press(HalfRoundRock(radius=0.03), orientation=15.0).normal / plane.normal - 1.0) > 0.02
 
 

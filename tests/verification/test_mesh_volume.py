@@ -24,9 +24,9 @@ from geometry.checks import check_matches_design
 from geometry.closed_form import closed_form_joint_areas, closed_form_volume, part_masses
 from geometry.measures import joint_areas, mesh_volume
 from geometry.parts import Grousers, HubRing, SpringSet, Tire
-from geometry.wheel import WheelDesign, exomars
+from geometry.wheel import WheelDesign, exomars_hoops
 
-WHEEL = exomars()
+WHEEL = exomars_hoops()
 TOLERANCE = 1e-3
 
 

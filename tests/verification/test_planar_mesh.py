@@ -20,9 +20,9 @@ from geometry.assembly import merge_nodes
 from geometry.closed_form import closed_form_joint_areas, closed_form_volume
 from geometry.planar import build_planar_mesh, planar_areas
 from geometry.springs import spring_leg
-from geometry.wheel import WheelDesign
+from geometry.wheel import WheelDesign, exomars_hoops
 
-WHEEL = WheelDesign()
+WHEEL = exomars_hoops()
 
 
 @functools.cache

@@ -14,7 +14,7 @@ import numpy as np
 
 from contracts.materials import TI_6AL_4V
 from geometry.build import build_mesh
-from geometry.wheel import WheelDesign
+from geometry.wheel import exomars_hoops
 from reference_fe.dolfinx_api import COMM
 from reference_fe.wheel.pressed import WheelLoadCase, solve_wheel
 
@@ -24,7 +24,7 @@ DEFLECTIONS = (0.003, 0.007, 0.011, 0.015)
 
 def solve(checkpoint: Path, factor: float) -> dict[str, np.ndarray]:
     """Curve, columns and fields of a coarse half wheel at one orientation."""
-    mesh = build_mesh(WheelDesign(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
+    mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=True)
     case = WheelLoadCase(orientation_deg=15.0, deflections=DEFLECTIONS, snapshot_loads=(20.0,), keep_points=True)
     material = replace(TI_6AL_4V, young_modulus=factor * TI_6AL_4V.young_modulus)
     result = solve_wheel(mesh, dict.fromkeys(mesh.parts, material), case, checkpoint=checkpoint)

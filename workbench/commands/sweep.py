@@ -5,7 +5,7 @@ Verified by tests/end_to_end/test_sweep.py.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,12 @@ from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_all
 from workbench.execution.store import Store
+from workbench.questions.sweep.confirmed import confirmed_record
 from workbench.questions.sweep.graph import sweep_graph
 from workbench.questions.sweep.results import Outcome, outcomes, references
 from workbench.questions.sweep.table import SweepTable, sweep_table
 from workbench.report.folders import check_folder, check_targets
+from workbench.report.outputs import to_json
 from workbench.report.parquet import write_parquet
 from workbench.report.placing import new_files
 from workbench.report.sweep_page import sweep_page
@@ -32,6 +34,8 @@ from workbench.study.sweep_points import Point, beyond_reach, design_points, pro
 __all__ = ["run_sweep"]
 
 _FILES = ("sweep.csv", "sweep.parquet", "sweep.html")
+_CONFIRMED = "confirmed.json"
+"""Of a search: what ran again, for programs."""
 _MOST_WARNINGS = 20
 _MANY = 100
 """Points that take so long to read, some 20 ms each, that it is said."""
@@ -72,10 +76,12 @@ def _run_search(
     """A search instead of points known beforehand; a point that fails is nothing to complain of."""
     warn(path, (*unusual(study), *beyond_reach(study, ())))
     check_folder(out)
-    check_targets(out, _FILES)
+    check_targets(out, (_CONFIRMED, *_FILES))
     searched = search(path, content, study, store, computing)
     table = sweep_table(study, searched.keys, searched.found, {}, searched.judged, searched.confirms)
-    _publish(out, table, sweep_page(study.title, table, searched.found))
+    base = {key: value for key, value in content.items() if key != "sweep"}
+    record = confirmed_record(base, study, searched.judged, searched.confirms)
+    _publish(out, table, sweep_page(study.title, table, searched.found), {_CONFIRMED: to_json(record)})
     console.print(f"sweep: {out / 'sweep.html'}", soft_wrap=True)
     return 0
 
@@ -103,9 +109,12 @@ def _without_effect(
             yield f"sweep.{key} changes nothing that {' or '.join(section.models)} computes; leave it out"
 
 
-def _publish(out: Path, table: SweepTable, page: str) -> None:
-    """Put each file in place whole, the page last."""
-    with new_files(out, "sweep", _FILES) as new:
+def _publish(out: Path, table: SweepTable, page: str, more: Mapping[str, str] | None = None) -> None:
+    """Put each file in place whole, the page last; ``more`` are further files by name."""
+    further = more or {}
+    with new_files(out, "sweep", (*further, *_FILES)) as new:
+        for name, text in further.items():
+            (new.folder / name).write_text(text, encoding="utf-8")
         (new.folder / "sweep.csv").write_text(table.csv(), encoding="utf-8", newline="")
         write_parquet(table, new.folder / "sweep.parquet")
         (new.folder / "sweep.html").write_text(page, encoding="utf-8")

@@ -75,7 +75,8 @@ def search(path: Path, content: Mapping[str, Any], study: Study, store: Store, c
     run = _Batches(path, base, study, store, computing)
     run.require_columns(section)
     require_keys(path, base, section)
-    strategy = Strategy(start=place_of(section, base), batch=section.batch, seed=section.seed)
+    start = place_of(section, base)
+    strategy = Strategy(start=start, batch=section.batch, seed=section.seed, step=section.first_step)
     assert section.samples is not None
     while len(run.searched.judged) < section.samples:
         values = drawn_values(section, strategy.ask())
@@ -89,8 +90,8 @@ def search(path: Path, content: Mapping[str, Any], study: Study, store: Store, c
         console.print(f"{len(again)} points run again, at the thickness found and at every orientation")
         first = max(searched.judged) + 1
         fixed = section.model_copy(update={"scaled": False})
-        for start in range(0, len(again), section.batch):
-            run.batch(again[start : start + section.batch], fixed)
+        for at in range(0, len(again), section.batch):
+            run.batch(again[at : at + section.batch], fixed)
         searched.confirms = {first + i: number for i, number in enumerate(chosen)}
         failed = [one for one in searched.found[-len(again) :] if one.state == "failed"]
         if failed:
@@ -119,11 +120,11 @@ class _Batches:
         nothing = self._refused(0, {}, "", section)
         numbers = measured(nothing, section, self._study.tolerances.initial_tangent_up_to, None, self._followed)
         known = [name for name in numbers if name != "held_against"]
-        for name in section.aims:
+        for name, key in section.wanted.items():
             if name not in known:
                 near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
                 hint = f"e.g. {near[0]}" if near else f"one of {', '.join(known)}"
-                raise StudyError(self._path, f"sweep.aims.{name}", "", "is no number of the table", hint)
+                raise StudyError(self._path, f"sweep.{key}", "", "is no number of the table", hint)
 
     def batch(self, values: Sequence[Mapping[str, Value]], section: SweepSection) -> list[Judged]:
         """One batch, in its order."""

@@ -84,7 +84,9 @@ class SweepSection(Section):
     deflections : where the load is read [m]
     loads : where deflection and stress are read [N]
     aims : column of the table -> what it should be; a search makes the largest miss small
+    one_of : group -> alternative -> aims: of each group one alternative is enough, with all its aims
     batch : points that a search chooses at once
+    first_step : standard deviation of a search's first batch, as a part of each range
     scaled : whether a search reads each point at the strip thickness that meets the aims best: load goes with its cube,
         stress with the thickness itself, as where strips bend
     confirm : points of a search, the best ones, that run again at that thickness, every ``confirm_step``
@@ -109,14 +111,30 @@ class SweepSection(Section):
 
     aims: dict[str, Aim] = Field(default_factory=dict)
     """What a search looks for: column of the table -> aim."""
+    one_of: dict[str, Annotated[dict[str, Annotated[dict[str, Aim], Field(min_length=1)]], Field(min_length=1)]] = (
+        Field(default_factory=dict)
+    )
+    """What else: group -> alternatives, each with its aims; the best alternative of a group counts."""
     batch: Annotated[StrictInt, Field(ge=4, le=1000)] = 12
     """Points that a search chooses at once."""
+    first_step: Annotated[float, Field(gt=0.0, le=1.0)] = 0.3
+    """How far a search's first batch lies around the study as it is, standard deviation over range [-]."""
     scaled: StrictBool = False
     """Whether a search reads each point at the best strip thickness."""
     confirm: Annotated[StrictInt, Field(ge=0, le=MOST_POINTS)] = 0
     """Best points of a search that run again."""
     confirm_step: Annotated[Angle, Positive] = math.radians(5.0)
     """Between their orientations, over the wheel's period."""
+
+    @property
+    def wanted(self) -> dict[str, str]:
+        """Every column that an aim names -> key of the first such aim."""
+        found = {name: f"aims.{name}" for name in self.aims}
+        for group, ways in self.one_of.items():
+            for way, aims in ways.items():
+                for name in aims:
+                    found.setdefault(name, f"one_of.{group}.{way}.{name}")
+        return found
 
     @model_validator(mode="before")
     @classmethod
@@ -152,10 +170,13 @@ class SweepSection(Section):
                 raise in_key("design", "grid", rule, 'list fewer values, or use "latin-hypercube"')
         elif self.samples is None:
             raise in_key("samples", "", "must say how many points are drawn", "e.g. samples = 30")
-        if (self.design == "search") != bool(self.aims):
+        if (self.design == "search") != bool(self.aims or self.one_of):
             raise in_key("aims", "", 'belongs to design = "search", which needs it', _AN_AIM)
+        for group in self.one_of:
+            if group in self.wanted:
+                raise in_key(f"one_of.{group}", group, "is a column of the table too", "give the group another name")
         if self.design != "search":
-            for name in ("batch", "scaled", "confirm", "confirm_step"):
+            for name in ("batch", "first_step", "scaled", "confirm", "confirm_step"):
                 if name in self.model_fields_set:
                     raise in_key(name, getattr(self, name), 'belongs to design = "search"', "remove it")
         else:

@@ -27,6 +27,7 @@ from workbench.study.model import Study, stated
 from workbench.study.model_parameters import ancf_tire
 from workbench.study.orientation import degrees, orientation_name
 from workbench.study.sections import AncfSection, ToleranceSection
+from workbench.study.thesis import WHEEL_MASS
 from workbench.verdict.rules import Claim, at_most, near
 
 __all__ = [
@@ -100,7 +101,6 @@ def read_ancf(study: Study, folders: Mapping[str, Path]) -> AncfTireResults:
 _PRESET_SOURCE = (
     "two independent codes computed for this project, which agree (workbench/questions/ancf/ancf_thesis_preset.csv)"
 )
-_THESIS_WHEEL_MASS = 4.44157
 _SMALLEST_LOAD = 5.0
 """Load [N] below which an entry of the preset's table counts absolutely."""
 
@@ -146,7 +146,7 @@ def ancf_checks(ancf: ModelCurves, tolerances: ToleranceSection) -> list[Check]:
         source="Samarini 2020, Table I",
     )
     first = next(iter(ancf.runs.values()))
-    return [*checks, near(mass, lambda: first.flexible_mass, _THESIS_WHEEL_MASS, tolerances.flexible_mass)]
+    return [*checks, near(mass, lambda: first.flexible_mass, WHEEL_MASS, tolerances.flexible_mass)]
 
 
 def surfaces_check(distance: Callable[[], float], tolerances: ToleranceSection) -> Check:

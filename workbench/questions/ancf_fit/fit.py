@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from workbench.questions.ancf_fit.records import AverageError, Held
 
 __all__ = [
-    "THESIS_WHEEL_MASS",
     "FittedTire",
     "average_error",
     "compared_deflections",
@@ -34,8 +33,6 @@ __all__ = [
 ]
 
 FloatArray = NDArray[np.float64]
-THESIS_WHEEL_MASS = 4.44157
-"""Mass of a wheel in the thesis' Table I [kg], to which the density of a fitted tire is set."""
 _SAMPLES = 401
 
 

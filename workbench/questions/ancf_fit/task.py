@@ -25,7 +25,6 @@ from contracts.curves import Around, StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, InputError
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.questions.ancf_fit.fit import (
-    THESIS_WHEEL_MASS,
     average_error,
     compared_deflections,
     fe_curves,
@@ -37,6 +36,7 @@ from workbench.questions.mesh_study.results import read_mesh_study
 from workbench.questions.model_curves import mean_curve
 from workbench.study.ancf_tire import preset_from, tire_from
 from workbench.study.orientation import orientation_name
+from workbench.study.thesis import WHEEL_MASS
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
@@ -86,7 +86,7 @@ def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
     progress(0.4)
     realisations = inputs["realisations"]
     again = _refits(found, _uncertainty(inputs, needs, deflection), realisations, progress) if realisations else []
-    tire = build_tire(with_mass(found.preset, THESIS_WHEEL_MASS))
+    tire = build_tire(with_mass(found.preset, WHEEL_MASS))
     held, statistics = _held_against(tire, inputs, solid, out), found.statistics
     names = [p.parameter.value for p in found.free]
     return Fitted(

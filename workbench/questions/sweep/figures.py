@@ -45,8 +45,9 @@ def coordinate_axes(table: SweepTable) -> list[dict[str, Any]]:
     """Axes of the rows drawn: every value and number that all of them have, text as equally spaced names."""
     rows = _drawn_rows(table)
     names = [*(("model",) if len(set(table.column("model"))) > 1 else ()), *table.inputs, *table.outputs]
-    columns = {name: [row[table.names.index(name)] for row in rows] for name in names if name != "held_against"}
-    whole = {name: cells for name, cells in columns.items() if cells and None not in cells}
+    columns = {name: [row[table.names.index(name)] for row in rows] for name in names}
+    text = {name for name in table.outputs if any(isinstance(cell, str) for cell in columns[name])}
+    whole = {name: cells for name, cells in columns.items() if cells and None not in cells and name not in text}
     told = dict(zip(table.inputs, table.labels, strict=True)) | {"model": "model"}
     return [_axis(cells, told[name]) if name in told else _found_axis(cells, name) for name, cells in whole.items()]
 

@@ -27,7 +27,6 @@ MISSING = 10.0
 """Miss of an aim whose number a point does not have."""
 SMALLEST_SCALE, LARGEST_SCALE, SCALES = 0.5, 2.0, 57
 """Of the strips' thickness, where a search is free to scale."""
-FIRST_STEP = 0.3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,12 +36,14 @@ class Judged:
     Attributes
     ----------
     scale : of the strips' thickness, at which it is read [-]
-    misses : of each aim [-]; 1 or less is good
+    misses : of each aim and each group of `SweepSection.one_of` [-]; 1 or less is good
+    chosen : group -> the alternative that is met best
     outcome : its curves at that scale
     """
 
     scale: float
     misses: Mapping[str, float]
+    chosen: Mapping[str, str]
     outcome: Outcome
 
     @property
@@ -60,13 +61,13 @@ def judge(outcome: Outcome, section: SweepSection, up_to: float, followed: Mappi
     """Misses of one outcome, where the section says so at the thickness that makes the cost smallest."""
     scales = np.geomspace(SMALLEST_SCALE, LARGEST_SCALE, SCALES) if section.scaled else np.ones(1)
     if outcome.curve is None or outcome.curve.unloaded:
-        return Judged(scale=1.0, misses=dict.fromkeys(section.aims, MISSING), outcome=outcome)
+        misses, chosen = _misses(section, {})
+        return Judged(scale=1.0, misses=misses, chosen=chosen, outcome=outcome)
 
     def at(scale: float) -> Judged:
         scaled = _scaled(outcome, scale)
-        numbers = measured(scaled, section, up_to, None, followed)
-        misses = {name: _miss(aim, numbers.get(name)) for name, aim in section.aims.items()}
-        return Judged(scale=scale, misses=misses, outcome=scaled)
+        misses, chosen = _misses(section, measured(scaled, section, up_to, None, followed))
+        return Judged(scale=scale, misses=misses, chosen=chosen, outcome=scaled)
 
     best = min((at(float(scale)) for scale in scales), key=lambda one: one.cost)
     step = scales[1] / scales[0] if section.scaled else 1.0
@@ -74,6 +75,18 @@ def judge(outcome: Outcome, section: SweepSection, up_to: float, followed: Mappi
         step = math.sqrt(step)
         best = min((best, at(best.scale / step), at(best.scale * step)), key=lambda one: one.cost)
     return best
+
+
+def _misses(
+    section: SweepSection, numbers: Mapping[str, float | str | None]
+) -> tuple[dict[str, float], dict[str, str]]:
+    """Misses of the aims and of the best alternative of each group, and which that is."""
+    misses, chosen = {name: _miss(aim, numbers.get(name)) for name, aim in section.aims.items()}, {}
+    for group, ways in section.one_of.items():
+        each = {way: max(_miss(aim, numbers.get(name)) for name, aim in aims.items()) for way, aims in ways.items()}
+        chosen[group] = min(each, key=lambda way: each[way])
+        misses[group] = each[chosen[group]]
+    return misses, chosen
 
 
 def _miss(aim: Aim, value: float | str | None) -> float:
@@ -96,11 +109,15 @@ def _scaled(outcome: Outcome, scale: float) -> Outcome:
 
 @dataclass(slots=True, kw_only=True)
 class Strategy:
-    """Asks for batches of points in [0, 1)^d and is told their costs; the first ones lie around ``start`` (d,)."""
+    """Asks for batches of points in [0, 1)^d and is told their costs; the first ones lie around ``start`` (d,).
+
+    ``step`` is their standard deviation, as a part of the ranges.
+    """
 
     start: NDArray[np.float64]
     batch: int
     seed: int
+    step: float = 0.3
     _runs: int = 0
     _cma: CMA | None = None
     _asked: list[NDArray[np.float64]] = field(default_factory=list)
@@ -112,7 +129,7 @@ class Strategy:
             mean = self.start if self._runs == 0 else rng.uniform(0.2, 0.8, len(self.start))
             bounds = np.tile([0.0, np.nextafter(1.0, 0.0)], (len(self.start), 1))
             seed = int(rng.integers(2**31 - 1))
-            self._cma = CMA(mean=mean, sigma=FIRST_STEP, bounds=bounds, population_size=self.batch, seed=seed)
+            self._cma = CMA(mean=mean, sigma=self.step, bounds=bounds, population_size=self.batch, seed=seed)
             self._runs += 1
         self._asked = [self._cma.ask() for _ in range(self.batch)]
         return np.array(self._asked)

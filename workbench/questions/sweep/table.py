@@ -97,7 +97,7 @@ def _judged_cells(judged: Judged, best: bool, confirms: int | None) -> dict[str,
     """What a search adds to the row of a point."""
     scale = judged.outcome.run.point.values.get("strip_scale", judged.scale)
     cells: dict[str, float | str | None] = {"strip_scale": float(scale), "confirms": confirms}
-    cells |= {f"miss_{name}": miss for name, miss in judged.misses.items()}
+    cells |= {f"miss_{name}": miss for name, miss in judged.misses.items()} | dict(judged.chosen)
     return cells | {"largest_miss": judged.largest, "cost": judged.cost, "pareto": float(best)}
 
 

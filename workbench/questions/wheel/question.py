@@ -17,10 +17,13 @@ from workbench.questions.question import Question
 from workbench.questions.wheel.graph import MESH, MESH_WHOLE, wheel_meshes
 from workbench.study.model import Study
 from workbench.study.sections import ToleranceSection
+from workbench.study.thesis import WHEEL_MASS
 from workbench.study.wheel_design import part_materials
 from workbench.verdict.rules import Claim, at_least, near
 
 __all__ = ["WHEEL", "MeshNumbers", "WheelMeshes", "mesh_checks", "mesh_numbers", "read_wheel"]
+
+_RIGID = ("outer_hub", "cone", "impact_springs", "inner_hub")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +55,16 @@ class WheelMeshes:
     whole: MeshNumbers
     whole_folder: Path
     picture: Path
+
+    @property
+    def flexible_mass(self) -> float:
+        """Mass of rim, grousers and springs [kg]."""
+        return sum(n.mass for part, n in self.whole.parts.items() if part not in _RIGID)
+
+    @property
+    def missing_mass(self) -> float:
+        """What the wheel of the thesis' Table I weighs beyond all parts meshed [kg]."""
+        return WHEEL_MASS - self.whole.mass
 
 
 def mesh_numbers(study: Study, folder: Path) -> MeshNumbers:

@@ -16,7 +16,7 @@ DEFLECTIONS = (0.005, 0.010, 0.015, 0.020, 0.025, 0.030)
 
 def asked(study: Study) -> bool:
     """Whether the study has the wheel of the reference, the thesis' tires, and more than one set of springs."""
-    tires = study.ancf is not None and len(study.ancf.orientations) > 1 and study.brush is not None
+    tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None
     springs = len(study.wheel.springs) > 1 and without_planar_model(study) is None
     return bool(study.tolerances.reference_wheel and tires and springs)
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
+from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.task import Task
@@ -19,7 +20,9 @@ from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.words.figures import words_figures
 from workbench.questions.words.graph import TWIN, asked, twin_tasks
-from workbench.questions.words.results import AT, LOADS, SMALL, SPREAD_AT, Words, follows, spread
+from workbench.questions.words.plausible import plausible
+from workbench.questions.words.readings import reading_curves, reading_tasks
+from workbench.questions.words.results import AVERAGE, FOLLOWS, LOADS, SMALL, SPREAD_AT, Words, follows, spread
 from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_least, at_most, near
@@ -28,15 +31,14 @@ __all__ = ["WORDS", "words_checks"]
 
 SLOPE, END, FAILS = 0.03, 0.05, 0.05
 """Relative: slope up to 5 mm, load at the 160 N end, and by how much the brush line must fail at the 250 N end."""
-AVERAGE = dict(zip(AT, (0.03, 0.03, 0.04), strict=True))
-"""Deflection [m] -> relative difference of the averages that is still good agreement."""
-FOLLOWS = 0.05
+BAND = 0.02
+"""By how much the solid model's average may leave the band of the section model's, relative."""
 
 
 def words_checks(words: Words) -> list[Check]:
     """Each sentence as findings."""
     low, high = LOADS
-    slope = words.brush_slope
+    slope, reading = words.brush_slope, words.reading.text
     checks = [
         near(
             _claim(
@@ -59,10 +61,14 @@ def words_checks(words: Words) -> list[Check]:
         ),
     ]
     for deflection, limit in AVERAGE.items():
-        name, text = f"average_{1e3 * deflection:g}mm", f"average over the ANCF tire's, at {1e3 * deflection:g} mm"
-        checks.append(near(_claim(name, text, "load / load"), partial(words.average_over_ancf, deflection), 1.0, limit))
-    for orientation, curve in words.ancf.by_orientation.items():
-        text = f"the ANCF tire at {orientation:g} deg, {low:g} to {high:g} N, and the nearest orientation of the wheel"
+        text = f"average over that of the thesis' tire ({reading}), at {1e3 * deflection:g} mm"
+        claim = _claim(f"average_{1e3 * deflection:g}mm", text, "load / load")
+        checks.append(near(claim, partial(words.average_over, words.tire, deflection), 1.0, limit))
+    for orientation, curve in words.tire.by_orientation.items():
+        text = (
+            f"the thesis' tire ({reading}) at {orientation:g} deg, {low:g} to {high:g} N, "
+            "and the nearest orientation of the wheel"
+        )
         claim = _claim(f"follows_{orientation:g}deg", text, "largest relative difference")
         checks.append(at_most(claim, lambda curve=curve: follows(words.fe, curve)[1], FOLLOWS))  # type: ignore[misc]
     own, twin = partial(spread, words.section, SPREAD_AT), partial(spread, words.twin, SPREAD_AT)
@@ -85,6 +91,11 @@ def words_checks(words: Words) -> list[Check]:
             partial(words.negative_pivots, high),
             0.0,
         ),
+        at_most(
+            _claim("band", "distance of the average from the band of the plausible set", "difference"),
+            lambda: words.plausible.outside(words.average),
+            BAND,
+        ),
     ]
     return checks
 
@@ -103,15 +114,21 @@ def _read(study: Study, folders: Mapping[str, Path]) -> Words:
         fe=fe,
         average=fe.average,
         ancf=model_curves("ancf", folders),
+        readings=reading_curves(folders),
         brush=brush_curve(study, folders["brush"]),
         section=model_curves("section", folders, around(study)),
         twin=model_curves(TWIN, folders, around(study)),
         yield_strength=yield_strengths(study),
+        plausible=plausible(),
     )
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    return twin_tasks(study)
+    return [*twin_tasks(study), *reading_tasks(study)]
+
+
+def _curves(study: Study, words: Words) -> Sequence[StiffnessCurve]:
+    return [words.plausible.band]
 
 
 def _checks(study: Study, words: Words) -> Sequence[Check]:
@@ -126,5 +143,6 @@ WORDS = Question(
     read=_read,
     checks=_checks,
     figures=words_figures,
+    curves=_curves,
     applies=asked,
 )

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves, distances_from
+from workbench.questions.words.plausible import Plausible
+from workbench.questions.words.readings import Reading
 
-__all__ = ["AT", "LOADS", "SMALL", "SPREAD_AT", "Words", "follows", "spread"]
+__all__ = ["AVERAGE", "FOLLOWS", "LOADS", "SMALL", "SPREAD_AT", "Words", "follows", "spread"]
 
 LOADS = 160.0, 250.0
 """Range of the thesis' sweep [N] (Samarini 2020, section 3.2, Fig. 20)."""
-AT = 0.020, 0.030, 0.035
-"""Deflections at which the averages are held against each other [m]."""
+AVERAGE = {0.020: 0.03, 0.030: 0.03, 0.035: 0.04}
+"""Deflection [m] -> relative difference of the averages that is still good agreement."""
+FOLLOWS = 0.05
+"""Relative difference of an orientation from the tire's that is still good agreement."""
+TOLD_AT = 20.0, 40.0, 80.0, 120.0, 160.0, 200.0, 250.0
+"""Loads at which the models are told side by side [N]."""
 SMALL, SPREAD_AT = 0.005, 0.020
 """Deflection up to which the slope is taken, and at which the spread of the orientations is [m]."""
 
@@ -29,19 +37,23 @@ class Words:
     ----------
     fe : the continuum's curves
     average : of them, weighted by the arcs that the orientations stand for
-    ancf : the thesis' tire by our reading
+    ancf : the thesis' tire as the study has it
+    readings : the tires that the thesis' text allows
     brush : the line of Table II
     section, twin : planar model of the wheel, and of its twin with all springs in phase
     yield_strength : of each part [Pa]
+    plausible : wheels that satisfy the statements
     """
 
     fe: ModelCurves
     average: StiffnessCurve
     ancf: ModelCurves
+    readings: Mapping[Reading, ModelCurves]
     brush: StiffnessCurve
     section: ModelCurves
     twin: ModelCurves
     yield_strength: Mapping[str, float]
+    plausible: Plausible
 
     @property
     def brush_slope(self) -> float:
@@ -52,20 +64,57 @@ class Words:
         """Relative difference of the average from the brush line where that carries a load [N] [-]."""
         return float(self.average.load_at(load / self.brush_slope) / load - 1.0)
 
-    def average_over_ancf(self, deflection: float) -> float:
-        """Load of the average over the mean of the ANCF tire's orientations, at a deflection [m] [-]."""
-        return float(self.average.load_at(deflection) / self.ancf.average.load_at(deflection))
+    @property
+    def reading(self) -> Reading:
+        """The tire that this wheel is nearest to, by its largest miss of the averages and the two orientations."""
+        return min(self.readings, key=self._misses)
+
+    def _misses(self, reading: Reading) -> float:
+        tire = self.readings[reading]
+        try:
+            averages = [abs(self.average_over(tire, at) - 1.0) / within for at, within in AVERAGE.items()]
+            return max(*averages, *(follows(self.fe, one)[1] / FOLLOWS for one in tire.by_orientation.values()))
+        except InputError:
+            return math.inf
+
+    @property
+    def tire(self) -> ModelCurves:
+        """Its curves."""
+        return self.readings[self.reading]
+
+    def average_over(self, tire: ModelCurves, deflection: float) -> float:
+        """Load of the average over the mean of a tire's orientations, at a deflection [m] [-]."""
+        return float(self.average.load_at(deflection) / tire.average.load_at(deflection))
+
+    @property
+    def in_order(self) -> list[tuple[float, str, tuple[str, ...]]]:
+        """At rising loads [N]: deflection of the average, and how far brush line, tire as it is, nearest tire lie off.
+
+        Differences of load at that deflection, relative to the average.
+        """
+        others = [self.brush, self.ancf.average, self.tire.average]
+        return [
+            (
+                load,
+                _or_words(lambda load=load: f"{1e3 * self.average.deflection_at(load):.1f}"),  # type: ignore[misc]
+                tuple(_or_words(partial(self._off, load, other)) for other in others),
+            )
+            for load in TOLD_AT
+        ]
+
+    def _off(self, load: float, other: StiffnessCurve) -> str:
+        return f"{100.0 * (float(other.load_at(self.average.deflection_at(load))) / load - 1.0):+.1f} %"
 
     @property
     def shown(self) -> dict[str, str]:
         """Numbers of the table by name, in words where a curve does not reach."""
-        averages = [_or_words(lambda d=d: f"{100.0 * self.average_over_ancf(d) - 100.0:+.1f} %") for d in AT]  # type: ignore[misc]
         return {
             "slope": _or_words(lambda: f"{1e-3 * self.average.initial_tangent(SMALL):.2f} N/mm"),
             "small": _or_words(lambda: f"{100.0 * self.brush_misses(LOADS[0]):+.1f} %"),
             "large": _or_words(lambda: f"{100.0 * self.brush_misses(LOADS[1]):+.1f} %"),
-            "averages": ", ".join(averages),
-            "followed": ", ".join(self._followed(o) for o in self.ancf.loaded),
+            "averages": self._averages(self.tire),
+            "followed": ", ".join(self._followed(o) for o in self.tire.loaded),
+            "averages_as_is": self._averages(self.ancf),
             "spread": _or_words(
                 lambda: (
                     f"{100.0 * spread(self.section, SPREAD_AT):.0f} % as it is, "
@@ -75,9 +124,12 @@ class Words:
             "stress": _or_words(lambda: f"{100.0 * self.stress(LOADS[1]):.0f} % of the yield strength"),
         }
 
+    def _averages(self, tire: ModelCurves) -> str:
+        return ", ".join(_or_words(lambda d=d: f"{100.0 * self.average_over(tire, d) - 100.0:+.1f} %") for d in AVERAGE)  # type: ignore[misc]
+
     def _followed(self, orientation: float) -> str:
         def told() -> str:
-            best, miss = follows(self.fe, self.ancf.by_orientation[orientation])
+            best, miss = follows(self.fe, self.tire.by_orientation[orientation])
             return f"{orientation:g}° by {best:g}° within {100.0 * miss:.1f} %"
 
         return _or_words(told)
