@@ -107,9 +107,8 @@ class _Pen:
         assert curve.tangents is not None
         between = [self.occ.addPoint(x, self.y, z) for x, z in curve.through]
         tangents = [c for t in curve.tangents for c in (t[0], 0.0, t[1])]
-        tag = int(self.occ.addSpline([a, *between, b], tangents=tangents))
-        self.occ.remove([(0, p) for p in between])
-        return tag
+        # The points between stay: to remove one, OpenCASCADE goes through the whole model; no cell has their nodes.
+        return int(self.occ.addSpline([a, *between, b], tangents=tangents))
 
 
 def draw_faces(occ: Any, section: Section, y: float) -> list[Drawn]:

@@ -17,7 +17,7 @@ _WELD = 12.0e-3
 
 
 def _tire() -> Tire:
-    return Tire(outer_radius=142.5e-3, width=120.0e-3, thickness=0.9231e-3, material=TI_6AL_4V_AGED)
+    return Tire(outer_radius=142.5e-3, width=120.0e-3, thickness=0.9221e-3, material=TI_6AL_4V_AGED)
 
 
 def _grousers() -> Grousers:
@@ -30,7 +30,7 @@ def _spring_sets() -> tuple[SpringSet, ...]:
         name="springs_outer",
         count=6,
         bands=((-60.0e-3, -25.65e-3), (25.65e-3, 60.0e-3)),
-        thickness=0.59e-3,
+        thickness=0.5894e-3,
         shape="spline",
         points=((0.33, math.radians(26.82)), (0.67, math.radians(35.51))),
         weld_length=_WELD,
@@ -41,7 +41,7 @@ def _spring_sets() -> tuple[SpringSet, ...]:
         count=3,
         phase=math.radians(50.14),
         bands=((-22.08e-3, 22.08e-3),),
-        thickness=0.4196e-3,
+        thickness=0.4192e-3,
         shape="spline",
         direction=-1,
         points=((0.33, math.radians(22.46)), (0.67, math.radians(40.0))),
@@ -56,7 +56,7 @@ def _outer_hub() -> HubRing:
 
 
 def _cone() -> Cone:
-    return Cone(thickness=1.5e-3, outer_position=36.0e-3, inner_position=22.0e-3, material=TI_6AL_4V_AGED)
+    return Cone(thickness=1.5e-3, outer_position=36.0e-3, inner_position=18.0e-3, material=TI_6AL_4V_AGED)
 
 
 def _impact_springs() -> SpringSet:
@@ -88,7 +88,7 @@ class WheelDesign:
     the thicknesses of rim and leaves and the outer hub's radius, all from the search for wheels that satisfy what the
     thesis says of its reference (docs/theory/words.md, studies/words_search.toml); height and thickness of the
     grousers; the outer hub's thickness 2 mm and width 120 mm; everything of the cone (a mirrored pair, 1.5 mm, from
-    y = 36 mm at the outer to y = 22 mm at the inner hub), of the impact springs (6 semicircles of 1 mm strip,
+    y = 36 mm at the outer to y = 18 mm at the inner hub), of the impact springs (6 semicircles of 1 mm strip,
     y = -15..15 mm, weld 6 mm, phase 30 degrees) and of the inner hub (radius 20 mm, thickness 3 mm, width 60 mm);
     Ti-6Al-4V, solution treated and aged, for every part.
 
@@ -169,7 +169,7 @@ def exomars_hoops() -> WheelDesign:
         grousers=Grousers(count=12, height=3.0e-3, thickness=1.0e-3),
         spring_sets=(replace(inner, name="springs_outer", phase=0.0, bands=sides), inner),
         outer_hub=HubRing(outer_radius=50.0e-3, thickness=2.0e-3, width=120.0e-3),
-        cone=replace(_cone(), material=TI_6AL_4V),
+        cone=replace(_cone(), inner_position=22.0e-3, material=TI_6AL_4V),
         impact_springs=replace(_impact_springs(), material=TI_6AL_4V),
         inner_hub=replace(_inner_hub(), material=TI_6AL_4V),
     )

@@ -46,7 +46,7 @@ def _new_keys(before: tuple[Task, ...], after: tuple[Task, ...]) -> set[str]:
 def test_report_has_every_task_and_needs_come_first(study: Study) -> None:
     tasks = report_tasks(study)
     names = [t.name for t in tasks]
-    orientations = [f"fe_phi{o:03d}" for o in (0, 15, 30, 45, 60)] + ["ancf_phi000", "ancf_phi045"]
+    orientations = [f"fe_phi{o:03d}" for o in (0, 15, 25, 40, 60, 80, 95, 105)] + ["ancf_phi000", "ancf_phi045"]
     others = {"mesh", "mesh_whole", "brush", "ancf_surfaces", "metrics", "pictures"}
     questions = {task.name for question in QUESTIONS for task in question.tasks(study)}
     assert set(names) == {*orientations, *others, *questions}

@@ -29,7 +29,7 @@ __all__ = ["ORIENTATIONS", "READINGS", "Reading", "reading_curves", "reading_tas
 
 ORIENTATIONS = 0.0, 45.0
 """Of the tire [deg]: spoke down, and between two spokes."""
-_DEFLECTIONS = (np.arange(1, 41) * 1e-3).round(12).tolist()
+_DEFLECTIONS = (np.arange(41) * 1e-3).round(12).tolist()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
