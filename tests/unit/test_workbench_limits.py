@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contracts.curves import StiffnessCurve, average_curve
+from contracts.curves import Around, StiffnessCurve, average_curve
 from workbench.questions.fe.checks import GAP, circumferential_tangent_check, overlap_checks
 from workbench.questions.model_curves import ModelCurves
 
@@ -32,28 +32,25 @@ def model(slopes: dict[float, float], gap: float = 1e-3, end: float = 0.04) -> M
     return ModelCurves(model="fe", by_orientation=curves, average=average_curve(list(curves.values())), runs={})
 
 
-def test_end_points_of_the_range_count_half() -> None:
-    check = circumferential_tangent_check(model({0.0: 9000.0, 30.0: 7000.0, 60.0: 9000.0}), BAND, TOLERANCES)
+def test_ends_of_a_mirrored_wheels_half_period_count_half() -> None:
+    around = Around(period=120.0, mirrored=True)
+    check = circumferential_tangent_check(model({0.0: 9000.0, 30.0: 7000.0, 60.0: 9000.0}), BAND, TOLERANCES, around)
     assert check.value == pytest.approx(8000.0)
     assert check.status == "pass"
 
 
-def test_uneven_orientations_are_weighted_by_their_arc() -> None:
-    check = circumferential_tangent_check(model({0.0: 9000.0, 10.0: 9000.0, 60.0: 5000.0}), BAND, TOLERANCES)
-    assert check.value == pytest.approx((10 * 9000 + 50 * 7000) / 60)
+def test_orientations_are_weighted_by_their_arc_of_a_period() -> None:
+    one_way = Around(period=120.0)
+    even = model({0.0: 9000.0, 40.0: 7000.0, 80.0: 5000.0})
+    assert circumferential_tangent_check(even, BAND, TOLERANCES, one_way).value == pytest.approx(7000.0)
+    uneven = model({0.0: 9000.0, 10.0: 9000.0, 60.0: 5000.0})
+    check = circumferential_tangent_check(uneven, BAND, TOLERANCES, one_way)
+    assert check.value == pytest.approx((35 * 9000 + 30 * 9000 + 55 * 5000) / 120)
     assert check.status == "fail"
 
 
-def test_orientations_that_cover_a_period_weigh_alike() -> None:
-    around = model({0.0: 9000.0, 40.0: 7000.0, 80.0: 5000.0})
-    assert circumferential_tangent_check(around, BAND, TOLERANCES, 120.0).value == pytest.approx(7000.0)
-    uneven = model({0.0: 9000.0, 10.0: 7000.0, 80.0: 5000.0})
-    part = circumferential_tangent_check(uneven, BAND, TOLERANCES, 120.0)
-    assert part.value == pytest.approx((10 * 8000 + 70 * 6000) / 80)
-
-
 def test_one_orientation_has_no_mean_around_the_wheel() -> None:
-    assert circumferential_tangent_check(model({0.0: 8000.0}), BAND, TOLERANCES).status == "error"
+    assert circumferential_tangent_check(model({0.0: 8000.0}), BAND, TOLERANCES, Around()).status == "error"
 
 
 def test_overlap_counts_up_to_the_load() -> None:

@@ -108,8 +108,9 @@ class _Runs:
     def _solve(self, model: str, tasks: Sequence[Task]) -> float:
         with RunDisplay(console, tasks) as display:
             entries = run_tasks(tasks, self.store, display, self.computing)
-        folders = [entry.path for name, entry in entries.items() if name.startswith(f"{model}_phi")]
-        curves = [read_curve(folder / CURVE, model=model) for folder in folders]
+        folders = {name: entry.path for name, entry in entries.items() if name.startswith(f"{model}_phi")}
+        turns = {name: float(name.removeprefix(f"{model}_phi")) for name in folders}
+        curves = [read_curve(path / CURVE, model=model, orientation_deg=turns[name]) for name, path in folders.items()]
         if any(curve.partial for curve in curves):
             raise RunError(f"{_NAMES[model]}: a run to the initial tangent does not converge; see workbench stiffness")
         return mean_curve(curves, around(self.study)).initial_tangent(self.study.tolerances.initial_tangent_up_to)

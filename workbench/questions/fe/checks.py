@@ -108,13 +108,8 @@ def _claim(id: str, title: str, quantity: str, unit: str, role: Role, source: st
     return Claim(id=id, title=title, quantity=quantity, unit=unit, role=role, source=source)
 
 
-def circumferential_tangent_check(
-    fe: ModelCurves, band: Band, tolerances: ToleranceSection, period_deg: float = 360.0
-) -> Check:
-    """Initial tangent of the mean around the wheel, each orientation weighted by the arc it stands for.
-
-    Orientations that cover one period [deg] of the wheel evenly weigh alike.
-    """
+def circumferential_tangent_check(fe: ModelCurves, band: Band, tolerances: ToleranceSection, around: Around) -> Check:
+    """Initial tangent of the mean of all orientations, each weighted by the arc it stands for ``around`` the wheel."""
     up_to = tolerances.initial_tangent_up_to
     claim = Claim(
         id="fe.initial_tangent_around",
@@ -124,18 +119,15 @@ def circumferential_tangent_check(
         role="finding",
         source=f"{band.source}; which mean the thesis means is not known",
     )
-    return near(claim, lambda: _tangent_around(fe, up_to, period_deg), band.initial_tangent, tolerances.initial_tangent)
 
+    def mean() -> float:
+        angles = list(fe.by_orientation)
+        if len(angles) < 2:
+            raise InputError("orientations", len(angles), "two or more are needed for a mean", "add an orientation")
+        tangents = [curve.initial_tangent(up_to) for curve in fe.by_orientation.values()]
+        return float(np.dot(around.weights(angles), tangents))
 
-def _tangent_around(fe: ModelCurves, up_to: float, period_deg: float) -> float:
-    angles = np.array(sorted(fe.by_orientation))
-    if len(angles) < 2:
-        raise InputError("orientations", len(angles), "two or more are needed for a mean", "add an orientation")
-    tangents = np.array([fe.by_orientation[angle].initial_tangent(up_to) for angle in angles])
-    steps = np.diff([*angles, angles[0] + period_deg])
-    if np.allclose(steps, steps[0]):
-        return float(tangents.mean())
-    return float(np.trapezoid(tangents, angles) / (angles[-1] - angles[0]))
+    return near(claim, mean, band.initial_tangent, tolerances.initial_tangent)
 
 
 def overlap_checks(fe: ModelCurves, *, inner_contact: bool, up_to: float = math.inf) -> list[Check]:

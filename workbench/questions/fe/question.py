@@ -21,7 +21,7 @@ from workbench.questions.fe.results import ContinuumCurves, read_continuum
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.wheel.graph import MESH, MESH_WHOLE
-from workbench.study.full import around, rotational_period
+from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
 from workbench.study.wheel_design import wheel_design
@@ -51,7 +51,7 @@ def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
     checks += spread_checks(fe, tolerances, study.judged_deflection)
     checks += overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.judged_load)
     if study.reference is not None:
-        checks.append(circumferential_tangent_check(fe, study.reference, tolerances, rotational_period(study)))
+        checks.append(circumferential_tangent_check(fe, study.reference, tolerances, around(study)))
     return checks
 
 

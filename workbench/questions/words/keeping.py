@@ -68,7 +68,7 @@ def kept_record(record: Mapping[str, Any]) -> dict[str, Any]:
 
 def _largest_miss(wheel: Mapping[str, Any]) -> float:
     """Of the aims that are statements as they stand."""
-    return max(miss for name, miss in wheel["misses"].items() if name not in (SPREAD, STRESS))
+    return float(max(miss for name, miss in wheel["misses"].items() if name not in (SPREAD, STRESS)))
 
 
 def _varying_less_than_in_phase(study: Mapping[str, Any], wheels: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
