@@ -109,12 +109,12 @@ def _models_in(kind: type[BaseModel]) -> Iterator[type[BaseModel]]:
 
 def test_each_point_is_a_whole_study_with_its_values_and_the_first_is_the_study_as_it_is() -> None:
     base, first, last = _points(strip_thickness=["0.5 mm", "0.7 mm"], **{"fe.friction": [0.2]})
-    assert (base.number, base.values, base.study.wheel.tire.thickness) == (0, {}, 0.609e-3)
+    assert (base.number, base.values, base.study.wheel.tire.thickness) == (0, {}, 0.6173e-3)
     assert first.study.wheel.tire.thickness == 0.5e-3
     assert {springs.thickness for springs in last.study.wheel.springs} == {0.7e-3}
     assert last.study.fe.friction == 0.2
     assert last.study.sweep is None
-    assert TABLE["wheel"]["tire"]["thickness"] == "0.609 mm"
+    assert TABLE["wheel"]["tire"]["thickness"] == "0.6173 mm"
 
 
 def test_orientation_is_set_wherever_the_study_names_one() -> None:
@@ -138,7 +138,7 @@ def test_keys_may_be_tied_and_items_of_lists_varied() -> None:
 
 
 def test_a_search_begins_at_the_study() -> None:
-    """0.609 mm between 0.5 and 0.7 mm; the third of three counts; -40 mm between -50 and -30 mm; else the middle."""
+    """0.6173 mm between 0.5 and 0.7 mm; the third of three counts; -40 mm between -50 and -30 mm; else the middle."""
     section = SweepSection.model_validate(
         {
             "design": "search",
@@ -152,13 +152,13 @@ def test_a_search_begins_at_the_study() -> None:
             "wheel.grousers.material": ["a", "b"],
         }
     )
-    assert place_of(section, TABLE) == pytest.approx([0.545, 2.5 / 3.0, 0.5, 0.5, 0.0, 0.5])
+    assert place_of(section, TABLE) == pytest.approx([0.5865, 2.5 / 3.0, 0.5, 0.5, 0.0, 0.5])
 
 
 def test_a_scale_acts_on_every_strip_after_their_own_values() -> None:
     *_, point = _points(**{"strip_scale": [0.5, 1.5], "wheel.tire.thickness": ["0.8 mm"]})
     assert point.study.wheel.tire.thickness == pytest.approx(1.2e-3)
-    assert [springs.thickness for springs in point.study.wheel.springs] == pytest.approx([1.5 * 0.609e-3] * 2)
+    assert [springs.thickness for springs in point.study.wheel.springs] == pytest.approx([1.5 * 0.6173e-3] * 2)
 
 
 def test_an_orientation_step_goes_once_around() -> None:
