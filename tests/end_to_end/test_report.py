@@ -17,11 +17,13 @@ from contracts.series import read_series
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from tests.end_to_end.small_study import run, small_study_text
 from workbench.charts.packing import unpacked
+from workbench.questions.words.readings import READINGS
 from workbench.study.magnitudes import GATES
 from workbench.verdict.statements import statement_of
 
 TASKS = {
     *("mesh", "mesh_whole", "fe_phi000"),
+    *(f"words_{reading.name}_phi{orientation:03.0f}" for reading in READINGS for orientation in (0, 45)),
     "rover_still",
     *("mesh_x1.5", "fe_x1.5", "mesh_x2", "fe_x2"),
     *(
@@ -82,7 +84,7 @@ def test_junit_holds_the_same_checks(first_report: Finished, workspace: Path) ->
 def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished, workspace: Path) -> None:
     folder = workspace / "report" / "curves"
     names = {"fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
-             "brush_average.csv", "section_phi000.csv", "section_average.csv", "fe_-40C_phi000.csv",
+             "brush_average.csv", "section_phi000.csv", "section_average.csv", "words_band_average.csv", "fe_-40C_phi000.csv",
              "fe_x1.5_phi000.csv", "fe_x2_phi000.csv"}  # fmt: skip
     names |= {
         f"ancf_{fit}_{place}.csv"

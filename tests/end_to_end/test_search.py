@@ -85,7 +85,11 @@ def test_the_same_search_computes_nothing_again_and_a_longer_one_goes_on(searche
     [
         ("load_at_5mm_N", "load_at_6mm_N", "sweep.aims.load_at_6mm_N: is no number of the table; e.g. load_at_5mm_N"),
         ("wheel.springs[0].bands", "wheel.springs[7].bands", "wheel.springs[7].bands[1][0] = 30 mm: names no key"),
-        ('high = "0.9 mm"', 'high = "900 mm"', "sweep: none of its first points can be used: "),
+        (
+            'low = "0.4 mm", high = "0.9 mm"',
+            'low = "400 mm", high = "900 mm"',
+            "sweep: none of its first points can be used: ",
+        ),
     ],
 )
 def test_a_search_that_cannot_be_made_is_one_message(tmp_path: Path, old: str, new: str, message: str) -> None:

@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves, RunNumbers, mean_curve
 from workbench.questions.words.graph import asked, in_phase, twin_tasks
 from workbench.questions.words.plausible import Plausible, PlausibleWheel
@@ -159,5 +160,7 @@ def test_the_band_is_what_the_set_spans() -> None:
     np.testing.assert_allclose(found.band.load, SOFTENING)
     np.testing.assert_allclose(found.band.columns["load_high_N"], 1.04 * SOFTENING)
     assert found.outside(curve) == 0.0
+    with pytest.raises(InputError, match="ends before the band's first point"):
+        found.outside(replace(curve, deflection=1e-4 * DEFLECTION / 0.04, columns={}))
     assert found.outside(replace(curve, load=1.1 * curve.load)) == pytest.approx(1.1 / 1.04 - 1.0)
     assert found.outside(replace(curve, load=0.9 * curve.load)) == pytest.approx(1.0 - 0.9 / 0.96)

@@ -55,7 +55,7 @@ def _span_of_tires(figure: Figure, words: Words) -> None:
     means = [tire.average for tire in words.readings.values()]
     at = np.linspace(0.0, min(mean.deflection[-1] for mean in means), 60)
     loads = np.array([mean.load_at(at) for mean in means])
-    add_area(figure, 1e3 * at, loads.min(axis=0), loads.max(axis=0)[::-1], "means of the tires that the text allows")
+    add_area(figure, 1e3 * at, loads.min(axis=0), loads.max(axis=0), "means of the tires that the text allows")
 
 
 def _band(words: Words) -> Figure:
@@ -65,7 +65,7 @@ def _band(words: Words) -> Figure:
     spans = {"any orientation of the set": ("_any", _FAINT), "averages of the set": ("", BAND)}
     for name, (which, colour) in spans.items():
         low, high = (band.columns[f"load_{end}{which}_N"] for end in ("low", "high"))
-        add_area(figure, at, low, high[::-1], name, colour)
+        add_area(figure, at, low, high, name, colour)
     add_line(figure, words.average, "FE average by arc", MODEL_COLOURS["fe"], width=3.0)
     add_line(figure, words.tire.average, "ANCF mean", MODEL_COLOURS["ancf"], width=2.0, dash="dash")
     add_line(figure, words.brush, "brush line", MODEL_COLOURS["brush"], width=2.0, dash="dot")

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from workbench.execution.task import task_keys
 from workbench.questions.section.graph import section_tasks
 from workbench.study.sweep import Value
@@ -132,6 +133,9 @@ class Plausible:
         """By how much a curve leaves the band of the averages, largest |F/F_edge - 1|, 0 within it [-]."""
         band = self.band
         within = (band.deflection > 0.0) & (band.deflection <= curve.deflection[-1])
+        if not within.any():
+            rule = f"ends before the band's first point, {1e3 * band.deflection[1]:g} mm"
+            raise InputError("curve", f"{1e3 * curve.deflection[-1]:.3g} mm", rule, "compute it further")
         load = curve.load_at(band.deflection[within])
         low, high = (band.columns[f"load_{end}_N"][within] for end in ("low", "high"))
         return float(max(np.max(1.0 - load / low), np.max(load / high - 1.0), 0.0))
