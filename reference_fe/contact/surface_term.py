@@ -5,7 +5,7 @@ Verified by tests/unit/test_fe_surface_assembly.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from reference_fe.dolfinx_api import Expr
 from reference_fe.problem.domain import Domain
 
-__all__ = ["SurfaceDescription", "SurfaceForces", "SurfaceTerm", "TermState"]
+__all__ = ["SurfaceDescription", "SurfaceForces", "SurfaceTerm", "TermState", "joined"]
 
 type TermState = Mapping[str, NDArray[np.float64]]
 """History of a term by name: committed slip, multipliers; empty where there is none."""
@@ -35,6 +35,21 @@ class SurfaceForces:
     nodes: NDArray[np.int64]
     force: NDArray[np.float64]
     stiffness: NDArray[np.float64]
+
+
+def joined(batches: Sequence[SurfaceForces], dim: int) -> SurfaceForces:
+    """One batch of several; all facets of a mesh have the same number of nodes."""
+    if not batches:
+        return SurfaceForces(
+            nodes=np.zeros((0, 0), dtype=np.int64),
+            force=np.zeros((0, 0, dim)),
+            stiffness=np.zeros((0, 0, dim, 0, dim)),
+        )
+    return SurfaceForces(
+        nodes=np.concatenate([b.nodes for b in batches]),
+        force=np.concatenate([b.force for b in batches]),
+        stiffness=np.concatenate([b.stiffness for b in batches]),
+    )
 
 
 class SurfaceTerm(Protocol):

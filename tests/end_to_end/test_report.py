@@ -84,8 +84,8 @@ def test_junit_holds_the_same_checks(first_report: Finished, workspace: Path) ->
 def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished, workspace: Path) -> None:
     folder = workspace / "report" / "curves"
     names = {"fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
-             "brush_average.csv", "section_phi000.csv", "section_average.csv", "words_band_average.csv", "fe_-40C_phi000.csv",
-             "fe_x1.5_phi000.csv", "fe_x2_phi000.csv"}  # fmt: skip
+             "brush_average.csv", "section_phi000.csv", "section_average.csv", "words_band_average.csv",
+             "fe_-40C_phi000.csv", "fe_x1.5_phi000.csv", "fe_x2_phi000.csv"}  # fmt: skip
     names |= {
         f"ancf_{fit}_{place}.csv"
         for fit in ("four_spokes", "six_spokes", "three_spokes")
