@@ -24,6 +24,7 @@ from workbench.verdict.statements import statement_of
 TASKS = {
     *("mesh", "mesh_whole", "fe_phi000"),
     *(f"words_{reading.name}_phi{orientation:03.0f}" for reading in READINGS for orientation in (0, 45)),
+    *(f"words_hoops{which}_phi{orientation:03d}" for which in ("", "_twin") for orientation in (0, 15, 30, 45, 60)),
     "rover_still",
     *("mesh_x1.5", "fe_x1.5", "mesh_x2", "fe_x2"),
     *(

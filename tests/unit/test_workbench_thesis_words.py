@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves, RunNumbers, mean_curve
-from workbench.questions.words.graph import asked, in_phase, twin_tasks
+from workbench.questions.words.checks import verdicts, words_checks
+from workbench.questions.words.graph import asked, hoops, hoops_tasks, in_phase, twin_tasks
 from workbench.questions.words.plausible import Plausible, PlausibleWheel
-from workbench.questions.words.question import words_checks
 from workbench.questions.words.readings import READINGS
 from workbench.questions.words.results import Words, follows, spread
 from workbench.study.model import stated
@@ -107,6 +107,36 @@ def _stiff(words: Words) -> Words:
 def test_each_sentence_fails_where_it_is_not_so(words: Words, failed: set[str]) -> None:
     status = _status(words)
     assert {name for name, found in status.items() if found != "pass"} == failed
+
+
+def test_verdicts_of_the_statements() -> None:
+    """One reading of the first statement is enough; a curve that ends early leaves what it does not reach undecided."""
+    assert set(verdicts(_words()).values()) == {"holds"}
+    high = replace(_words(), average=replace(_words().average, load=1.04 * _words().average.load))
+    assert _status(high)["small.slope"] == "fail"
+    assert verdicts(high)["small"] == "holds"
+    assert verdicts(_words(stress=4e6))["ours"] == "does not hold"
+    average = _words().average
+    kept = average.deflection < 0.025
+    short = replace(
+        _words(), average=replace(average, deflection=average.deflection[kept], load=average.load[kept], columns={})
+    )
+    assert verdicts(short)["averages"] == "not decided"
+    assert verdicts(short)["small"] == "holds"
+    off = replace(short, average=replace(short.average, load=0.8 * short.average.load))
+    assert verdicts(off)["averages"] == "does not hold"
+    assert verdicts(off)["small"] == "does not hold"
+
+
+def test_the_hoops_are_their_own_study_with_their_own_twin() -> None:
+    tasks = {task.name: task for task in hoops_tasks()}
+    assert hoops().name == "exomars_hoops"
+    assert [name for name in tasks if name.startswith("words_hoops_phi")] == [
+        f"words_hoops_phi{angle:03d}" for angle in (0, 15, 30, 45, 60)
+    ]
+    assert dict(hoops().wheel.springs[1])["phase"] == pytest.approx(np.pi / 3.0)
+    assert dict(in_phase(hoops()).wheel.springs[1])["phase"] == 0.0
+    assert tasks["words_hoops_phi015"].inputs["wheel"] != tasks["words_hoops_twin_phi015"].inputs["wheel"]
 
 
 def test_numbers_of_the_sentences() -> None:

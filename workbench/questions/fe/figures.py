@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from contracts.curves import StiffnessCurve
+from contracts.curves import Around, StiffnessCurve
 from contracts.errors import InputError
 from workbench.charts.curves import DASHES, add_area, add_line, add_orientations
 from workbench.charts.interactive import Figure, empty_figure, figure_html
@@ -16,7 +16,12 @@ from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve
 from workbench.study.model import Band
 
-__all__ = ["add_band", "add_uncertainty", "add_users", "fe_figure", "stress_figure"]
+__all__ = ["add_band", "add_uncertainty", "add_users", "around_figure", "fe_figure", "stress_figure"]
+
+_TOLD_AT = 0.010, 0.020, 0.030
+"""Deflections at which loads are drawn around the wheel [m]."""
+_LEAST = 3
+"""Orientations that make a figure around the wheel."""
 
 
 def fe_figure(fe: ModelCurves, study: MeshStudy | None, users: Sequence[UserCurve], band: Band | None) -> str:
@@ -28,6 +33,32 @@ def fe_figure(fe: ModelCurves, study: MeshStudy | None, users: Sequence[UserCurv
     add_line(figure, fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
     add_users(figure, users)
     return figure_html(figure, "fe-curves")
+
+
+def around_figure(fe: ModelCurves, turns: Around) -> str:
+    """Load against the position that faces the ground, rolling one way (solid) and the other (dashed), over one period.
+
+    Rolling backwards meets the positions in the reverse order: F(period - phi). Nothing for a mirrored wheel, which has
+    no direction, and of fewer than three orientations.
+    """
+    if turns.mirrored or len(fe.loaded) < _LEAST:
+        return ""
+    figure = empty_figure("circumferential position from where rolling began [deg]", "load on the wheel [N]")
+    reached = min(curve.deflection[-1] for curve in fe.loaded.values())
+    for i, deflection in enumerate(at for at in _TOLD_AT if at <= reached):
+        loads = {o % turns.period: float(curve.load_at(deflection)) for o, curve in fe.loaded.items()}
+        ways = {"forwards": (loads, "solid"), "backwards": ({-o % turns.period: f for o, f in loads.items()}, "dash")}
+        for way, (found, dash) in ways.items():
+            angles = sorted(found)
+            figure.add_scatter(
+                x=[*angles, angles[0] + turns.period],
+                y=[*(found[o] for o in angles), found[angles[0]]],
+                name=f"{1e3 * deflection:g} mm, {way}",
+                mode="lines+markers",
+                line={"color": ORIENTATION_COLOURS[i], "width": 2, "dash": dash},
+                hovertemplate="%{y:.1f} N",
+            )
+    return figure_html(figure, "fe-around")
 
 
 def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:

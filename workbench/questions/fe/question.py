@@ -57,7 +57,7 @@ def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
 
 def _figures(study: Study, results: ContinuumCurves) -> Mapping[str, str]:
     from workbench.charts.packing import picture_link
-    from workbench.questions.fe.figures import fe_figure, stress_figure
+    from workbench.questions.fe.figures import around_figure, fe_figure, stress_figure
     from workbench.questions.wheel.scene import stress_scene
 
     first, *_ = [*results.fe.loaded.values(), results.fe.average]
@@ -65,6 +65,7 @@ def _figures(study: Study, results: ContinuumCurves) -> Mapping[str, str]:
     deformed = "" if results.picture is None else picture_link(results.picture)
     return {
         "fe": fe_figure(results.fe, results.mesh_study, results.users, study.reference),
+        "around": around_figure(results.fe, around(study)),
         "stress": stress_figure(first, strengths),
         "stress_scene": stress_scene(results.mesh_folder, results.solved, min(strengths.values()), deformed),
     }

@@ -1,15 +1,22 @@
-"""Tasks of the wheel with its springs in phase. Verified by tests/unit/test_workbench_thesis_words.py."""
+"""Tasks of the wheel with its springs in phase, and of the hoops beside it.
+
+Verified by tests/unit/test_workbench_thesis_words.py.
+"""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import cache
+
 from workbench.execution.task import Task
-from workbench.questions.section.graph import section_task, without_planar_model
+from workbench.questions.section.graph import section_task, section_tasks, without_planar_model
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
+from workbench.study.reading import built_in_study, read_study
 
-__all__ = ["TWIN", "asked", "in_phase", "twin_tasks"]
+__all__ = ["HOOPS", "HOOPS_TWIN", "TWIN", "asked", "hoops", "hoops_tasks", "in_phase", "twin_tasks"]
 
-TWIN = "words_twin"
+TWIN, HOOPS, HOOPS_TWIN = "words_twin", "words_hoops", "words_hoops_twin"
 DEFLECTIONS = (0.005, 0.010, 0.015, 0.020, 0.025, 0.030)
 """Of the twin's curves [m]."""
 
@@ -28,8 +35,20 @@ def in_phase(study: Study) -> Study:
     return study.model_copy(update={"wheel": study.wheel.model_copy(update={"springs": springs})})
 
 
-def twin_tasks(study: Study) -> list[Task]:
+def twin_tasks(study: Study, name: str = TWIN) -> list[Task]:
     """The section model of the twin, ``words_twin_phi015``, at the study's orientations."""
     twin = in_phase(study)
     angles = [degrees(o) for o in study.fe.orientations]
-    return [section_task(twin, orientation_name(TWIN, o), o, DEFLECTIONS) for o in angles]
+    return [section_task(twin, orientation_name(name, o), o, DEFLECTIONS) for o in angles]
+
+
+@cache
+def hoops() -> Study:
+    """The wheel that was built in before the search: its springs are hoops, which touch the rim."""
+    return read_study(built_in_study().with_name("exomars_hoops.toml"))
+
+
+def hoops_tasks() -> list[Task]:
+    """The section model of the hoops, ``words_hoops_phi015``, and of their twin, ``words_hoops_twin_phi015``."""
+    own = [replace(task, name=task.name.replace("section", HOOPS)) for task in section_tasks(hoops())]
+    return [*own, *twin_tasks(hoops(), HOOPS_TWIN)]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -43,6 +44,8 @@ class Words:
     section, twin : planar model of the wheel, and of its twin with all springs in phase
     yield_strength : of each part [Pa]
     plausible : wheels that satisfy the statements
+    verdicts : by statement, "holds", "does not hold" or "not decided"
+    hoops : the same of the wheel with hoops, by the section model
     """
 
     fe: ModelCurves
@@ -54,6 +57,8 @@ class Words:
     twin: ModelCurves
     yield_strength: Mapping[str, float]
     plausible: Plausible
+    verdicts: Mapping[str, str] = field(default_factory=dict)
+    hoops: Words | None = None
 
     @property
     def brush_slope(self) -> float:
@@ -70,12 +75,16 @@ class Words:
         return min(self.readings, key=self._misses)
 
     def _misses(self, reading: Reading) -> float:
+        """Of what the curves reach."""
         tire = self.readings[reading]
-        try:
-            averages = [abs(self.average_over(tire, at) - 1.0) / within for at, within in AVERAGE.items()]
-            return max(*averages, *(follows(self.fe, one)[1] / FOLLOWS for one in tire.by_orientation.values()))
-        except InputError:
-            return math.inf
+        found = []
+        for deflection, within in AVERAGE.items():
+            with suppress(InputError):
+                found.append(abs(self.average_over(tire, deflection) - 1.0) / within)
+        for curve in tire.by_orientation.values():
+            with suppress(InputError):
+                found.append(follows(self.fe, curve)[1] / FOLLOWS)
+        return max(found, default=math.inf)
 
     @property
     def tire(self) -> ModelCurves:
