@@ -42,7 +42,7 @@ GROUPS = {
     "hub study": ("fe_hub*", "mesh_hub"),
     "penalty study": ("fe_penalty*", "mesh_penalty"),
     "temperature": ("environment_*",),
-    "section model": ("section_*", "crosscheck_*", "words_twin_*"),
+    "section model": ("section_*", "crosscheck_*", "words_twin_*", "words_hoops_*"),
     "ANCF tire": ("ancf_*", "words_hub*"),
     "fitted ANCF tires": ("ancf_fit_*", "ancf_as_it_is"),
     "brush line": ("brush",),

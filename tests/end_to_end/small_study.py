@@ -22,7 +22,7 @@ CHANGES = {
     r'max_deflection = "[^"]*"': 'max_deflection = "6 mm"',
     r"points = \d+": "points = 2",
     r"snapshot_loads = \[[^\]]*\]": 'snapshot_loads = ["20 N"]',
-    r'max_deflection = "30 mm"\npoints = \d+': 'max_deflection = "6 mm"\npoints = 2',
+    r'max_deflection = "36 mm"\npoints = \d+': 'max_deflection = "6 mm"\npoints = 2',
     r"temperatures = \[[^\]]*\]": 'temperatures = ["-40 degC", "20 degC"]',
     r'orientation = "15 deg"\nfactors': 'orientation = "0 deg"\nfactors',
     r'\["10 mm", "20 mm", "30 mm"\]': '["6 mm"]',

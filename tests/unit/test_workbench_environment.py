@@ -128,7 +128,7 @@ BAD = {
         "environment.orientation",
         "fe.orientations",
     ),
-    "too short": ('max_deflection = "30 mm"', 'max_deflection = "1 mm"', "environment.max_deflection", "first point"),
+    "too short": ('max_deflection = "36 mm"', 'max_deflection = "1 mm"', "environment.max_deflection", "first point"),
     "variant": (r'variants = \["AISI 301"\]', 'variants = ["gold"]', "environment.variants", "is not in [materials]"),
     "data": ('temperature_data = "AISI 301"', 'temperature_data = "gold"', "temperature_data", "is not known"),
     "no data": ('temperature_data = "Ti-6Al-4V".*', "", "environment.temperatures", "has no temperature data"),

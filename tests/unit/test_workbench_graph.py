@@ -19,6 +19,7 @@ from workbench.questions.rover_closer.question import ROVER_CLOSER
 from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.questions.study_graph import mesh_tasks, report_tasks, stiffness_tasks
 from workbench.questions.verification.question import VERIFICATION
+from workbench.questions.words.graph import hoops_tasks
 from workbench.questions.words.readings import reading_tasks
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
@@ -98,7 +99,7 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
     closed = (VERIFICATION, MULTIBODY, ROVER, ROVER_ANCF, ROVER_CLOSER)
     verified = {task.name for question in closed for task in question.tasks(study)}
     kept = {"ancf_phi000", "ancf_phi045", "brush", "ancf_surfaces"} | refined | verified
-    kept |= {task.name for task in reading_tasks(study)}
+    kept |= {task.name for task in [*reading_tasks(study), *hoops_tasks()]}
     assert kept == set(task_keys(before)) - _new_keys(before, mesh)
 
 
