@@ -38,6 +38,7 @@ def add_area(
     figure.add_scatter(
         x=np.concatenate([x, x[::-1]]),
         y=np.concatenate([there, back[::-1]]),
+        mode="lines",
         fill="toself",
         fillcolor=colour,
         line={"width": 0},

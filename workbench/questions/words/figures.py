@@ -81,7 +81,8 @@ def _wheels(words: Words) -> Figure:
         for name, lines in centrelines(design).items():
             x, z = (1e3 * np.concatenate([np.append(line[:, k], np.nan) for line in lines]) for k in (0, 1))
             colour = INK if name in ("rim", "hub") else ORIENTATION_COLOURS[int(name != design.spring_sets[0].name)]
-            add_plain(figure, x + _PITCH * i, z, f"{wheel.point}: {name.replace('_', ' ')}", colour, width=1.6)
+            add_plain(figure, x + _PITCH * i, z, name.replace("_", " "), colour, width=1.6)
+            figure.data[-1].showlegend = i == 0
         text = f"{wheel.point}: {1e-6 * wheel.stress:.0f} MPa"
         figure.add_annotation(x=_PITCH * i, y=-175.0, text=text, showarrow=False, font={"size": 13})
     half = 0.5 * _PITCH

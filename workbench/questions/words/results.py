@@ -174,7 +174,7 @@ def _or_words(number: Callable[[], str]) -> str:
     try:
         return number()
     except InputError:
-        return "the curve ends before"
+        return "not reached"
 
 
 def follows(curves: ModelCurves, reference: StiffnessCurve) -> tuple[float, float]:
