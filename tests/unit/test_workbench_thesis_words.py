@@ -162,8 +162,8 @@ def test_a_curve_that_ends_early_is_an_error_and_no_verdict() -> None:
     }
     fe = replace(words.fe, by_orientation=short)
     ended = replace(words, fe=fe, average=replace(fe.by_orientation[30.0], orientation_deg=None))
-    assert ended.shown["large"] == "the curve ends before"
-    assert ended.shown["averages"].count("the curve ends before") == 3
+    assert ended.shown["large"] == "not reached"
+    assert ended.shown["averages"].count("not reached") == 3
     status = _status(replace(words, fe=fe))
     assert {name for name, found in status.items() if found == "error"} == {
         "follows_0deg",
