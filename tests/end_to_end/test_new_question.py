@@ -27,6 +27,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a copy of ``workbench`` and the page's files in it."""
     folder = tmp_path_factory.mktemp("package")
     shutil.copytree(ROOT / "workbench", folder / "workbench", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "studies", folder / "studies")  # as in the installed package
     for name, text in FILE.findall(PAGE.read_text(encoding="utf-8")):
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")
