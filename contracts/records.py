@@ -9,7 +9,7 @@ from contracts.errors import InputError
 
 __all__ = ["Check", "Role", "Status", "Timing"]
 
-Status = Literal["pass", "fail", "error"]
+Status = Literal["pass", "fail", "undecided", "error"]
 Role = Literal["gate", "finding"]
 _HINT = "words of checks stand in workbench/questions/*/statements.toml"
 
@@ -26,7 +26,8 @@ class Check:
     value : the number found; None if it could not be computed
     reference : number, or [low, high], it is held against
     tolerance : how far it may lie off, in words with its number, e.g. ``"3 %"``
-    status : ``"pass"``, ``"fail"`` or ``"error"`` (could not be evaluated)
+    status : ``"pass"``, ``"fail"``, ``"undecided"`` (what is not known reaches across the limit, or the run ended
+        before it) or ``"error"`` (could not be evaluated); the last two never count as passed
     role : ``"gate"`` (must hold) or ``"finding"`` (what the comparison found)
     source : where the reference comes from: thesis or paper, with its figure, equation or section where there is one
     claim : what holds if the check passes, one sentence

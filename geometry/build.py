@@ -51,6 +51,7 @@ def build_mesh(
     refinement: Mapping[str, float] | None = None,
     parts: Literal["all", "flexible"] = "all",
     factor: float = 1.0,
+    edge_size: float | None = None,
 ) -> TaggedMesh:
     """Mesh a wheel with structured hexahedra, conforming at every junction.
 
@@ -66,6 +67,7 @@ def build_mesh(
     parts : ``"all"``, or ``"flexible"`` without cone, impact springs and inner hub
     factor : at least 1; every count of elements along strips and along the axle is multiplied by it and rounded up,
         those through a thickness are not: whole factors give nested meshes
+    edge_size : length along the axle of the elements at the edges of strips [m], see `MeshSize`; None: like the others
 
     Returns
     -------
@@ -86,7 +88,8 @@ def build_mesh(
     """
     if not (math.isfinite(factor) and factor >= 1.0):
         raise InputError("refinement factor", factor, "must be at least 1", "choose a larger element size instead")
-    size = replace(mesh_size(design, element_size, axial_size, thickness_elements, refinement), factor=factor)
+    size = mesh_size(design, element_size, axial_size, thickness_elements, refinement, edge_size)
+    size = replace(size, factor=factor)
     if order not in _HEXAHEDRON:
         raise InputError("order", order, "must be 1 or 2", "use 2 for curved geometry")
     names = part_names(design, parts)
@@ -151,12 +154,15 @@ def mesh_size(
     axial_size: float | None,
     thickness_elements: int,
     refinement: Mapping[str, float] | None,
+    edge_size: float | None = None,
 ) -> MeshSize:
     """Element sizes [m], checked; raises InputError for sizes out of range or parts that the wheel does not have."""
     require_positive_length("element size", element_size)
     axial = AXIAL_RATIO * element_size if axial_size is None else axial_size
     require_positive_length("axial size", axial)
     require_count("elements through the thickness", thickness_elements)
+    if edge_size is not None:
+        require_positive_length("edge size", edge_size)
     for name, value in (refinement or {}).items():
         require_positive_length(f"element size of {name}", value)
         if name not in design.materials:
@@ -166,6 +172,7 @@ def mesh_size(
         axial_size=axial,
         thickness_elements=thickness_elements,
         refinement=dict(refinement or {}),
+        edge_size=edge_size,
     )
 
 

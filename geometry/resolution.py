@@ -53,6 +53,8 @@ class MeshSize:
     axial_size : largest element length along the axle [m]
     thickness_elements : elements through each thickness [-]
     refinement : part name -> element size [m] where it differs
+    edge_size : length along the axle of one element on either side of every axial position where the section changes
+        but the mid-plane [m]: a bent strip curls up at its edges, over a length sqrt(radius thickness)
     factor : every count of elements along strips and along the axle that follows from these sizes is multiplied by this
         one and rounded up; those through a thickness are not. A family of meshes for a grid convergence study [-]
     """
@@ -61,6 +63,7 @@ class MeshSize:
     axial_size: float
     thickness_elements: int
     refinement: Mapping[str, float]
+    edge_size: float | None = None
     factor: float = 1.0
 
     def of(self, part: str) -> float:
@@ -227,15 +230,28 @@ def axial_levels(design: WheelDesign, parts: Parts, half_width: bool) -> NDArray
 
 
 def axial_bands(design: WheelDesign, size: MeshSize, levels: NDArray[np.float64]) -> list[tuple[float, float, int]]:
-    """Axial bands (y0 [m], y1 [m], elements); the joints of the cone have as many elements as its thickness."""
+    """Axial bands (y0 [m], y1 [m], elements); the joints of the cone have as many elements as its thickness.
+
+    With an ``edge_size`` a band that is long enough has one element of that length at each of its ends.
+    """
     joints = cone_joints(design)
     bands = []
-    for low, high in pairwise(levels):
-        count = size.refined(max(1, math.ceil((high - low) / size.axial_size - 1e-6)))
+    for low, high in pairwise(float(level) for level in levels):
         if any(abs(a - low) < _SAME_LEVEL and abs(b - high) < _SAME_LEVEL for a, b in joints):
-            count = size.thickness_elements
-        bands.append((float(low), float(high), count))
+            bands.append((low, high, size.thickness_elements))
+            continue
+        for a, b in pairwise(_with_edges(low, high, size)):
+            bands.append((a, b, size.refined(max(1, math.ceil((b - a) / size.axial_size - 1e-6)))))
     return bands
+
+
+def _with_edges(low: float, high: float, size: MeshSize) -> list[float]:
+    """A band's ends [m] and, where it is more than twice as long as they, the inner ends of its edge elements."""
+    edge = size.edge_size
+    at_low, at_high = (abs(y) > _SAME_LEVEL for y in (low, high))
+    if edge is None or edge >= size.axial_size or high - low <= (at_low + at_high) * 2.0 * edge:
+        return [low, high]
+    return [low, *([low + edge] if at_low else []), *([high - edge] if at_high else []), high]
 
 
 def active_parts(design: WheelDesign, names: Iterable[str], middle: float) -> frozenset[str]:

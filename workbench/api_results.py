@@ -54,12 +54,13 @@ class Curve(StiffnessCurve):
         return _frame({"deflection_m": self.deflection, "load_N": self.load, **self.columns})
 
     def peak_stress(self, load: float) -> DataFrame:
-        """Largest von Mises stress of each part at a load [N], interpolated linearly between the curve's points.
+        """Stress of each part at a load [N], interpolated linearly between the curve's points.
 
         Returns
         -------
-        table : ``part``, ``max_von_mises_Pa``, ``yield_strength_Pa``, ``utilisation`` (their ratio [-]); without a row
-            for a model that has no stress, and for an average
+        table : ``part``; ``stress_Pa``, of strips linearised through the thickness, one thickness from every joint;
+            ``max_von_mises_Pa``, the largest anywhere; ``yield_strength_Pa``; ``utilisation``, of the first over the
+            third [-]; without a row for a model that has no stress, and for an average
 
         Raises
         ------
@@ -72,7 +73,8 @@ class Curve(StiffnessCurve):
         return _frame(
             {
                 "part": [one.part for one in found],
-                "max_von_mises_Pa": [one.stress for one in found],
+                "stress_Pa": [one.stress for one in found],
+                "max_von_mises_Pa": [one.local for one in found],
                 "yield_strength_Pa": [one.strength for one in found],
                 "utilisation": [one.used for one in found],
             }

@@ -76,6 +76,9 @@ def report(
     full: Annotated[
         bool, typer.Option("--full", help="Every orientation until the wheel repeats itself, on a finer mesh: hours.")
     ] = False,
+    require_wheel: Annotated[
+        bool, typer.Option("--require-wheel", help="Exit with 1 unless the wheel does its job.")
+    ] = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="List the tasks: which are reused, which would be computed; no more.")
     ] = False,
@@ -89,7 +92,9 @@ def report(
     from workbench.commands.gate import GateChoices
     from workbench.commands.report import ReportChoices, run_report
 
-    choices = ReportChoices(full=full, dry_run=dry_run, gate=GateChoices(ci=ci, baseline=baseline))
+    choices = ReportChoices(
+        full=full, require_wheel=require_wheel, dry_run=dry_run, gate=GateChoices(ci=ci, baseline=baseline)
+    )
     raise typer.Exit(run_report(study, out, store, computing(workers, ranks, scheduler), choices))
 
 

@@ -18,11 +18,12 @@ SIZES: dict[str, Any] = {"element_size": 0.016, "axial_size": 0.04, "thickness_e
 
 @pytest.mark.parametrize(
     ("choice", "order", "factor"),
-    [("half", 2, 1.0), ("half", 1, 1.0), ("half", 2, 1.5), ("whole", 2, 1.0), ("thick", 2, 1.0)],
+    [("half", 2, 1.0), ("half", 1, 1.0), ("half", 2, 1.5), ("whole", 2, 1.0), ("thick", 2, 1.0), ("edges", 2, 2.0)],
 )
 def test_the_count_is_that_of_the_mesh(choice: str, order: int, factor: float) -> None:
     """Cells exactly, nodes to 8 %; all parts with the cone as well."""
     design, sizes = exomars_hoops(), SIZES | ({"thickness_elements": 2} if choice == "thick" else {})
+    sizes |= {"edge_size": 4e-3} if choice == "edges" else {}
     half, parts = choice != "whole", "all" if choice == "whole" else "flexible"
     size = replace(mesh_size(design, **sizes), factor=factor)
     count = count_solid(design, size, order, parts, half_width=half)  # type: ignore[arg-type]

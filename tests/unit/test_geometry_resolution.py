@@ -72,6 +72,23 @@ def test_the_factor_refines_along_strips_and_axle_and_not_across_a_grouser() -> 
     assert [n for *_, n in axial_bands(WHEEL, replace(size(), factor=1.5), levels)] == [2, 2, 2]
 
 
+def test_edges_of_strips_have_elements_of_their_own() -> None:
+    """Outer springs end at 20, 40 and 60 mm in all: none at the mid-plane, none where two would fill the band."""
+    levels = axial_levels(WHEEL, "flexible", half_width=True)
+    edged = replace(size(), axial_size=20e-3, edge_size=4e-3)
+    bands = axial_bands(WHEEL, edged, levels)
+    assert [1e3 * b for _, b, _ in bands] == pytest.approx([16.0, 20.0, 24.0, 36.0, 40.0, 44.0, 56.0, 60.0])
+    assert all(count == 1 for *_, count in bands)
+    assert [n for *_, n in axial_bands(WHEEL, replace(edged, factor=3.0), levels)] == [3] * 8
+    whole = axial_bands(WHEEL, edged, axial_levels(WHEEL, "flexible", half_width=False))
+    assert np.array(whole[8:]) == pytest.approx(np.array(bands))
+    assert np.array(whole[:8])[:, 0] == pytest.approx(-np.array(bands)[::-1, 1])
+    for long, count in ((5e-3, 4), (20e-3, 3), (1.0, 3)):
+        assert len(axial_bands(WHEEL, replace(edged, edge_size=long), levels)) == count
+    with pytest.raises(InputError, match="edge size"):
+        build_mesh(WHEEL, element_size=30e-3, edge_size=0.0)
+
+
 def test_meshes_of_a_family_are_nested() -> None:
     coarse, fine = (
         build_mesh(WHEEL, element_size=30e-3, axial_size=60e-3, order=1, parts="flexible", factor=k) for k in (1.0, 2.0)

@@ -166,7 +166,7 @@ for name in json.loads(sys.argv[2]):
 print(json.dumps(found))
 """
 DECIDES = {
-    "workbench/questions/fe/ground.py": {"fe_phi000", "fe_phi060", "fe_x2"},
+    "workbench/questions/fe/ground.py": {"fe_phi000", "fe_phi060", "fe_x2_phi015"},
     "workbench/study/quantities.py": {"mesh", "mesh_whole", "fe_phi000", "section_phi000"},
     "workbench/study/wheel.py": {"mesh", "mesh_whole", "fe_phi000", "section_phi000"},
     "workbench/study/ancf_tire.py": {"ancf_phi000", "ancf_phi045"},

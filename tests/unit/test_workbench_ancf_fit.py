@@ -33,7 +33,7 @@ LINE = StiffnessCurve(model="fe", orientation_deg=0.0, deflection=D, load=8e3 * 
 SMALL = replace(thesis_preset(), quadrature=(3, 3, 2), contact_points=(6, 3))
 ALL = {"period": 60.0, "mirrored": True}
 """The wheel's two orientations, 0 and 30 deg, weigh alike."""
-MESH_STUDY = {"orientation_deg": 0.0, "deflections": [0.01, 0.02], "factors": [1, 1.5, 2], "curves_factor": 1.0}
+MESH_STUDY = {"orientations_deg": [0.0], "deflections": [0.01, 0.02], "factors": [1, 2, 3], "curves_factor": 1.0}
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +92,10 @@ def test_the_start_keeps_the_stiffness_per_area_and_the_datum(study: Study) -> N
 @pytest.fixture(scope="module")
 def folders(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Path]:
     """Results as the FE tasks leave them, but from a tire 20 % stiffer than the preset."""
-    root, names = tmp_path_factory.mktemp("fe"), {"fe_phi000": 0.0, "fe_phi030": 30.0, "fe_x1.5": 0.0, "fe_x2": 0.0}
+    root, names = (
+        tmp_path_factory.mktemp("fe"),
+        {"fe_phi000": 0.0, "fe_phi030": 30.0, "fe_x2_phi000": 0.0, "fe_x3_phi000": 0.0},
+    )
     truth, grid = (
         replace(SMALL, young_modulus=1.2 * SMALL.young_modulus),
         [0.0, 0.002, *np.arange(0.004, 0.0251, 0.001).round(6).tolist()],

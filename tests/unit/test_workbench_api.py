@@ -159,6 +159,7 @@ def test_fields_and_stress_of_one_orientation(study: ww.Study, tmp_path: Path) -
     (row,) = curve.peak_stress(150.0).to_dict("records")
     assert row == {
         "part": "tire",
+        "stress_Pa": pytest.approx(300e6),
         "max_von_mises_Pa": pytest.approx(300e6),
         "yield_strength_Pa": 880e6,
         "utilisation": pytest.approx(300 / 880),

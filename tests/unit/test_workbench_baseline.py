@@ -41,7 +41,7 @@ def _check(**changed: Any) -> Check:
 
 def _kept(folder: Path, *checks: Check, study: str = "s") -> Baseline:
     evidence = [Evidence(check=check, section="fe", tasks={}, files=()) for check in checks]
-    text = to_json(summary(study, evidence, [], {"commit": "abc", "created": "2026-11-22T01:00:00+00:00"}))
+    text = to_json(summary(study, evidence, [], {"commit": "abc", "created": "2026-11-22T01:00:00+00:00"}, {}))
     (folder / "summary.json").write_text(text, encoding="utf-8")
     return read_baseline(folder, study)
 

@@ -7,11 +7,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
-import pytest
-
 from contracts.records import Check
 from workbench.questions.comparison import Comparison
 from workbench.questions.models.agreement import Agreement
+from workbench.questions.models.results import ComparedModels
 from workbench.questions.registry import QUESTIONS
 from workbench.report.contents import contents, section_titles
 from workbench.report.opening import check_groups, opening
@@ -40,7 +39,9 @@ def _agreement(distance: float, uncertainty: float | None, verdict: str) -> Agre
 def _found(checks: list[Check], judged: Mapping[str, Agreement] | None = None, **made_by: str) -> Comparison:
     """A comparison with these checks, each made by the question named like its first part unless said otherwise."""
     made = {c.id: made_by.get(c.id.replace(".", "_"), c.id.partition(".")[0]) for c in checks}
-    return cast(Comparison, SimpleNamespace(checks=tuple(checks), question_of=made, agreements=judged or {}))
+    models = ComparedModels(continuum=cast(Any, None), ancf=None, brush=None, metrics={}, limit=0.1)
+    fields = {"checks": tuple(checks), "question_of": made, "agreements": judged or {}, "answers": {"models": models}}
+    return cast(Comparison, SimpleNamespace(**fields))
 
 
 def test_every_section_stands_in_one_group() -> None:
@@ -74,17 +75,6 @@ def test_the_first_screen_shows_all_that_did_not_pass_gates_first() -> None:
         ("fe.yield", "strength", "1 N"),
     ]
     assert "1 of 1 gates did not pass" in found.verdict
-
-
-def test_a_rating_draws_its_doubt_inside_the_scale() -> None:
-    rating, unknown = (
-        opening(STUDY, _found([], {"brush": one})).ratings[0]
-        for one in (_agreement(0.2, 0.03, "differs"), _agreement(0.02, None, "not known"))
-    )
-    assert (rating.name, rating.tone, unknown.tone) == ("Brush tire", "fail", "error")
-    assert rating.at(0.0) == 0.0
-    assert rating.at(0.1) < rating.at(0.2) < rating.at(0.23) <= 100.0
-    assert unknown.at(0.1) == pytest.approx(62.5)
 
 
 def test_scripts_and_styles_are_there() -> None:

@@ -47,7 +47,7 @@ def test_tasks_come_with_the_keys_of_their_results() -> None:
     found = _evidence(STUDY, MADE_BY)
     assert found["rover.drop"].tasks == {"rover_drop": KEYS["rover_drop"]}
     assert list(found["mesh.mass"].tasks) == ["mesh_whole"]
-    assert {"fe_phi000", "fe_phi015", "fe_x2"} <= set(found["fe.balance"].tasks)
+    assert {"fe_phi000", "fe_phi015", "fe_x2_phi015"} <= set(found["fe.balance"].tasks)
     assert list(found["section.vs_solid_phi015"].tasks) == ["fe_phi015", "section_phi015"]
 
 
@@ -56,7 +56,7 @@ def test_without_words_the_identifier_or_the_question_decides() -> None:
     assert list(found["verify.ancf_end_shear_order"].tasks) == ["verify_ancf_end_shear"]
     assert list(found["verify.end_shear_path"].tasks) == ["verify_end_shear"]
     assert {"mesh_hub", "fe_hub_0_rigid"} <= set(found["fe.hub_compliance"].tasks)
-    assert {"fe_x1.5", "fe_x2"} <= set(found["fe.mesh_uncertainty"].tasks)
+    assert {"fe_x2_phi000", "fe_x3_phi015"} <= set(found["fe.mesh_uncertainty"].tasks)
 
 
 def test_a_temperature_and_a_scenario_lead_to_their_own_tasks_and_files() -> None:

@@ -39,16 +39,16 @@ def _springs(study: Study, **changes: object) -> Study:
     return study.model_copy(update={"wheel": wheel})
 
 
-def test_the_graph_holds_every_orientation_of_a_period_on_the_finer_mesh(study: Study) -> None:
+def test_the_graph_holds_every_orientation_of_a_period_on_three_meshes(study: Study) -> None:
     full = full_study(study)
     assert list(broken_rules(full)) == []
     assert full.tolerances.initial_tangent_orientations == study.fe.orientations  # what the strip was chosen on
     tasks = {task.name: task for task in report_tasks(full)}
     solved = [name for name in tasks if name.startswith("fe_phi")]
     assert solved == [f"fe_phi{o:03d}" for o in range(0, 120, 5)]
-    assert tasks["mesh"].inputs["options"]["factor"] == 1.5
-    assert {"fe_x1", "fe_x2"} <= set(tasks)
-    assert "fe_x1.5" not in tasks
+    assert tasks["mesh"].inputs["options"]["factor"] == 1.0
+    for factor in (2, 3):
+        assert {f"fe_x{factor}_phi{o:03d}" for o in range(0, 120, 5)} <= set(tasks)
     (own,) = (task for task in report_tasks(study) if task.name == "mesh")
     assert set(own.inputs["options"]) == set(tasks["mesh"].inputs["options"])
     metrics = tasks["metrics"].needs
@@ -57,9 +57,9 @@ def test_the_graph_holds_every_orientation_of_a_period_on_the_finer_mesh(study: 
 
 def test_meshes_of_default_and_full_study_are_shared(study: Study) -> None:
     default, full = ({t.name: t for t in report_tasks(s)} for s in (study, full_study(study)))
-    assert default["mesh_x1.5"].inputs == full["mesh"].inputs
-    assert default["mesh"].inputs == full["mesh_x1"].inputs
-    assert default["fe_x2"].key({"mesh_x2": "m"}) == full["fe_x2"].key({"mesh_x2": "m"})
+    for name in ("mesh", "mesh_x2", "mesh_x3"):
+        assert default[name].inputs == full[name].inputs
+    assert default["fe_x2_phi015"].key({"mesh_x2": "m"}) == full["fe_x2_phi015"].key({"mesh_x2": "m"})
 
 
 @pytest.mark.parametrize("path", sorted(set(HERE.glob("*.toml")) - {HERE / "words_search.toml"}), ids=lambda p: p.stem)

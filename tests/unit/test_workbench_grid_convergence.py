@@ -45,12 +45,24 @@ def test_a_series_with_one_error_term_is_recovered(order: float, sizes: tuple[fl
     assert indices == pytest.approx([1.25 * abs((10.0 - v) / v) for v in values], rel=1e-7)
 
 
-def test_an_order_above_the_method_s_is_not_believed() -> None:
-    values = [10.0 - 0.001 * size**6 for size in (1.0, 2.0, 4.0)]
-    free, capped = (grid_convergence(values, (1.0, 2.0, 4.0), limit) for limit in (99.0, 2.0))
-    assert (free.order, capped.order) == (pytest.approx(6.0), 2.0)
-    assert capped.apparent_order == pytest.approx(6.0)
-    assert capped.index_fine == pytest.approx(21.0 * free.index_fine)
+@pytest.mark.parametrize("order", [0.5, 6.0])
+def test_an_order_that_is_not_credible_is_replaced_by_two_with_factor_three(order: float) -> None:
+    values = [10.0 - 0.001 * size**order for size in (1.0, 2.0, 4.0)]
+    free, doubted = (grid_convergence(values, (1.0, 2.0, 4.0), range_) for range_ in (None, (1.0, 4.0)))
+    assert (free.order, free.safety) == (pytest.approx(order), 1.25)
+    assert (doubted.apparent_order, doubted.order, doubted.safety) == (pytest.approx(order), 2.0, 3.0)
+    assert doubted.index_fine == pytest.approx(3.0 * abs(values[1] - values[0]) / values[0] / 3.0)
+    assert doubted.index_medium == pytest.approx(3.0 * abs(values[2] - values[1]) / values[1] / 3.0)
+    assert doubted.extrapolated is not None
+    assert doubted.index_coarse == pytest.approx(3.0 * abs(values[2] - doubted.extrapolated) / values[2])
+
+
+def test_a_credible_order_is_used_and_an_oscillation_is_not() -> None:
+    smooth = grid_convergence([10.0 - 0.001 * size**2 for size in (1.0, 2.0, 4.0)], (1.0, 2.0, 4.0), (1.0, 4.0))
+    assert (smooth.order, smooth.safety) == (pytest.approx(2.0), 1.25)
+    values, (r21, r32), *_ = CELIK["oscillatory, p 1.51"]
+    found = grid_convergence(values, (1.0, r21, r21 * r32), (1.0, 4.0))
+    assert (found.behaviour, found.order, found.safety) == ("oscillatory", 2.0, 3.0)
 
 
 @pytest.mark.parametrize("values", [(10.0, 9.0, 9.5), (10.0, 9.0, 8.5), (10.0, 9.0, 8.0), (10.0, 9.0, 9.0)])
@@ -61,7 +73,7 @@ def test_a_series_that_does_not_settle_has_no_order_and_a_large_index(values: tu
 
 
 def test_an_oscillating_series_leaves_no_coarser_mesh_with_less_than_half_its_range() -> None:
-    found = grid_convergence((54.100, 54.075, 54.209), (1.0, 1.12, 1.87), 4.0)
+    found = grid_convergence((54.100, 54.075, 54.209), (1.0, 1.12, 1.87))
     assert found.behaviour == "oscillatory"
     assert found.index_medium == pytest.approx(0.067 / 54.075)
     assert found.index_coarse >= 0.067 / 54.209
@@ -74,9 +86,9 @@ def test_unequal_ratios_decide_what_converges() -> None:
 
 
 def test_equal_medium_and_fine_values_leave_no_error() -> None:
-    found = grid_convergence((10.0, 10.0, 9.9), (1.0, 2.0, 4.0), 2.0)
+    found = grid_convergence((10.0, 10.0, 9.9), (1.0, 2.0, 4.0), (1.0, 4.0))
     assert (found.behaviour, found.order, found.index_fine) == ("monotonic", 2.0, 0.0)
-    assert found.index_coarse == pytest.approx(1.25 * 0.1 / 9.9)
+    assert found.index_coarse == pytest.approx(3.0 * 0.1 / 9.9)
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ def test_the_switch_takes_all_parts_into_the_mesh_and_holds_the_bore_only(study:
         tasks = {task.name: task for task in report_tasks(chosen)}
         assert tasks["mesh"].inputs["options"]["parts"] == parts
         assert len(tasks["fe_phi000"].inputs["rigid_parts"]) == rigid
-        assert len(tasks["fe_x2"].inputs["rigid_parts"]) == rigid
+        assert len(tasks["fe_x2_phi015"].inputs["rigid_parts"]) == rigid
 
 
 def _hub_study(loads: tuple[float, float]) -> HubStudy:

@@ -220,12 +220,12 @@ def test_loosened_gates_are_told_in_the_verdict(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(small_study_text(), encoding="utf-8")
     study = read_study(tmp_path / "s.toml")
     assert loosened(study) == (
-        "tolerances.initial_tangent = 0.9 is looser than its gate's own 0.03",
-        "tolerances.reach_deflection = 0.006 is looser than its gate's own 0.03",
-        "tolerances.fe_energy = 0.1 is looser than its gate's own 0.01",
-        "tolerances.mesh_uncertainty = 0.5 is looser than its gate's own 0.05",
+        "tolerances.initial_tangent = 0.9 is looser than the project's own 0.03",
+        "tolerances.reach_deflection = 0.006 is looser than the project's own 0.03",
+        "tolerances.fe_energy = 0.1 is looser than the project's own 0.01",
+        "tolerances.mesh_uncertainty = 0.5 is looser than the project's own 0.05",
     )
-    assert "4 gate tolerances are the study's own: tolerances.initial_tangent = 0.9" in verdict([], loosened(study))
+    assert "4 tolerances are the study's own: tolerances.initial_tangent = 0.9" in verdict([], loosened(study))
     assert set(loosened(study)) <= set(warnings_of(study))
     other = study.model_copy(update={"tolerances": study.tolerances.model_copy(update={"reference_wheel": False})})
     assert len(loosened(other)) == 2

@@ -54,9 +54,11 @@ def _curve(model: str, orientation: float | None) -> StiffnessCurve:
 
 def test_summary_has_exactly_the_agreed_fields() -> None:
     evidence = [Evidence(check=c, section="fe", tasks={"t": "0f"}, files=("curves/fe_average.csv",)) for c in CHECKS]
-    made = json.loads(to_json(summary("s", evidence, [Timing(task="t", wall_s=1.0, dofs=3)], {"commit": None})))
-    assert list(made) == ["schema", "study", "status", "checks", "timings", "provenance"]
-    assert (made["schema"], made["study"], made["status"]) == (1, "s", "fail")
+    verdict = {"computation": "no", "wheel": "undecided", "models": {"brush": "no"}}
+    timings = [Timing(task="t", wall_s=1.0, dofs=3)]
+    made = json.loads(to_json(summary("s", evidence, timings, {"commit": None}, verdict)))
+    assert list(made) == ["schema", "study", "status", "verdict", "checks", "timings", "provenance"]
+    assert (made["schema"], made["study"], made["status"], made["verdict"]) == (2, "s", "fail", verdict)
     fields = ["id", "title", "quantity", "unit", "value", "reference", "tolerance", "status", "role", "source"]
     fields += ["claim", "why", "theory", "tests", "section", "tasks", "files"]
     assert all(list(c) == fields for c in made["checks"])
@@ -71,6 +73,8 @@ def test_junit_counts_gates_only_and_names_every_check() -> None:
     (suite,) = root
     assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("4", "1", "1")
     assert [case.get("name") for case in suite] == ["a", "b", "c", "d"]
+    undecided = ElementTree.fromstring(junit("s", [_check("e", status="undecided")]))
+    assert [undecided[0].get("failures"), undecided[0][0][0].tag] == ["1", "failure"]
     kinds = [next(iter(case)).tag for case in suite]
     assert kinds == ["system-out", "failure", "error", "system-out"]
     assert "A <title> & more" in suite[1][0].get("message", "")
@@ -178,8 +182,8 @@ def test_verdict_is_one_sentence() -> None:
     assert verdict([_check("a")]) == "All 1 gates passed; every finding lies inside its limits."
     assert verdict(CHECKS) == "2 of 3 gates did not pass; 1 finding outside its limits."
     unknown = [_check(f"e{i}", role="finding", status="error", value=None) for i in range(4)]
-    assert verdict([*CHECKS[3:], *unknown]).endswith("; 1 finding outside its limits, 4 not evaluated.")
-    assert verdict([_check("a"), *unknown]).endswith("; no finding outside its limits, 4 not evaluated.")
+    assert verdict([*CHECKS[3:], *unknown]).endswith("; 1 finding outside its limits, 4 undecided or not evaluated.")
+    assert verdict([_check("a"), *unknown]).endswith("; no finding outside its limits, 4 undecided or not evaluated.")
     assert verdict([CHECKS[3], CHECKS[3]]).endswith("; 2 findings outside their limits.")
 
 

@@ -147,7 +147,8 @@ def test_gates_hold_and_a_fold_is_a_finding(study: Study, results: AncfRover) ->
         "ripple_fine_grid": "pass",
     }
     titles = {check.title: check.status for check in checks.values()}
-    assert titles["Rover on ANCF tires, slope of 25 degrees, upwards: the run reaches its end"] == "fail"
+    (stopped,) = (title for title in titles if title.startswith("Rover on ANCF tires, slope of 25 degrees, upwards"))
+    assert titles[stopped] == "undecided"
     assert titles["Rover on ANCF tires, quarter turn on the spot: angle turned"] == "pass"
 
 

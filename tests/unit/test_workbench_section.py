@@ -37,8 +37,25 @@ def study() -> Study:
 @pytest.mark.parametrize(("factor", "status"), [(1.04, "pass"), (0.96, "pass"), (1.06, "fail"), (0.94, "fail")])
 def test_five_per_cent_is_the_limit(factor: float, status: str) -> None:
     checks = section_checks(curves("section", factor), curves("fe", 1.0), ToleranceSection())
+    assert checks.pop().id == "section.first_load"
     assert [c.id for c in checks] == ["section.vs_solid_phi000", "section.vs_solid_phi022.5", "section.agreement"]
     assert {(c.status, c.role) for c in checks} == {(status, "finding")}
+
+
+@pytest.mark.parametrize(
+    ("factor", "status"), [(0.5, "fail"), (0.79, "fail"), (0.81, "pass"), (1.19, "pass"), (1.21, "fail"), (2.0, "fail")]
+)
+def test_a_wheel_counted_half_or_twice_breaks_a_gate(factor: float, status: str) -> None:
+    check = section_checks(curves("section", factor), curves("fe", 1.0), ToleranceSection())[-1]
+    assert (check.id, check.role, check.status) == ("section.first_load", "gate", status)
+    assert check.value == pytest.approx(abs(factor - 1.0))
+
+
+def test_curves_without_a_common_load_leave_the_gate_open() -> None:
+    fe = curves("fe", 1.0)
+    section = curves("section", 1.0)
+    short = replace(section.by_orientation[0.0], orientation_deg=None, deflection=D[:2] * 0.1, load=D[:2] * 800.0)
+    assert section_checks(replace(section, average=short), fe, ToleranceSection())[-1].status == "error"
 
 
 def test_the_difference_is_found_where_it_is_largest() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,8 @@ from contracts.errors import InputError
 from workbench.questions.strength.yielding import (
     FirstYield,
     first_yield,
+    judged_stress,
+    largest_utilisation,
     peak_stresses,
     smallest_yield_load,
     utilisation,
@@ -29,6 +33,33 @@ def test_utilisation_is_stress_over_yield_of_parts_with_stress() -> None:
     found = utilisation(curve(400e6, 2000e6), STRENGTH)
     assert set(found) == {"tire", "springs"}
     assert (found["tire"][-1], found["springs"][-1]) == (pytest.approx(0.5), pytest.approx(2.0))
+
+
+def test_strips_are_judged_by_their_linearised_stress() -> None:
+    """The notch at the weld, 1.5 times as high, decides nothing; a part without lines keeps its largest stress."""
+    bare = curve(400e6, 1500e6)
+    lines = {"max_linearised_springs_Pa": bare.load * 2.5e6, "max_linearised_tire_Pa": 0.0 * bare.load}
+    judged = replace(bare, columns={**bare.columns, **lines})
+    springs, tire = judged_stress(judged, "springs"), judged_stress(judged, "tire")
+    assert springs is not None
+    assert tire is not None
+    assert (springs[-1], tire[-1]) == (pytest.approx(1000e6), pytest.approx(400e6))
+    assert judged_stress(judged, "hub") is None
+    assert first_yield(judged, STRENGTH).deflection == pytest.approx(0.04)
+    assert first_yield(bare, STRENGTH).deflection == pytest.approx(0.04 / 1.5)
+
+
+def test_the_stress_is_read_at_the_load_that_is_named() -> None:
+    """At 225 N, between the points at 200 and 250 N: 22.5/40 of the end's; a peak before it counts."""
+    ends = curve(400e6, 1600e6)
+    assert largest_utilisation(ends, STRENGTH, 225.0) == pytest.approx(1.6 * 22.5 / 40.0)
+    peak = ends.columns["max_von_mises_springs_Pa"].copy()
+    peak[2] = 1200e6
+    assert largest_utilisation(replace(ends, columns={"max_von_mises_springs_Pa": peak}), STRENGTH, 225.0) == 1.2
+    with pytest.raises(InputError, match="lies outside the curve"):
+        largest_utilisation(ends, STRENGTH, 401.0)
+    with pytest.raises(InputError, match="has no stress"):
+        largest_utilisation(replace(ends, columns={}), STRENGTH, 225.0)
 
 
 def test_the_first_part_to_yield_decides_between_increments() -> None:

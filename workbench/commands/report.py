@@ -36,9 +36,11 @@ _TEXTS = ("report.pdf", "report.html", "junit.xml", "summary.md", "summary.json"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportChoices:
-    """What the command line asks for: the full study, what would be computed and nothing more, the report as a gate."""
+    """What the command line asks for: the full study, what would be computed and nothing more, the report as a gate,
+    and whether a wheel that does not do its job makes the exit status 1."""
 
     full: bool = False
+    require_wheel: bool = False
     dry_run: bool = False
     gate: GateChoices = field(default_factory=GateChoices)
 
@@ -61,6 +63,7 @@ def run_report(
     entries = computed(path, report_tasks(study), store, computing, shown_on)
 
     from workbench.questions.comparison import compare
+    from workbench.report.answers import answers
     from workbench.report.evidence import evidence_of
     from workbench.report.opening import verdict
     from workbench.report.page import PageContent, render, rendered_sections
@@ -84,6 +87,7 @@ def run_report(
         evidence=evidence,
         curves=curve_links(found.curves),
     )
+    told = answers(study, found)
     copies = field_files(entries) | _motion_files(entries)
     gate = gate_of(study.name, verdict(found.checks, loosened(study)), found.checks, accepted)
     page = rendered_sections(content)
@@ -93,7 +97,9 @@ def run_report(
         "junit.xml": junit(study.name, found.checks, gate.given_up),
         "summary.md": gate_markdown(gate),
         "summary.json": to_json(
-            summary(study.name, evidence, timings, origin) | {"warnings": warnings_of(study)} | gate_rows(gate)
+            summary(study.name, evidence, timings, origin, told.summary)
+            | {"warnings": warnings_of(study)}
+            | gate_rows(gate)
         ),
     }
     tell_kept(publish(out, "report", texts, found.curves, found.series, copies), shown_on)
@@ -102,9 +108,12 @@ def run_report(
     else:
         _print_checks(found.checks)
         shown_on.print(gate.verdict_now, soft_wrap=True)
+    for one in (told.computation, told.wheel, told.stand_in):
+        shown_on.print(f"{one.question} {one.decision}: {one.sentence}", soft_wrap=True)
     shown_on.print(f"report: {out / 'report.html'}", soft_wrap=True)
     complain_of_early_ends(path, origin["partial"])
-    return exit_status(found.checks) or int(not gate.holds)
+    unfit = choices.require_wheel and told.wheel.decision != "yes"
+    return exit_status(found.checks) or int(not gate.holds or unfit)
 
 
 def _list_tasks(tasks: Sequence[Task], store: Path) -> int:
@@ -131,7 +140,7 @@ def _print_checks(checks: Sequence[Check]) -> None:
 
     columns = ("status", "role", "check", "value", "tolerance")
     table = empty_table("checks", columns, texts=columns, folded=columns)
-    colours = {"pass": "green", "fail": "red", "error": "yellow"}
+    colours = {"pass": "green", "fail": "red", "undecided": "yellow", "error": "yellow"}
     for c in checks:
         table.add_row(
             Text(c.status, style=colours[c.status]),

@@ -87,10 +87,11 @@ def _peaks(study: Study, curves: Sequence[StiffnessCurve]) -> Iterator[tuple[flo
 
 
 def _peaks_csv(peaks: Peaks) -> str:
-    lines = ["orientation_deg,load_N,deflection_m,part,max_von_mises_Pa,yield_strength_Pa,utilisation"]
+    lines = ["orientation_deg,load_N,deflection_m,part,stress_Pa,max_von_mises_Pa,yield_strength_Pa,utilisation"]
     for angle, p in peaks:
         lines.append(
-            f"{angle:.12g},{p.load:.12g},{p.deflection:.12g},{p.part},{p.stress:.12g},{p.strength:.12g},{p.used:.12g}"
+            f"{angle:.12g},{p.load:.12g},{p.deflection:.12g},{p.part},"
+            f"{p.stress:.12g},{p.local:.12g},{p.strength:.12g},{p.used:.12g}"
         )
     return "\n".join(lines) + "\n"
 
@@ -106,7 +107,7 @@ def _print(model: str, curves: Sequence[StiffnessCurve], peaks: Peaks) -> None:
     if not peaks:
         return
     columns = ("orientation", "load", "part", "stress", "yield", "share")
-    table = empty_table("largest von Mises stress against yield", columns, texts=["part"])
+    table = empty_table("stress against yield", columns, texts=["part"])
     worst: dict[tuple[float, float], PeakStress] = {}
     for angle, peak in peaks:
         worst[angle, peak.load] = max(worst.get((angle, peak.load), peak), peak, key=lambda p: p.used)

@@ -121,7 +121,7 @@ def _node(tag: str, given: Mapping[str, str]) -> dict[str, Any]:
     if "chip" in classes or "verdict" in classes:
         node["tone"] = (
             "warn"
-            if {"finding", "fail"} <= set(classes) or "error" in classes
+            if {"finding", "fail"} <= set(classes) or {"error", "undecided"} & set(classes)
             else "fail"
             if "fail" in classes
             else "pass"

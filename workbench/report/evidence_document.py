@@ -51,7 +51,12 @@ def _line(row: Mapping[str, Any]) -> str:
     tests = ", ".join(f"`{Path(test).stem}`" for test in row["tests"])
     value = displayed(row["value"], row["unit"], row["quantity"])
     shown = for_markdown(value)
-    status = {"pass": shown, "fail": f"**{shown}, outside**", "error": "not evaluated"}[row["status"]]
+    status = {
+        "pass": shown,
+        "fail": f"**{shown}, outside**",
+        "undecided": f"**{shown}, undecided**",
+        "error": "not evaluated",
+    }[row["status"]]
     cells = (for_markdown(row["claim"]), f"`{row['id']}`, {row['role']}", tests, status, for_markdown(_limit(row)))
     return "| " + " | ".join(cells) + " |"
 

@@ -103,13 +103,18 @@ def publish(
 
 
 def summary(
-    study: str, evidence: Sequence[Evidence], timings: Sequence[Timing], provenance: Mapping[str, Any]
+    study: str,
+    evidence: Sequence[Evidence],
+    timings: Sequence[Timing],
+    provenance: Mapping[str, Any],
+    verdict: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """``summary.json``, schema 1: each check with the section, tasks and files behind it."""
+    """``summary.json``, schema 2: three answers, and each check with the section, tasks and files behind it."""
     return {
-        "schema": 1,
+        "schema": 2,
         "study": study,
         "status": overall_status([one.check for one in evidence]),
+        "verdict": dict(verdict),
         "checks": [_row(one) for one in evidence],
         "timings": [{name: getattr(t, name) for name in Timing.__slots__} for t in timings],
         "provenance": dict(provenance),
@@ -129,7 +134,7 @@ def junit(study: str, checks: Sequence[Check], given_up: Sequence[Change] = ()) 
     gates = [c for c in checks if c.role == "gate"]
     counts = {
         "tests": str(len(checks) + len(given_up)),
-        "failures": str(sum(c.status == "fail" for c in gates) + len(given_up)),
+        "failures": str(sum(c.status in ("fail", "undecided") for c in gates) + len(given_up)),
         "errors": str(sum(c.status == "error" for c in gates)),
         "skipped": "0",
     }
@@ -142,7 +147,7 @@ def junit(study: str, checks: Sequence[Check], given_up: Sequence[Change] = ()) 
         )
         claim, source = one_line(check.claim), one_line(check.source)
         if check.role == "gate" and check.status != "pass":
-            kind = "failure" if check.status == "fail" else "error"
+            kind = "error" if check.status == "error" else "failure"
             ElementTree.SubElement(case, kind, {"message": text}).text = f"claim: {claim}\nsource: {source}"
         else:
             ElementTree.SubElement(case, "system-out").text = f"{check.status}: {text}; source: {source}"

@@ -16,18 +16,19 @@ from typing import Any
 import typst
 from PIL import Image
 
-from contracts.records import Check
 from workbench.charts.printed import draw
 from workbench.charts.still_charts import font_folder
+from workbench.questions.models.agreement import Agreement
+from workbench.report.answers import Answer
 from workbench.report.document import Node, Tree, read_html
 from workbench.report.opening import Opening
 from workbench.report.page import Rendered
-from workbench.verdict.number_format import displayed, displayed_reference
 
 __all__ = ["document_pdf", "set_document", "with_pictures"]
 
 _TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
 _LEAD = "model-curves"
+_DECISION_TONES = {"yes": "pass", "no": "fail", "undecided": "warn"}
 
 
 def document_pdf(rendered: Rendered) -> bytes:
@@ -43,7 +44,7 @@ def document_pdf(rendered: Rendered) -> bytes:
             {"title": g.title, "nodes": [node for s in g.sections for node in pictured.get(s.name, ())]}
             for g in values["groups"]
         ]
-        content = _first_page(values["opening"], values["status"]) | {
+        content = _first_page(values["opening"]) | {
             "title": values["study"].title,
             "study": values["study"].name,
             "created": values["provenance"]["created"][:16].replace("T", " ") + " UTC",
@@ -94,41 +95,37 @@ def _picture(link: str, folder: Path) -> str:
     return name
 
 
-def _first_page(found: Opening, status: str) -> dict[str, Any]:
+def _first_page(found: Opening) -> dict[str, Any]:
     """What stands before the contents, in words."""
-    ratings = [
-        {"name": r.name, "distance": _known_to(r.found.distance, r.found.uncertainty), "words": r.words,
-         "tone": {"error": "warn"}.get(r.tone, r.tone)}
-        for r in found.ratings
-    ]  # fmt: skip
+    told = found.answers
     return {
-        "word": {"pass": "Pass", "fail": "Fail", "error": "Error"}[status],
-        "tone": "pass" if status == "pass" else "fail",
+        "answers": [_answer(one) for one in (told.computation, told.wheel, told.stand_in)],
         "verdict": found.verdict,
         "warnings": list(found.warnings),
         "counts": [{"words": _counted(*row), "tone": _tone(row[0], row[1])} for row in found.counts],
-        "ratings": ratings,
-        "band": [_row(c) | {"title": _short(c.title)} for c in found.band],
+        "ratings": [
+            {"name": m.name, "distance": _known_to(m.found), "words": m.words, "tone": _DECISION_TONES[m.decision]}
+            for m in told.models
+        ]
+        + [{"name": r.name, "distance": _known_to(r.found), "words": r.words, "tone": "warn"} for r in found.ratings],
         "outside": [{"title": o.check.title, "value": f"{o.value} ({o.check.tolerance})"} for o in found.outside],
     }
 
 
-def _short(title: str) -> str:
-    """Title of a check of the reference band, as on the page's first screen."""
-    return title.removeprefix("Average FE curve: ").replace("slope from first contact to", "slope to")
-
-
-def _row(check: Check) -> dict[str, str]:
+def _answer(one: Answer) -> dict[str, Any]:
+    parts = [{"name": p.name, "text": p.text, "tone": _DECISION_TONES[p.decision]} for p in one.parts]
     return {
-        "value": displayed(check.value, check.unit, check.quantity),
-        "reference": displayed_reference(check),
-        "tone": _tone(check.role, check.status),
-        "word": {"pass": "✓ pass", "fail": "✗ fail", "error": "? not evaluated"}[check.status],
+        "question": one.question,
+        "word": {"yes": "Yes", "no": "No", "undecided": "Not decided"}[one.decision],
+        "tone": _DECISION_TONES[one.decision],
+        "sentence": one.sentence,
+        "parts": parts,
     }
 
 
-def _known_to(distance: float, uncertainty: float | None) -> str:
-    return f"{100 * distance:.1f} %" + ("" if uncertainty is None else f" ± {100 * uncertainty:.1f} %")
+def _known_to(found: Agreement) -> str:
+    more = "" if found.uncertainty is None else f" ± {100 * found.uncertainty:.1f} %"
+    return f"{100 * found.distance:.1f} %{more}"
 
 
 def _tone(role: str, status: str) -> str:
@@ -136,6 +133,14 @@ def _tone(role: str, status: str) -> str:
 
 
 def _counted(role: str, status: str, number: int) -> str:
-    state = {"pass": "passed" if role == "gate" else "inside limits", "error": "not evaluated",
-             "fail": "failed" if role == "gate" else "outside limits"}[status]  # fmt: skip
+    states = {"error": "not evaluated", "undecided": "undecided"}
+    state = (
+        states.get(status)
+        or {
+            ("gate", "pass"): "passed",
+            ("gate", "fail"): "failed",
+            ("finding", "pass"): "inside limits",
+            ("finding", "fail"): "outside limits",
+        }[role, status]
+    )
     return f"{number} {role}{'s' if number != 1 else ''} {state}"

@@ -7,40 +7,50 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
 from workbench.study.quantities import Angle
 from workbench.study.section import Positive, Section, in_key
-from workbench.study.sections import Drop, Factor
+from workbench.study.sections import Drop, Factor, Orientations
 
 __all__ = ["FullSection", "HubStudySection", "MeshStudySection"]
 
 
 SMALLEST_STEP = 1.1
-"""Of refinement; below it counts of elements, whole numbers, may be the same. V&V 20 recommends 1.3 (from memory)."""
+"""Of refinement; below it counts of elements, whole numbers, may be the same."""
 
 
 def _far_apart(key: str, factors: tuple[float, ...]) -> None:
     """Refuse meshes so much alike that their differences say nothing of the error."""
+    shown = ", ".join(f"{factor:g}" for factor in factors)
     if any(b < SMALLEST_STEP * a for a, b in pairwise(factors)):
-        shown = ", ".join(f"{factor:g}" for factor in factors)
-        raise in_key(key, shown, f"must each be {SMALLEST_STEP:g} times the one before or more", "e.g. 1, 1.5, 2")
+        raise in_key(key, shown, f"must each be {SMALLEST_STEP:g} times the one before or more", "e.g. 1, 2, 3")
 
 
 class MeshStudySection(Section):
-    """Three meshes of one family, which give the numerical uncertainty of the load at some deflections [m].
+    """Three similar meshes, which give the numerical uncertainty of load and stress at some deflections [m].
 
-    ``factors`` are those of ``mesh.factor``; one of them is that of the curves' mesh.
+    ``factors`` are those of ``mesh.factor``; one of them is that of the curves' mesh. ``orientation`` = one stands for
+    ``orientations`` = [one].
     """
 
-    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)]
-    """One of fe.orientations [rad]."""
-    factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
-    """Three values of mesh.factor, among them that of the curves."""
+    orientations: Orientations
+    """Some of fe.orientations [rad]; the least certain of them speaks for all."""
+    factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 2.0, 3.0)
+    """Three values of mesh.factor, among them that of the curves; whole ones make similar meshes."""
     deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
     """Where loads are compared [m]."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one(cls, given: Any) -> Any:
+        if isinstance(given, dict) and "orientation" in given and "orientations" not in given:
+            return {key: value for key, value in given.items() if key != "orientation"} | {
+                "orientations": [given["orientation"]]
+            }
+        return given
 
     @model_validator(mode="after")
     def _increasing(self) -> MeshStudySection:
@@ -66,9 +76,9 @@ class FullSection(Section):
 
     orientation_step: Annotated[Angle, Positive] = math.radians(5.0)
     """From 0 to the turn after which the wheel repeats itself [rad]."""
-    factor: Factor = 1.5
+    factor: Factor = 1.0
     """In place of mesh.factor [-]."""
-    mesh_study_factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 1.5, 2.0)
+    mesh_study_factors: Annotated[tuple[Factor, ...], Field(min_length=3, max_length=3)] = (1.0, 2.0, 3.0)
     """In place of mesh_study.factors."""
 
     @model_validator(mode="after")

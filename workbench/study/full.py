@@ -68,7 +68,7 @@ def steps_around(study: Study) -> list[float]:
 
 
 def full_study(study: Study) -> Study:
-    """The study with all orientations from 0 to the period, the finer mesh and its own mesh study.
+    """The study with all orientations from 0 to the period, its own mesh, and a mesh study at each of them.
 
     The initial tangent is still that of the study's own orientations, on which its strip was chosen: the same check
     on a finer mesh. That of the mean around the wheel is another check.
@@ -84,16 +84,17 @@ def full_study(study: Study) -> Study:
         if not any(abs(orientation - o) < _SAME for o in steps):
             rule = f"is not among 0 to {steps[-1]:g} deg by {step:g} deg"
             raise InputError("fe.orientations", f"{orientation:g} deg", rule, "choose another full.orientation_step")
-    mesh_study = study.mesh_study
+    mesh_study, around = study.mesh_study, tuple(math.radians(o) for o in steps)
     chosen_on = study.tolerances.initial_tangent_orientations or study.fe.orientations
     return study.model_copy(
         update={
             "tolerances": study.tolerances.model_copy(update={"initial_tangent_orientations": chosen_on}),
             "title": f"{study.title}: full study",
-            "fe": study.fe.model_copy(update={"orientations": tuple(math.radians(o) for o in steps)}),
+            "fe": study.fe.model_copy(update={"orientations": around}),
             "mesh": study.mesh.model_copy(update={"factor": full.factor}),
             "rover": _all_runs(study.rover),
-            "mesh_study": mesh_study and mesh_study.model_copy(update={"factors": full.mesh_study_factors}),
+            "mesh_study": mesh_study
+            and mesh_study.model_copy(update={"factors": full.mesh_study_factors, "orientations": around}),
         }
     )
 

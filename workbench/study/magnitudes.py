@@ -43,16 +43,21 @@ _MOST = 12
 _OF_THE_REFERENCE = {
     **{"initial_tangent": 1.0, "initial_tangent_up_to": 1.0, "reach_deflection": -1.0, "reach_load": -1.0}
 }
-"""Tolerances whose checks are gates for the wheel of the reference only."""
+"""What the wheel of the reference alone is asked for."""
 GATES = _OF_THE_REFERENCE | {
     **{"ancf_preset": 1.0, "flexible_mass": 1.0, "mesh_mass": 1.0, "min_scaled_jacobian": -1.0},
     **{"fe_residual": 1.0, "fe_balance": 1.0, "fe_energy": 1.0, "mesh_uncertainty": 1.0, "surface_distance": 1.0},
 }
-"""Tolerances of gates -> 1 where a larger number is easier to meet, -1 where a smaller one is."""
+"""Tolerances of gates, and of what the wheel is asked for -> 1 where a larger number is easier to meet, else -1."""
 
 _NEEDED = {
     **{"ancf_preset": "ancf.thesis_preset", "flexible_mass": "ancf.thesis_preset", "surface_distance": "ancf"},
-    **{"mesh_uncertainty": "mesh_study", "hub_compliance": "hub_study", "ancf_fit": "ancf_fit"},
+    **{
+        "mesh_uncertainty": "mesh_study",
+        "stress_uncertainty": "mesh_study",
+        "hub_compliance": "hub_study",
+        "ancf_fit": "ancf_fit",
+    },
 }
 """Tolerances of checks that only some studies ask for -> the section or key that does."""
 
@@ -96,7 +101,7 @@ def unusual(study: Study) -> tuple[str, ...]:
 
 
 def loosened(study: Study) -> tuple[str, ...]:
-    """Each tolerance of a gate that is easier to meet than by default, in words."""
+    """Each of these tolerances that is easier to meet than by default, in words."""
     given, own = study.tolerances, ToleranceSection()
     found = []
     for key, sign in GATES.items():
@@ -106,7 +111,7 @@ def loosened(study: Study) -> tuple[str, ...]:
             and sign * (value - usual) > 1e-9 * usual
             and (given.reference_wheel or key not in _OF_THE_REFERENCE)
         ):
-            found.append(f"tolerances.{key} = {value:g} is looser than its gate's own {usual:g}")
+            found.append(f"tolerances.{key} = {value:g} is looser than the project's own {usual:g}")
     return tuple(found)
 
 

@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from contracts.errors import InputError
 from workbench.study.contact import PenaltyStudySection
@@ -132,6 +132,17 @@ class Study(WheelStudy):
     tolerances: ToleranceSection = ToleranceSection()
     inferred: dict[str, str] = Field(default_factory=dict)
     """Key -> why: values that no publication states."""
+    _kept: Path | None = PrivateAttr(default=None)
+
+    @property
+    def kept(self) -> Path | None:
+        """Folder beside the study's file with what named commands found; None for a study that was read from none."""
+        return self._kept
+
+    def kept_in(self, folder: Path) -> Study:
+        """The same study, which keeps its records there."""
+        self._kept = folder
+        return self
 
     @property
     def judged_load(self) -> float:

@@ -107,7 +107,7 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
     if study.ancf is not None:
         _check_surfaces(path, study, table)
     _check_curves(path, study, table)
-    return study
+    return study.kept_in(path.with_suffix(".kept"))
 
 
 def read_study_table(path: Path) -> dict[str, Any]:

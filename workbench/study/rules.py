@@ -173,13 +173,11 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
                 rule="must not exceed fe.max_deflection",
                 hint="choose smaller ones",
             )
-    if mesh_study is not None and not any(abs(mesh_study.orientation - o) < 1e-9 for o in fe.orientations):
-        yield BrokenRule(
-            key="mesh_study.orientation",
-            value=f"{math.degrees(mesh_study.orientation):g} deg",
-            rule="must be one of fe.orientations",
-            hint="add it there or choose one of them",
-        )
+    for angle in mesh_study.orientations if mesh_study is not None else ():
+        if not any(abs(angle - o) < 1e-9 for o in fe.orientations):
+            key, value = "mesh_study.orientations", f"{math.degrees(angle):g} deg"
+            hint = "add it there or choose one of them"
+            yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint=hint)
     for angle in study.tolerances.initial_tangent_orientations or ():
         if not any(abs(angle - o) < 1e-9 for o in fe.orientations):
             key, value = "tolerances.initial_tangent_orientations", f"{math.degrees(angle):g} deg"

@@ -76,6 +76,8 @@ class MeshSection(Section):
     """Length of elements along strips and around rings [m]."""
     axial_size: Annotated[Length, Positive]
     """Length of elements along the axle [m]."""
+    edge_size: Annotated[Length, Positive] | None = None
+    """Length along the axle of the elements at the edges of strips [m], where they curl; ``axial_size`` without it."""
     thickness_elements: Annotated[StrictInt, Field(ge=1, le=8)] = 1
     """Elements through a strip."""
     order: Literal[1, 2] = 2
@@ -227,6 +229,8 @@ class ToleranceSection(Section):
     """Work against stored energy, relative [-]."""
     mesh_uncertainty: Annotated[Number, Positive] = 0.05
     """Grid convergence index of the load [-]."""
+    stress_uncertainty: Annotated[Number, Positive] = 0.05
+    """Grid convergence index of the stress that decides first yield [-]."""
     hub_compliance: Annotated[Number, Positive] = 0.01
     """What elastic hubs change of the load, relative [-]."""
     surface_distance: Annotated[Length, Positive] = 1e-9
@@ -240,7 +244,7 @@ class ToleranceSection(Section):
     orientation_spread: Annotated[Number, Positive] = 0.50
     """(Largest - smallest) / mean load over the orientations [-]."""
     reference_wheel: StrictBool = False
-    """True states that this wheel is the one the reference describes: slope and reach of its curves are then gates."""
+    """True: this wheel is the one the reference describes; the thesis' band, reach and words are asked of it."""
 
     @property
     def asks_for_reach(self) -> bool:

@@ -300,9 +300,10 @@ def _all_around(study: Study) -> Study:
 def _turn(table: dict[str, Any], value: Value) -> None:
     """Only this orientation, wherever the study names one of those it computes."""
     many, one = {"orientations": [value]}, {"orientation": value}
-    for name, change in (("fe", many), ("ancf", many), ("mesh_study", one), ("environment", one)):
+    for name, change in (("fe", many), ("ancf", many), ("mesh_study", many), ("environment", one)):
         if name in table:
             table[name] |= change
+    table.get("mesh_study", {}).pop("orientation", None)
     table.get("tolerances", {}).pop("initial_tangent_orientations", None)
 
 

@@ -13,11 +13,12 @@ COMPLETE = "fe.complete"
 
 
 def overall_status(checks: Sequence[Check]) -> Status:
-    """``error`` if a run ended early, else what the gates say: ``fail``, ``error`` without a value, ``pass``."""
+    """``error`` if a run ended early, else what the gates say: ``fail``, also where one is undecided; ``error`` where
+    one has no value; ``pass``."""
     if _ended_early(checks):
         return "error"
     gates = {c.status for c in checks if c.role == "gate"}
-    return "fail" if "fail" in gates else "error" if "error" in gates else "pass"
+    return "fail" if gates & {"fail", "undecided"} else "error" if "error" in gates else "pass"
 
 
 def exit_status(checks: Sequence[Check]) -> int:

@@ -14,7 +14,7 @@ from workbench.execution.task import Task
 from workbench.questions.fe.graph import INNER_STIFFNESS, fe_inputs, fe_task, without_end
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
-from workbench.questions.wheel.graph import mesh_task
+from workbench.questions.wheel.graph import coarse_across, mesh_task
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees
 from workbench.verdict.rules import Claim, at_most
@@ -116,7 +116,7 @@ def _task_name(run: str) -> str:
 def _tasks(study: Study) -> Sequence[Task]:
     section, stiffness = stated(study.penalty_study, "penalty_study"), study.fe.contact_stiffness
     assert stiffness is not None
-    mesh = mesh_task(study, "mesh_penalty", {"axial_size": 2.0 * study.mesh.axial_size})
+    mesh = mesh_task(study, "mesh_penalty", coarse_across(study))
     end = round(section.deflection, 12)
     inputs = without_end(fe_inputs(study, degrees(section.orientation), (0.5 * end, end)))
     changes: dict[str, dict[str, Any]] = {f: _scaled(float(f), stiffness) for f in _FACTORS}

@@ -21,9 +21,10 @@ from workbench.execution.task import Task
 from workbench.questions.environment.figures import environment_figures
 from workbench.questions.environment.results import AS_DESIGNED, EnvironmentRun, Series, plain_words
 from workbench.questions.fe.graph import curve_deflections, fe_inputs, fe_task, material_inputs, without_fields
-from workbench.questions.model_curves import CURVE
+from workbench.questions.model_curves import CURVE, model_curves
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import smallest_yield_load
+from workbench.study.full import around
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
 from workbench.study.wheel_design import materials, wheel_design
@@ -43,7 +44,7 @@ def environment_checks(study: Study, results: tuple[Series, ...]) -> list[Check]
         if one_metal:
             checks.append(_similarity(series, one_metal))
         checks += [_ratio(series, run) for run in one_metal]
-        checks += [_yield(series, run, study.judged_load) for run in series.others if run.yield_is_known]
+        checks += [_yield(series, run, study.judged_load) for run in series.others if series.knows_yield_around(run)]
     return checks
 
 
@@ -75,16 +76,16 @@ def _ratio(series: Series, run: EnvironmentRun) -> Check:
 
 
 def _yield(series: Series, run: EnvironmentRun, up_to: float) -> Check:
-    at, words = _celsius(run.temperature), "load at which a part begins to yield (or where the curve ends)"
+    at = _celsius(run.temperature)
     claim = Claim(
         id=f"{series.id}.first_yield_{at}",
-        title=f"FE at {at}, {series.where}: {words}",
+        title=f"FE at {at}: smallest load of any orientation at which a part begins to yield (or where the curve ends)",
         quantity="load",
         unit="N",
         role="finding",
-        source="yield strength of the metal against temperature, docs/theory.md 2.6",
+        source="yield strength of the metal against temperature; the similar wheel's curves, docs/theory.md 2.6",
     )
-    return at_least(claim, lambda: smallest_yield_load([run.first_yield], up_to), up_to)
+    return at_least(claim, lambda: smallest_yield_load(series.first_yields(run), up_to), up_to)
 
 
 _DESIGN = ""
@@ -144,7 +145,10 @@ def _celsius(temperature: float) -> str:
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> tuple[Series, ...]:
-    """One series for the design and each variant: its curve at 20 C and those at other temperatures."""
+    """One series for the design and each variant: its curve at 20 C and those at other temperatures.
+
+    The design's own curves at every orientation tell, by similarity, where it yields at other temperatures.
+    """
     orientation = degrees(stated(study.environment, "environment").orientation)
     runs: dict[str, list[EnvironmentRun]] = {}
     for variant, temperature in _wanted(study):
@@ -155,9 +159,20 @@ def _read(study: Study, folders: Mapping[str, Path]) -> tuple[Series, ...]:
         run = EnvironmentRun(temperature=temperature, curve=curve, materials=_materials(study, variant, temperature))
         runs.setdefault(variant, []).append(run)
     return tuple(
-        Series(label=variant or AS_DESIGNED, reference=found[0], others=tuple(found[1:]))
+        Series(
+            label=variant or AS_DESIGNED,
+            reference=found[0],
+            others=tuple(found[1:]),
+            around=() if variant else _around(study, folders),
+        )
         for variant, found in runs.items()
     )
+
+
+def _around(study: Study, folders: Mapping[str, Path]) -> tuple[StiffnessCurve, ...]:
+    """The study's curves at 20 C; none if one of them has no point, for then its yield is not known."""
+    fe = model_curves("fe", folders, around(study))
+    return () if fe.missing else tuple(fe.loaded.values())
 
 
 def _curves(study: Study, results: tuple[Series, ...]) -> list[StiffnessCurve]:

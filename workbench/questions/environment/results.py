@@ -6,8 +6,8 @@ Verified by tests/unit/test_workbench_environment.py and tests/end_to_end/test_r
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,9 +63,9 @@ class EnvironmentRun:
         return {name: TEMPERATURE_DATA[name].doubt for name in data if name}
 
     @property
-    def first_yield(self) -> FirstYield:
-        """First yield along the curve, with the yield strengths of this run's materials."""
-        return first_yield(self.curve, {part: m.yield_strength for part, m in self.materials.items()})
+    def yield_strength(self) -> dict[str, float]:
+        """Yield strength [Pa] of each part at this temperature."""
+        return {part: material.yield_strength for part, material in self.materials.items()}
 
 
 def _common(values: list[float]) -> float | None:
@@ -74,11 +74,15 @@ def _common(values: list[float]) -> float | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Series:
-    """One wheel at several temperatures: its curve at 20 C and the others."""
+    """One wheel at several temperatures: its curve at 20 C and the others, all at one orientation.
+
+    ``around`` : its curves at 20 C at every orientation of the study, of the wheel as designed.
+    """
 
     label: str
     reference: EnvironmentRun
     others: tuple[EnvironmentRun, ...]
+    around: Sequence[StiffnessCurve] = ()
 
     @property
     def runs(self) -> tuple[EnvironmentRun, ...]:
@@ -95,6 +99,23 @@ class Series:
         """Its orientation, and its label if it is not the design."""
         variant = "" if self.label == AS_DESIGNED else f", {self.label}"
         return f"{self.reference.curve.orientation_deg:g} deg{variant}"
+
+    def knows_yield_around(self, run: EnvironmentRun) -> bool:
+        """Whether first yield at a run's temperature is known at every orientation: of one metal, by similarity."""
+        similar = None not in (run.thermal_strain, run.modulus_ratio)
+        return bool(self.around) and run.yield_is_known and (similar or run is self.reference)
+
+    def first_yield(self, run: EnvironmentRun) -> FirstYield:
+        """That of least load at any orientation where it is known, at the runs' own else."""
+        found = self.first_yields(run)
+        return min(found, key=lambda one: (one.part is None, one.load))
+
+    def first_yields(self, run: EnvironmentRun) -> list[FirstYield]:
+        """First yield along every curve of the similar wheel at a run's temperature; along the run's own else."""
+        curves = [run.curve]
+        if self.knows_yield_around(run):
+            curves = [c if run is self.reference else _similar(c, run) for c in self.around]
+        return [first_yield(curve, run.yield_strength) for curve in curves]
 
     def comparable(self, run: EnvironmentRun) -> bool:
         """Whether both a run and that at 20 C have points under load."""
@@ -124,6 +145,15 @@ class Series:
             raise InputError("curves", self.label, "share no point", "a curve is partial: compute it further")
         expected = theta**2 * modulus * reference.load_at(d[inside] / theta)
         return float(np.max(np.abs(load[inside] - expected) / load[inside]))
+
+
+def _similar(curve: StiffnessCurve, run: EnvironmentRun) -> StiffnessCurve:
+    """What a curve at 20 C becomes for the similar wheel at a run's temperature; see docs/theory.md 2.6."""
+    assert run.thermal_strain is not None
+    assert run.modulus_ratio is not None
+    theta, modulus = 1.0 + run.thermal_strain, run.modulus_ratio
+    stresses = {name: modulus * values for name, values in curve.columns.items() if name.endswith("_Pa")}
+    return replace(curve, deflection=theta * curve.deflection, load=theta**2 * modulus * curve.load, columns=stresses)
 
 
 def plain_words(name: str) -> str:

@@ -14,6 +14,7 @@ from workbench.charts.interactive import Figure, empty_figure, figure_html
 from workbench.charts.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve
+from workbench.questions.strength.yielding import judged_stress
 from workbench.study.model import Band
 
 __all__ = ["add_band", "add_uncertainty", "add_users", "around_figure", "fe_figure", "stress_figure"]
@@ -62,14 +63,14 @@ def around_figure(fe: ModelCurves, turns: Around) -> str:
 
 
 def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:
-    """Largest von Mises stress of each part against load at one orientation, with the yield strength."""
-    figure = empty_figure("load on the wheel [N]", "largest von Mises stress [MPa]")
-    parts = [p for p in strengths if f"max_von_mises_{p}_Pa" in curve.columns]
-    for i, part in enumerate(parts):
-        stress = curve.columns[f"max_von_mises_{part}_Pa"] * 1e-6
+    """Stress of each part that is held against yield, against load at one orientation, with the yield strength."""
+    figure = empty_figure("load on the wheel [N]", "largest stress [MPa]")
+    found = {part: judged_stress(curve, part) for part in strengths}
+    stresses = {part: stress * 1e-6 for part, stress in found.items() if stress is not None}
+    for i, (part, stress) in enumerate(stresses.items()):
         style = {"color": ORIENTATION_COLOURS[i % 6], "width": 2.5, "dash": DASHES[i % 6]}
         figure.add_scatter(x=curve.load, y=stress, name=part.replace("_", " "), mode="lines", line=style)
-    for strength in sorted({strengths[p] for p in parts}):
+    for strength in sorted({strengths[p] for p in stresses}):
         figure.add_hline(
             y=strength * 1e-6,
             line={"color": INK, "width": 1, "dash": "dash"},

@@ -86,8 +86,9 @@ def _count(task: Task) -> MeshCount:
     """The mesh that a task will make, from its inputs."""
     design = design_from(task.inputs["wheel"])
     options = dict[str, Any](task.inputs["options"])
-    given: dict[str, Any] = {"axial_size": None, **options}
-    sizes = (given[name] for name in ("element_size", "axial_size", "thickness_elements", "refinement"))
+    given: dict[str, Any] = {"axial_size": None, "edge_size": None, **options}
+    names = ("element_size", "axial_size", "thickness_elements", "refinement", "edge_size")
+    sizes = (given[name] for name in names)
     size = replace(mesh_size(design, *sizes), factor=options["factor"])
     if task.function == _SECTION:
         count = count_planar(design, size, options["order"])

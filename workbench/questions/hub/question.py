@@ -18,7 +18,7 @@ from workbench.execution.task import Task
 from workbench.questions.fe.graph import HUB_PARTS, fe_inputs, fe_task, without_end
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
-from workbench.questions.wheel.graph import mesh_task
+from workbench.questions.wheel.graph import coarse_across, mesh_task
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees
 from workbench.study.wheel_design import wheel_design
@@ -76,7 +76,7 @@ def _run_name(held: Sequence[str]) -> str:
 
 def _tasks(study: Study) -> Sequence[Task]:
     section = stated(study.hub_study, "hub_study")
-    mesh = mesh_task(study, "mesh_hub", {"parts": "all", "axial_size": 2.0 * study.mesh.axial_size})
+    mesh = mesh_task(study, "mesh_hub", {"parts": "all", **coarse_across(study)})
     deflections = np.round(section.deflections, 12).tolist()
     inputs = without_end(fe_inputs(study, degrees(section.orientation), deflections))
     runs = [(_run_name(held), inputs | {"rigid_parts": list(held)}) for held in held_parts(study)]

@@ -21,6 +21,7 @@ Behaviour = Literal["monotonic", "oscillatory", "divergent"]
 
 _SAFETY_THREE_MESHES = 1.25
 _SAFETY_NO_ORDER = 3.0
+_ASSUMED_ORDER = 2.0
 _LARGEST_ORDER = 40.0
 
 
@@ -34,15 +35,16 @@ class GridConvergence:
     ratios : r21, r32: element size of the coarser over that of the finer mesh [-]
     behaviour : whether the number converges, and how
     apparent_order : p of the paper [-]; None if the number does not converge
-    order : the order used, p or the method's own if that is smaller [-]; None likewise
+    order : the order used [-]: p where it is credible, 2 where it is not; None likewise
+    safety : factor of safety [-]: 1.25 with p, 3 without
     extrapolated : value for vanishing element size, with ``order``; None likewise
     approximate_error : |fine - medium| / |fine| [-]
     extrapolated_error : |extrapolated - fine| / |extrapolated| [-]; None likewise
-    index_fine, index_medium : grid convergence index of the fine and of the medium mesh [-]: 1.25 times the estimated
-        relative error; without an order 3 times the range of the three values
-    index_coarse : the same for the coarse mesh, 1.25 times its distance from ``extrapolated`` [-]; where the number
-        oscillates, both of medium and coarse are at least half the range of the three values, because the formulas take
-        the error to have one sign
+    index_fine, index_medium : grid convergence index of the fine and of the medium mesh [-]: ``safety`` times the
+        estimated relative error; without an order 3 times the range of the three values
+    index_coarse : the same for the coarse mesh, from its distance to ``extrapolated`` [-]; where the number oscillates,
+        both of medium and coarse are at least half the range of the three values, because the formulas take the error
+        to have one sign
     """
 
     values: tuple[float, float, float]
@@ -50,6 +52,7 @@ class GridConvergence:
     behaviour: Behaviour
     apparent_order: float | None
     order: float | None
+    safety: float
     extrapolated: float | None
     approximate_error: float
     extrapolated_error: float | None
@@ -59,7 +62,7 @@ class GridConvergence:
 
 
 def grid_convergence(
-    values: Sequence[float], sizes: Sequence[float], largest_order: float = math.inf
+    values: Sequence[float], sizes: Sequence[float], credible: tuple[float, float] | None = None
 ) -> GridConvergence:
     """Apparent order, extrapolated value and grid convergence index.
 
@@ -67,7 +70,8 @@ def grid_convergence(
     ----------
     values : the number on the fine, medium and coarse mesh, none of them zero
     sizes : representative element sizes h1 < h2 < h3 of these meshes, any unit
-    largest_order : an apparent order above this one is not believed: the error is estimated with this one [-]
+    credible : smallest and largest apparent order that is believed, of a number that converges from one side [-]: else
+        the error is estimated with order 2 and factor 3, Roache's for two meshes. None: every order is believed
 
     Raises
     ------
@@ -88,13 +92,14 @@ def grid_convergence(
     approximate = abs(e21 / fine)
     if p is None:
         spread = _SAFETY_NO_ORDER * (max(values) - min(values))
-        order, limit = None, None
+        order, limit, safety = None, None, _SAFETY_NO_ORDER
         indices = [spread / abs(value) for value in (fine, medium, coarse)]
     else:
-        order = min(p, largest_order)
+        believed = credible is None or (behaviour == "monotonic" and credible[0] <= p <= credible[1])
+        order, safety = (p, _SAFETY_THREE_MESHES) if believed else (_ASSUMED_ORDER, _SAFETY_NO_ORDER)
         limit = fine - e21 / (r21**order - 1.0)
         errors = e21 / (r21**order - 1.0), e32 / (r32**order - 1.0), coarse - limit
-        indices = [_SAFETY_THREE_MESHES * abs(e / v) for e, v in zip(errors, (fine, medium, coarse), strict=True)]
+        indices = [safety * abs(e / v) for e, v in zip(errors, (fine, medium, coarse), strict=True)]
         if behaviour == "oscillatory":
             half_range = 0.5 * (max(values) - min(values))
             indices[1:] = [max(i, half_range / abs(v)) for i, v in zip(indices[1:], (medium, coarse), strict=True)]
@@ -104,6 +109,7 @@ def grid_convergence(
         behaviour=behaviour,
         apparent_order=p,
         order=order,
+        safety=safety,
         extrapolated=limit,
         approximate_error=approximate,
         extrapolated_error=None if limit is None else abs((limit - fine) / limit),

@@ -17,23 +17,26 @@ from workbench.questions.fe.graph import fe_inputs, fe_task, without_end
 from workbench.questions.mesh_study.figures import mesh_study_figures
 from workbench.questions.mesh_study.results import MeshStudy, mesh_run_name, read_mesh_study
 from workbench.questions.question import Question
+from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.wheel.graph import mesh_task
 from workbench.study.model import Study, stated
-from workbench.study.orientation import degrees
+from workbench.study.orientation import degrees, orientation_name
 from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["MESH_STUDY", "mesh_study_inputs", "mesh_study_of", "mesh_study_runs", "read_mesh_study"]
 
 
 def _tasks(study: Study) -> Sequence[Task]:
-    """A mesh and a run for each factor but that of the curves, whose run is the curve itself."""
+    """A mesh for each factor but that of the curves, whose runs are the curves themselves, and a run each way up."""
     tasks = []
     section = stated(study.mesh_study, "mesh_study")
     for factor in section.factors:
         if factor != study.mesh.factor:
             mesh = mesh_task(study, f"mesh_x{factor:g}", factor=factor)
-            inputs = without_end(fe_inputs(study, degrees(section.orientation), section.deflections))
-            tasks += [mesh, fe_task(f"fe_x{factor:g}", inputs, mesh.name)]
+            tasks.append(mesh)
+            for orientation in section.orientations:
+                inputs = without_end(fe_inputs(study, degrees(orientation), section.deflections))
+                tasks.append(fe_task(orientation_name(f"fe_x{factor:g}", degrees(orientation)), inputs, mesh.name))
     return tasks
 
 
@@ -41,7 +44,7 @@ def mesh_study_inputs(study: Study) -> dict[str, Any]:
     """What `read_mesh_study` needs to know of a study, as JSON values."""
     section = stated(study.mesh_study, "mesh_study")
     return {
-        "orientation_deg": degrees(section.orientation),
+        "orientations_deg": [degrees(orientation) for orientation in section.orientations],
         "deflections": list(section.deflections),
         "factors": list(section.factors),
         "curves_factor": study.mesh.factor,
@@ -52,7 +55,9 @@ def mesh_study_runs(study: Study) -> tuple[str, ...]:
     """Names of the tasks whose results `read_mesh_study` reads."""
     inputs = mesh_study_inputs(study)
     return tuple(
-        mesh_run_name(factor, inputs["curves_factor"], inputs["orientation_deg"]) for factor in inputs["factors"]
+        mesh_run_name(factor, inputs["curves_factor"], orientation)
+        for orientation in inputs["orientations_deg"]
+        for factor in inputs["factors"]
     )
 
 
@@ -67,7 +72,8 @@ def mesh_study_of(study: Study, folders: Mapping[str, Path]) -> MeshStudy | None
 
 def _checks(study: Study, results: MeshStudy) -> Sequence[Check]:
     places = ", ".join(f"{d * 1e3:g}" for d in results.deflections)
-    where = f"at {places} mm, {results.orientation_deg:g} deg"
+    at = f"{', '.join(f'{family.orientation_deg:g}' for family in results.families)} deg"
+    where = f"at {places} mm, {at}"
     claim = Claim(
         id="fe.mesh_uncertainty",
         title=f"FE: largest grid convergence index of the load on the mesh of the curves, {where}",
@@ -76,14 +82,22 @@ def _checks(study: Study, results: MeshStudy) -> Sequence[Check]:
         role="gate",
         source="Celik et al. 2008, J. Fluids Eng. 130, 078001 (ASME V&V 20); the limit is the project's own",
     )
+    stress = replace(
+        claim,
+        id="fe.stress_uncertainty",
+        title=f"FE: largest grid convergence index of the stress that decides first yield, {at}, last deflection",
+        role="finding",
+    )
+    strengths, tolerances = yield_strengths(study), study.tolerances
     return [
-        at_most(claim, lambda: max(results.index(d) for d in results.deflections), study.tolerances.mesh_uncertainty)
+        at_most(claim, lambda: max(results.index(d) for d in results.deflections), tolerances.mesh_uncertainty),
+        at_most(stress, lambda: results.stress_index(strengths), tolerances.stress_uncertainty),
     ]
 
 
 def _curves(study: Study, results: MeshStudy) -> list[StiffnessCurve]:
     """Those of the other meshes."""
-    runs = [run for run in results.runs if run.factor != results.curves_factor]
+    runs = [run for f in results.families for run in f.runs if run.factor != f.curves_factor]
     return [replace(run.curve, model=f"fe_x{run.factor:g}") for run in runs]
 
 

@@ -77,7 +77,10 @@ def _judge(pair: str, numbers: CurveMetrics, curve: StiffnessCurve, study: MeshS
 
 
 def noted(checks: Sequence[Check], judged: Mapping[str, Agreement]) -> list[Check]:
-    """The checks of L2 differences with their numerical uncertainty and verdict in the words of the tolerance."""
+    """The checks of L2 differences with their numerical uncertainty and verdict in the words of the tolerance.
+
+    One whose uncertainty reaches across its limit is undecided.
+    """
     pairs = {"ancf_vs_fe.relative_l2": "ancf_average", "brush_vs_fe.relative_l2": "brush"}
     pairs |= {f"{pair}.relative_l2": pair for pair in judged if pair.startswith("user_")}
     return [_note(check, judged[pairs[check.id]]) if pairs.get(check.id) in judged else check for check in checks]
@@ -87,4 +90,5 @@ def _note(check: Check, found: Agreement) -> Check:
     if found.uncertainty is None:
         return replace(check, tolerance=f"{check.tolerance}; numerical uncertainty not known")
     words = f"numerical uncertainty ±{100.0 * found.uncertainty:.2g} %: {found.verdict}"
-    return replace(check, tolerance=f"{check.tolerance}; {words}")
+    status = "undecided" if found.verdict == "undecided" else check.status
+    return replace(check, tolerance=f"{check.tolerance}; {words}", status=status)

@@ -5,17 +5,18 @@ Verified by tests/unit/test_workbench_rover_mission.py.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from contracts.records import Check
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.questions.rover.drive import Drive
-from workbench.verdict.rules import Claim, at_least, at_most
+from workbench.verdict.rules import Claim, at_least, at_most, stated
 
-__all__ = ["MISSION_SOURCE", "TITLES", "MissionRow", "mission_checks", "mission_rows"]
+__all__ = ["MISSION_SOURCE", "TITLES", "MissionRow", "mission_checks", "mission_rows", "plainly"]
 
 TITLES = {
     "slope_up": "slope of 25 degrees, upwards",
@@ -67,6 +68,26 @@ def mission_rows(driven: Mapping[str, Drive], brush: Mapping[str, Drive]) -> lis
     return rows
 
 
+_FOLDS = re.compile(
+    r"a tire folds at t = (?P<time>[-+.\de]+) s.*?: plate \d+ \((?P<part>\w+),.*?\) of wheel (?P<wheel>[\w ]+), "
+    r"which carries (?P<load>[.\d]+) N"
+)
+
+
+def plainly(stopped: str) -> str:
+    """Why a run stopped, for a reader who does not know the solver; its first clause where it is not a tire that folds.
+
+    The sentence is that of `workbench.questions.rover.tire_shapes.TireShapes`. Verified by
+    tests/unit/test_workbench_rover_mission.py.
+    """
+    found = _FOLDS.search(stopped)
+    if found is None:
+        return f"ended early: {re.split('[;.] ', stopped)[0]}"
+    time = float(found["time"])
+    when = f"stops at {time:.3g} s" if time >= 0.0 else "stops before it sets out"
+    return f"{when}: a {found['part']} of the {found['wheel']} wheel folds at {found['load']} N"
+
+
 MISSION_SOURCE = "mission requirements, Samarini 2020, section 1, after Poulakis et al. 2015"
 
 
@@ -88,8 +109,12 @@ def mission_checks(rows: Iterable[MissionRow], prefix: str, rover: str) -> list[
             role="finding",
             source=MISSION_SOURCE,
         )
+        if row.stopped is not None:
+            title = f"{rover}, {row.title}: {plainly(row.stopped)}"
+            checks.append(stated(replace(claim, title=title), None, None, "the run reaches its end", "undecided"))
+            continue
         if row.ours is None:
-            checks.append(at_least(claim, partial(float, row.stopped is None), 1.0))
+            checks.append(at_least(claim, lambda: 1.0, 1.0))
             continue
         rule = at_least if row.ours.at_least else at_most
         checks.append(rule(claim, partial(float, row.ours.value), row.ours.limit or 0.0))

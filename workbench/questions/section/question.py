@@ -12,7 +12,7 @@ from workbench.questions.model_curves import ModelCurves, mean_curve, model_curv
 from workbench.questions.question import Question
 from workbench.questions.section.figures import section_figures
 from workbench.questions.section.graph import section_tasks, without_planar_model
-from workbench.questions.section.results import SectionRuns, largest_difference
+from workbench.questions.section.results import SectionRuns, first_difference, largest_difference
 from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
@@ -21,13 +21,18 @@ from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["SECTION", "section_checks"]
 
+_SAME_WHEEL = 0.2
+"""Largest difference [-] of the first loads that is one of modelling: six times that of the narrowest strips tried."""
 _SOURCE = "our own solid model; a planar one leaves out the rim's bending along the axle"
 
 
 def section_checks(
     section: ModelCurves, fe: ModelCurves, tolerances: ToleranceSection, around: Around | None = None
 ) -> list[Check]:
-    """Each orientation and the average: largest difference of load along the curve, relative to the solid model's."""
+    """Each orientation and the average: largest difference of load along the curve, relative to the solid model's.
+
+    The first load of the average is a gate: no other sees a wheel that is half as stiff as it should be.
+    """
     solid = fe.by_orientation
     pairs = {orientation_name("vs_solid", o): (curve, solid.get(o)) for o, curve in section.by_orientation.items()}
     pairs["agreement"] = _averages(section, fe, around)
@@ -45,6 +50,19 @@ def section_checks(
             tolerances.section_agreement,
         )
         for name, (curve, other) in pairs.items()
+    ] + [
+        at_most(
+            Claim(
+                id="section.first_load",
+                title="Section model against the solid one, average: difference of the first load",
+                quantity="difference",
+                unit="-",
+                role="gate",
+                source="our own section model: another mesh in another dimension, the same wheel",
+            ),
+            partial(first_difference, *_averages(section, fe, around)),
+            _SAME_WHEEL,
+        )
     ]
 
 

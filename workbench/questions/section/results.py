@@ -13,7 +13,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves, RunNumbers
 
-__all__ = ["SectionRow", "SectionRuns", "largest_difference"]
+__all__ = ["SectionRow", "SectionRuns", "first_difference", "largest_difference"]
 
 
 _SMALLEST_LOAD = 5.0
@@ -29,6 +29,14 @@ def largest_difference(curve: StiffnessCurve, solid: StiffnessCurve | None) -> f
     loads = solid.load[common]
     difference = np.abs(curve.load_at(np.minimum(solid.deflection[common], curve.deflection[-1])) - loads)
     return float((difference / np.maximum(loads, _SMALLEST_LOAD)).max())
+
+
+def first_difference(curve: StiffnessCurve, solid: StiffnessCurve) -> float:
+    """|F - F_solid| / F_solid at the solid curve's first point with a load [-]."""
+    loaded = solid.load > 0.0
+    if not loaded.any() or solid.deflection[loaded][0] > curve.deflection[-1]:
+        raise InputError("curves", "section, fe", "share no point with a load", "compute the curves further")
+    return abs(float(curve.load_at(solid.deflection[loaded][0])) / float(solid.load[loaded][0]) - 1.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

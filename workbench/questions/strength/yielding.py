@@ -1,5 +1,8 @@
 """Stress against yield along a curve: utilisation of each part, peak stress at a load, load at first yield.
 
+Strips are judged by their stress linearised through the thickness, one thickness from every joint: the elastic stress
+at a weld's end has no limit under refinement. What is no strip (grousers, hubs) has its largest von Mises stress.
+
 Verified by tests/unit/test_workbench_yielding.py.
 """
 
@@ -22,6 +25,8 @@ __all__ = [
     "PeakStress",
     "StrengthResults",
     "first_yield",
+    "judged_stress",
+    "largest_utilisation",
     "peak_stresses",
     "smallest_yield_load",
     "utilisation",
@@ -46,14 +51,15 @@ class FirstYield:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PeakStress:
-    """Largest von Mises stress in a part at a load.
+    """Stress of a part that is held against its yield strength, at a load.
 
     Attributes
     ----------
     load, deflection : where on the curve [N, m]
     part : name of the part
-    used : largest von Mises stress over yield strength [-]
+    used : that stress over yield strength [-]
     strength : yield strength [Pa]
+    local : largest von Mises stress anywhere in the part [Pa], which near a weld's end has no limit under refinement
     """
 
     load: float
@@ -61,10 +67,11 @@ class PeakStress:
     part: str
     used: float
     strength: float
+    local: float
 
     @property
     def stress(self) -> float:
-        """Largest von Mises stress [Pa]."""
+        """The stress that is judged [Pa], see `judged_stress`."""
         return self.used * self.strength
 
 
@@ -79,16 +86,30 @@ def peak_stresses(curve: StiffnessCurve, yield_strength: Mapping[str, float], lo
     d, at = curve.deflection, curve.deflection_at(load)
     return [
         PeakStress(
-            load=load, deflection=at, part=part, used=float(np.interp(at, d, used)), strength=yield_strength[part]
+            load=load,
+            deflection=at,
+            part=part,
+            used=float(np.interp(at, d, used)),
+            strength=yield_strength[part],
+            local=float(np.interp(at, d, curve.columns[f"max_von_mises_{part}_Pa"])),
         )
         for part, used in utilisation(curve, yield_strength).items()
     ]
 
 
+def judged_stress(curve: StiffnessCurve, part: str) -> NDArray[np.float64] | None:
+    """The stress [Pa] of a part that is held against yield, at each point of the curve; None for one without stress.
+
+    Linearised through the thickness where the part has lines for it, the largest von Mises stress else.
+    """
+    linearised = curve.columns.get(f"max_linearised_{part}_Pa")
+    return linearised if linearised is not None and linearised.any() else curve.columns.get(f"max_von_mises_{part}_Pa")
+
+
 def utilisation(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> dict[str, NDArray[np.float64]]:
-    """Largest von Mises stress over yield strength at each point of the curve, by part that has a stress column [-]."""
-    columns = {part: f"max_von_mises_{part}_Pa" for part in yield_strength}
-    return {part: curve.columns[c] / yield_strength[part] for part, c in columns.items() if c in curve.columns}
+    """Stress that is judged over yield strength at each point of the curve, by part that has a stress [-]."""
+    stresses = {part: judged_stress(curve, part) for part in yield_strength}
+    return {part: stress / yield_strength[part] for part, stress in stresses.items() if stress is not None}
 
 
 def first_yield(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> FirstYield:
@@ -106,6 +127,22 @@ def first_yield(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> F
         if found.part is None or deflection < found.deflection:
             found = FirstYield(load=load, deflection=deflection, part=part)
     return found
+
+
+def largest_utilisation(curve: StiffnessCurve, yield_strength: Mapping[str, float], up_to: float) -> float:
+    """Largest stress over yield strength of any part, up to a load [N] and there, linear between increments [-].
+
+    Raises
+    ------
+    InputError
+        If the curve does not reach the load, or no part has a stress.
+    """
+    end = curve.deflection_at(up_to)
+    found = utilisation(curve, yield_strength)
+    if not found:
+        raise InputError("curve", curve.model, "has no stress of any part", "compute it with stresses")
+    before = curve.deflection <= end
+    return max(max(float(np.interp(end, curve.deflection, u)), float(u[before].max())) for u in found.values())
 
 
 def smallest_yield_load(found: Sequence[FirstYield], needed: float) -> float:
@@ -128,11 +165,14 @@ def smallest_yield_load(found: Sequence[FirstYield], needed: float) -> float:
 class StrengthResults:
     """FE curves, yield strengths by part that is stressed [Pa], first yield by orientation [deg] and by part.
 
+    ``uncertainty`` : of the stress, by the mesh study [-]; None where it is not known.
+
     Orientations of which no point converged are ``missing`` [deg], and have no first yield.
     """
 
     fe: ModelCurves
     yield_strength: Mapping[str, float]
+    uncertainty: float | None
     by_orientation: Mapping[float, FirstYield]
     by_part: Mapping[str, tuple[float, FirstYield]]
 
@@ -140,6 +180,13 @@ class StrengthResults:
     def curves(self) -> Mapping[float, StiffnessCurve]:
         """Those with a point behind first contact, by orientation [deg]."""
         return self.fe.loaded
+
+    @property
+    def linearised(self) -> frozenset[str]:
+        """Parts judged by their linearised stress."""
+        first = next(iter(self.curves.values()), None)
+        columns = first.columns if first is not None else {}
+        return frozenset(p for p in self.yield_strength if np.any(columns.get(f"max_linearised_{p}_Pa", 0.0)))
 
     @property
     def missing(self) -> tuple[float, ...]:

@@ -9,7 +9,7 @@ from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.study.wheel_design import part_materials
 
-__all__ = ["MESH", "MESH_WHOLE", "mesh_task", "wheel_inputs", "wheel_meshes"]
+__all__ = ["MESH", "MESH_WHOLE", "coarse_across", "mesh_task", "wheel_inputs", "wheel_meshes"]
 
 MESH, MESH_WHOLE = "mesh", "mesh_whole"
 """Names of the tasks."""
@@ -32,6 +32,7 @@ def mesh_task(
     options = {
         "element_size": mesh.element_size,
         "axial_size": mesh.axial_size,
+        "edge_size": mesh.edge_size,
         "thickness_elements": mesh.thickness_elements,
         "order": mesh.order,
         "half_width": mesh.half_width,
@@ -41,6 +42,12 @@ def mesh_task(
     }
     inputs = {"wheel": wheel_inputs(study), "options": options | dict(changes or {})}
     return Task(name=name, function="workbench.questions.wheel.mesh_task:build", inputs=inputs)
+
+
+def coarse_across(study: Study) -> dict[str, Any]:
+    """Changes to a mesh for what does not depend on how strips curl: no edge elements, or twice as long ones."""
+    mesh = study.mesh
+    return {"edge_size": None, "axial_size": mesh.axial_size if mesh.edge_size else 2.0 * mesh.axial_size}
 
 
 def wheel_inputs(study: Study) -> dict[str, Any]:

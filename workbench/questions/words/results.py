@@ -13,6 +13,7 @@ import numpy as np
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves, distances_from
+from workbench.questions.strength.yielding import largest_utilisation
 from workbench.questions.words.plausible import Plausible
 from workbench.questions.words.readings import Reading
 
@@ -144,20 +145,8 @@ class Words:
         return _or_words(told)
 
     def stress(self, load: float) -> float:
-        """Largest linearised stress over yield strength of any part and orientation, at a load [N] [-]."""
-        return max(self._stress(curve, load) for curve in self.fe.by_orientation.values())
-
-    def _stress(self, curve: StiffnessCurve, load: float) -> float:
-        at = curve.deflection_at(load)
-        columns = {part: curve.columns.get(f"max_linearised_{part}_Pa") for part in self.yield_strength}
-        found = [
-            float(np.interp(at, curve.deflection, values)) / self.yield_strength[part]
-            for part, values in columns.items()
-            if values is not None
-        ]
-        if not found:
-            raise InputError("stress", "none", "is not in the curve", "compute the curve again")
-        return max(found)
+        """Largest stress over yield strength of any part and orientation, up to a load [N] [-]."""
+        return max(largest_utilisation(curve, self.yield_strength, load) for curve in self.fe.by_orientation.values())
 
     def negative_pivots(self, load: float) -> float:
         """Largest number of negative pivots of any orientation up to a load [N]."""

@@ -1,0 +1,66 @@
+"""Records of named commands: kept beside the study, told apart once what they are about has changed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from contracts.errors import InputError
+from workbench.execution.task import Task
+from workbench.questions.kept import Kept, keep, kept, keys_of
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+
+TASKS = [
+    Task(name="a", function="workbench.questions.section.task:solve_orientation", inputs={"x": 1.0}),
+    Task(name="b", function="workbench.questions.section.task:solve_orientation", inputs={"x": 2.0}),
+]
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Study:
+    path = tmp_path / "own.toml"
+    path.write_text(built_in_study().read_text(encoding="utf-8"), encoding="utf-8")
+    return read_study(path)
+
+
+def record(study: Study) -> Kept:
+    found = kept(study, "sample")
+    assert found is not None
+    return found
+
+
+def test_a_record_lies_beside_the_study_and_comes_back(study: Study, tmp_path: Path) -> None:
+    assert kept(study, "sample") is None
+    path = keep(study, "sample", "make sample", TASKS, 12.34, {"load_N": [1.0, 2.5], "words": "ä"})
+    assert path == tmp_path / "own.kept" / "sample.json"
+    found = record(study)
+    assert (found.command, found.wall_s, found.found) == ("make sample", 12.3, {"load_N": [1.0, 2.5], "words": "ä"})
+
+
+def test_it_is_current_for_the_same_tasks_in_any_order_only(study: Study) -> None:
+    keep(study, "sample", "make sample", TASKS, 1.0, {})
+    found = record(study)
+    assert found.state(TASKS) == found.state(TASKS[::-1]) == "current"
+    other = replace(TASKS[1], inputs={"x": 2.1})
+    assert found.state([TASKS[0], other]) == found.state(TASKS[:1]) == "stale"
+    assert replace(found, sources="0").state(TASKS) == "older sources"
+
+
+def test_names_and_costs_are_no_part_of_the_key() -> None:
+    assert keys_of([replace(t, name=f"p/{t.name}", cost=9.0) for t in TASKS]) == keys_of(TASKS)
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"command": 1, "odd": 2}'])
+def test_a_file_that_is_no_record_is_told(study: Study, text: str) -> None:
+    path = keep(study, "sample", "make sample", TASKS, 1.0, {})
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match="cannot be read"):
+        kept(study, "sample")
+
+
+def test_a_copy_of_a_study_keeps_its_folder(study: Study) -> None:
+    changed = study.model_copy(update={"title": "another"})
+    assert changed.kept == study.kept is not None

@@ -1,0 +1,105 @@
+"""What a named command found for a study: kept beside the study's file, told apart once it no longer holds.
+
+``studies/exomars.toml`` has its records in ``studies/exomars.kept/NAME.json``. Each holds the key of the tasks it is
+about: of what they are given, and of the sources they can reach. Verified by tests/unit/test_workbench_kept.py.
+"""
+
+from __future__ import annotations
+
+import datetime
+import json
+import os
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from contracts.errors import InputError
+from contracts.text import for_json
+from workbench.execution.fingerprint import canonical_json, text_sha256
+from workbench.execution.task import Task, task_keys
+from workbench.study.model import Study
+
+__all__ = ["Kept", "State", "keep", "kept", "keys_of"]
+
+State = Literal["current", "older sources", "stale"]
+_DIGITS = 16
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kept:
+    """One record.
+
+    Attributes
+    ----------
+    command : what makes it anew, as a user types it
+    inputs, sources : keys of what its tasks were given, and of that with the sources and libraries they reach
+    date, machine, wall_s : when, where and how long it ran [s]
+    found : the results, JSON values [SI]
+    """
+
+    command: str
+    inputs: str
+    sources: str
+    date: str
+    machine: str
+    wall_s: float
+    found: Mapping[str, Any]
+
+    def state(self, tasks: Sequence[Task]) -> State:
+        """Whether it is about these tasks: as they are; as they were given, by older sources; or about others."""
+        inputs, sources = keys_of(tasks)
+        if self.inputs != inputs:
+            return "stale"
+        return "current" if self.sources == sources else "older sources"
+
+
+def keys_of(tasks: Sequence[Task]) -> tuple[str, str]:
+    """Key of the functions and inputs of tasks, in any order, and key of these with all sources and libraries."""
+    given = sorted(canonical_json({"function": task.function, "inputs": task.inputs}) for task in tasks)
+    sources = sorted(task_keys(tuple(tasks)).values())
+    return text_sha256("\n".join(given))[:_DIGITS], text_sha256("\n".join(sources))[:_DIGITS]
+
+
+def kept(study: Study, name: str) -> Kept | None:
+    """The record of this name; None where there is none.
+
+    Raises
+    ------
+    InputError
+        For a file that is no such record.
+    """
+    if study.kept is None or not (path := study.kept / f"{name}.json").is_file():
+        return None
+    try:
+        return Kept(**json.loads(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError) as error:
+        raise InputError("kept record", str(path), f"cannot be read ({error})", "remove it, or make it anew") from error
+
+
+def keep(study: Study, name: str, command: str, tasks: Sequence[Task], wall_s: float, found: Mapping[str, Any]) -> Path:
+    """Write a record beside the study's file; gives its path.
+
+    Raises
+    ------
+    InputError
+        For a study that was read from no file.
+    """
+    if study.kept is None:
+        raise InputError("study", study.name, "was read from no file", "read it with read_study")
+    inputs, sources = keys_of(tasks)
+    record = {
+        "command": command,
+        "inputs": inputs,
+        "sources": sources,
+        "date": datetime.datetime.now(datetime.UTC).isoformat(timespec="minutes"),
+        "machine": f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}",
+        "wall_s": round(wall_s, 1),
+        "found": dict(found),
+    }
+    study.kept.mkdir(exist_ok=True)
+    path = study.kept / f"{name}.json"
+    text = json.dumps(record, allow_nan=False, ensure_ascii=False, indent=1)
+    path.write_text(for_json(text) + "\n", encoding="utf-8")
+    return path

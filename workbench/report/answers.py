@@ -1,0 +1,176 @@
+"""The report's three answers: is the computation sound, does the wheel do its job, which model may stand in for it.
+
+A check that is undecided or was not evaluated never counts as passed. Verified by tests/unit/test_workbench_answers.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from contracts.records import Check
+from workbench.questions.comparison import Comparison
+from workbench.report.stand_ins import StandIn, stand_ins
+from workbench.study.model import Study
+from workbench.verdict.decision import Decision, decided, together
+from workbench.verdict.number_format import displayed, displayed_reference
+
+__all__ = ["Answer", "Answers", "Part", "answers", "computation", "wheel"]
+
+_SHOWN = 3
+"""Parts of an answer on the first page where there are many."""
+_JOB = {
+    "stiffness": ("fe.initial_tangent", "fe.deflection_at_"),
+    "reach": ("fe.reach",),
+    "evenness": ("fe.spread_",),
+    "strength": ("fe.first_yield_load",),
+    "heat and cold": ("environment.first_yield_",),
+    "mission": ("rover_mission.",),
+}
+"""Part of the wheel's job -> how the identifiers of its checks begin; those a study does not ask for are not there."""
+_SHORT = {
+    "fe.initial_tangent": "slope",
+    "fe.spread_": "largest spread around the wheel",
+    "fe.reach": "share of the way that every orientation comes",
+    "fe.first_yield_load": "begins to yield at",
+}
+"""How an identifier begins -> what its number is called on the first page; the title of the check else."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
+    """One thing asked: what it is called, the answer, the check that decides it in words, the section with more."""
+
+    name: str
+    decision: Decision
+    text: str
+    section: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """An answer in one sentence, and what it is made of."""
+
+    question: str
+    decision: Decision
+    sentence: str
+    parts: Sequence[Part] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answers:
+    """All three; ``models`` in the order in which the report shows them."""
+
+    computation: Answer
+    wheel: Answer
+    models: Sequence[StandIn]
+
+    @property
+    def stand_in(self) -> Answer:
+        """The third in one sentence."""
+        may, open_ = ([m for m in self.models if m.decision == d] for d in ("yes", "undecided"))
+        average = [m for m in self.models if m.decision == "no" and m.on_average == "yes"]
+        told = [", ".join(f"{m.name}, {m.range}" for m in may)] if may else []
+        told += [
+            f"{words}: {_listed(found)}"
+            for words, found in (("not decided", open_), ("on average alone", average))
+            if found
+        ]
+        sentence = "; ".join(told) or "none of those compared"
+        decision: Decision = "yes" if may else "undecided" if open_ else "no"
+        question = "Which model may stand in for it?"
+        return Answer(question=question, decision=decision, sentence=f"{sentence[0].upper()}{sentence[1:]}.")
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """``verdict`` of ``summary.json``, schema 2."""
+        return {
+            "computation": self.computation.decision,
+            "wheel": self.wheel.decision,
+            "models": {model.key: model.decision for model in self.models},
+        }
+
+
+def answers(study: Study, found: Comparison) -> Answers:
+    """Of a comparison."""
+    return Answers(
+        computation=computation(found.checks, found.question_of),
+        wheel=wheel(study, found.checks, found.question_of),
+        models=stand_ins(found),
+    )
+
+
+def computation(checks: Sequence[Check], question_of: Mapping[str, str]) -> Answer:
+    """Whether every gate holds."""
+    gates = [check for check in checks if check.role == "gate"]
+    bad = [check for check in gates if check.status != "pass"]
+    sentence = f"All {len(gates)} gates hold."
+    if bad:
+        sentence = f"{len(bad)} of {len(gates)} gates {'does' if len(bad) == 1 else 'do'} not hold."
+    return Answer(
+        question="Is the computation sound?",
+        decision=together(decided(check) for check in gates) if gates else "undecided",
+        sentence=sentence if gates else "The study asks for no gate.",
+        parts=[_part(c.title, [c], question_of) for c in bad[:_SHOWN]],
+    )
+
+
+def wheel(study: Study, checks: Sequence[Check], question_of: Mapping[str, str]) -> Answer:
+    """Whether the wheel does what the study asks of it: each part of its job that has checks."""
+    asked = {
+        name: found
+        for name, begins in _JOB.items()
+        if (found := [c for c in checks if c.id.startswith(begins) and not c.id.endswith("_around")])
+    }
+    if "orientation_spread" not in study.tolerances.model_fields_set:
+        asked.pop("evenness", None)
+    parts = [_part(name, found, question_of) for name, found in asked.items()]
+    decision = together(part.decision for part in parts)
+    named = {d: [part.name for part in parts if part.decision == d] for d in ("yes", "no", "undecided")}
+    words = {"yes": "as asked", "no": "not as asked", "undecided": "not decided"}
+    told = [f"{words[d]}: {', '.join(names)}" for d, names in named.items() if names]
+    sentence = f"{'; '.join(told)}." if told else "The study asks nothing of it."
+    return Answer(
+        question="Does the wheel do its job?",
+        decision=decision,
+        sentence=sentence[0].upper() + sentence[1:],
+        parts=parts,
+    )
+
+
+def _part(name: str, checks: Sequence[Check], question_of: Mapping[str, str]) -> Part:
+    """Told by its first check that is not passed, or by its first."""
+    order = {"no": 0, "undecided": 1, "yes": 2}
+    worst = min(checks, key=lambda check: (order[decided(check)], -_used(check)))
+    return Part(
+        name=name,
+        decision=together(decided(check) for check in checks),
+        text=_told(worst),
+        section=question_of[worst.id],
+    )
+
+
+def _listed(models: Sequence[StandIn]) -> str:
+    names = [model.name for model in models]
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def _used(check: Check) -> float:
+    """How much of its limit a number takes [-]; 0 where it is held against no limit of one side."""
+    if check.value is None or not isinstance(check.reference, float | int) or not check.reference:
+        return 0.0
+    share = check.value / check.reference
+    return share if check.tolerance.startswith("at most") else 1.0 / share if check.value else 0.0
+
+
+def _told(check: Check) -> str:
+    """Its number and limit; a run that ended early has none, and its title says what happened."""
+    title = check.title.removeprefix("FE: ").removeprefix("Rover on fitted ANCF tires, ")
+    if check.value is None:
+        return title if check.status == "undecided" else f"{title}: not evaluated"
+    limit = check.tolerance.partition(";")[0]
+    if not limit.startswith("at "):
+        limit = f"{displayed_reference(check)}{'' if isinstance(check.reference, tuple) else ' ± ' + limit}"
+    name = next((short for begins, short in _SHORT.items() if check.id.startswith(begins)), title)
+    return f"{name} {displayed(check.value, check.unit, check.quantity)} ({limit})"
