@@ -152,4 +152,4 @@ def test_check_is_a_gate_that_a_coarse_mesh_fails(shipped: Study) -> None:
     for errors, status in (((0.004, 0.006, 0.007), "pass"), ((0.004, 0.006, 0.009), "fail")):
         load, stress = MESH_STUDY.checks(shipped, _study(errors))
         assert (load.id, load.role, load.status) == ("fe.mesh_uncertainty", "gate", status)
-        assert (stress.id, stress.role, stress.status) == ("fe.stress_uncertainty", "gate", "error")
+        assert (stress.id, stress.role, stress.status) == ("fe.stress_uncertainty", "finding", "error")

@@ -12,7 +12,7 @@ import pytest
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.questions.mesh_study.results import MeshRun, MeshStudy
+from workbench.questions.mesh_study.results import MeshFamily, MeshRun, MeshStudy
 from workbench.questions.model_curves import RunNumbers
 from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK, SWEEP
 from workbench.questions.rover_crosscheck.results import (
@@ -68,7 +68,11 @@ def results(factor: float = 1.0) -> CrossCheck:
         period=120.0,
         mirrored=True,
         mesh_study=MeshStudy(
-            orientation_deg=0.0, deflections=(0.02,), runs=(runs[0], runs[1], runs[2]), curves_factor=1.0
+            families=(
+                MeshFamily(
+                    orientation_deg=0.0, deflections=(0.02,), runs=(runs[0], runs[1], runs[2]), curves_factor=1.0
+                ),
+            )
         ),
         static_load=STATIC,
         warmth=(Warmth(temperature=130.15, modulus_ratio=1.1, deflection=0.0225),),

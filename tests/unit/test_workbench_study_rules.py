@@ -278,4 +278,4 @@ def test_what_the_full_report_refuses_is_refused_at_once(tmp_path: Path) -> None
 
 def test_the_meshes_of_the_full_study_hold_its_own(tmp_path: Path) -> None:
     own = '[mesh_study]\norientation = "0 deg"\ndeflections = ["9 mm"]\n[full]\nfactor = 1.7\n'
-    assert _complaint(tmp_path, own).startswith("full.factor = 1.7: must be one of full.mesh_study_factors = 1, 1.5, 2")
+    assert _complaint(tmp_path, own).startswith("full.factor = 1.7: must be one of full.mesh_study_factors = 1, 2, 3")

@@ -121,7 +121,7 @@ def test_orientation_is_set_wherever_the_study_names_one() -> None:
     (point,) = _points(orientation=["22.5 deg"], base=False)
     wanted = (math.radians(22.5),)
     assert point.study.fe.orientations == point.study.ancf.orientations == wanted
-    assert (point.study.mesh_study.orientation,) == wanted
+    assert point.study.mesh_study.orientations == wanted
 
 
 def test_plates_keep_the_contact_stiffness_of_the_whole_rim() -> None:
