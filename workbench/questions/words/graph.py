@@ -17,8 +17,8 @@ from workbench.study.reading import built_in_study, read_study
 __all__ = ["HOOPS", "HOOPS_TWIN", "TWIN", "asked", "hoops", "hoops_tasks", "in_phase", "twin_tasks"]
 
 TWIN, HOOPS, HOOPS_TWIN = "words_twin", "words_hoops", "words_hoops_twin"
-DEFLECTIONS = (0.005, 0.010, 0.015, 0.020, 0.025, 0.030)
-"""Of the twin's curves [m]."""
+DEFLECTIONS = (0.005, 0.010, 0.015, 0.020)
+"""Of the twin's curves [m]: up to where spreads are compared."""
 
 
 def asked(study: Study) -> bool:
