@@ -178,7 +178,8 @@ def test_a_second_run_reuses_everything_and_a_wheel_that_fails_exits_1_if_asked(
 ) -> None:
     """Only the comparison changes: tolerances and a user's curve; the wheel misses its reach, which is a result."""
     (workspace / "mine.csv").write_text("# source: file\ndeflection_m,load_N\n0,0\n0.006,40\n", encoding="utf-8")
-    mine = '[[compare.curves]]\nfile = "mine.csv"\nlabel = "my digitised curve"\nsource = "Someone, Fig. 1"\n'
+    mine = '[[reference.curves]]\nfile = "mine.csv"\nlabel = "my digitised curve"\nsource = "Someone, Fig. 1"\n'
+    mine += 'kind = "published"\nuncertainty = "1 %"\n'
     strict = small_study_text().replace("[tolerances]", f"{mine}\n[tolerances]")
     strict = strict.replace('reach_deflection = "6 mm"', "").replace(
         "orientation_spread = 0.50", "orientation_spread = 5"
