@@ -109,3 +109,19 @@ def test_a_measured_curve_decides_as_far_as_both_are_known(
     (noted_check,) = noted([found], {"user_0": judged})
     assert noted_check.status == status
     assert "of the reference" in noted_check.tolerance
+
+
+@pytest.mark.parametrize(("end", "status"), [(0.012, "undecided"), (0.018, "pass")])
+def test_a_sliver_of_a_reference_judges_nothing(end: float, status: str) -> None:
+    """Of a measured curve to 30 mm."""
+    d = np.linspace(0.0, end, 31)
+    curve = StiffnessCurve(model="fe", orientation_deg=None, deflection=d, load=8200.0 * d)
+    reference = _line(8200.0)
+    fe = ModelCurves(model="fe", by_orientation={}, average=curve, runs={})
+    user = UserCurve(
+        label="rig", kind="measured", curve=reference, orientation_deg=None, uncertainty=0 * reference.load
+    )
+    judged = agreements({"user_0": compare_curves(curve, reference)}, fe, None, 0.10, [user])
+    (found,) = noted([replace(_check("user_0.relative_l2"), status="pass")], judged)
+    assert found.status == status
+    assert ("less than half of the reference" in found.tolerance) == (status == "undecided")

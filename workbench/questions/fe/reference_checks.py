@@ -16,15 +16,13 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, mean_curve
+from workbench.questions.models.agreement import LEAST_COMMON
 from workbench.study.reference import BandPoint, BandReference, ReferenceSection, SlopeReference
 from workbench.study.reference_file import LoadBand, read_band
 from workbench.study.sections import ToleranceSection
 from workbench.verdict.rules import Claim, Doubt, at_most, near, within
 
 __all__ = ["combined", "leaves_band", "mesh_share", "reference_checks"]
-
-LEAST_COMMON = 0.5
-"""Share of a reference's range that a curve has to cover before it is judged [-]: none from a sliver of it."""
 
 
 def reference_checks(

@@ -14,10 +14,13 @@ from contracts.records import Check
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve
 from workbench.questions.models.metrics import CurveMetrics
+from workbench.study.model import LARGEST_WHEEL_LOAD
 
 __all__ = ["Agreement", "Verdict", "agreements", "noted", "verdict"]
 
 _SAMPLES = 401
+LEAST_COMMON = 0.5
+"""Share of a reference's range that has to be covered before it judges [-]: none from a sliver of it."""
 Verdict = Literal["no difference", "agrees", "differs", "undecided", "not known"]
 
 
@@ -33,6 +36,7 @@ class Agreement:
         also that curve's own, root-sum-square [-]; None if the mesh's is not known
     limit : the largest distance that counts as agreement [-]
     own : uncertainty of the study's reference alone [-]; None where the pair has no curve of it
+    sliver : whether less than half of the reference's curve, up to the loads compared, was covered: too little to judge
     verdict : "no difference": smaller than its uncertainty; "agrees", "differs": inside or outside the limit, whatever
         the mesh adds; "undecided": the uncertainty reaches across the limit; "not known": no uncertainty
     """
@@ -43,6 +47,7 @@ class Agreement:
     limit: float
     verdict: Verdict
     own: float | None = None
+    sliver: bool = False
 
 
 def verdict(distance: float, uncertainty: float | None, limit: float) -> Verdict:
@@ -71,9 +76,23 @@ def agreements(
         total, own = _uncertainty(numbers, curve, study, user)
         found = verdict(numbers.relative_l2, total, limit)
         judged[pair] = Agreement(
-            pair=pair, distance=numbers.relative_l2, uncertainty=total, limit=limit, verdict=found, own=own
+            pair=pair,
+            distance=numbers.relative_l2,
+            uncertainty=total,
+            limit=limit,
+            verdict=found,
+            own=own,
+            sliver=user is not None and _is_sliver(numbers, user.curve),
         )
     return judged
+
+
+def _is_sliver(numbers: CurveMetrics, reference: StiffnessCurve) -> bool:
+    """Whether the range compared is less than half of a reference's up to the loads compared."""
+    first, last = reference.deflection[0], reference.deflection[-1]
+    if reference.load.max() >= LARGEST_WHEEL_LOAD:
+        last = reference.deflection_at(LARGEST_WHEEL_LOAD)
+    return bool(numbers.end - numbers.start < LEAST_COMMON * (1.0 - 1e-9) * (last - first))
 
 
 def _continuum_curve(pair: str, fe: ModelCurves, user: UserCurve | None) -> StiffnessCurve:
@@ -124,4 +143,6 @@ def _note(check: Check, found: Agreement) -> Check:
         words = f"uncertainty of the reference ±{100.0 * found.own:.2g} %, {words}"
     known = found.own if found.uncertainty is None else found.uncertainty
     across = known is not None and found.distance - known <= found.limit < found.distance + known
-    return replace(check, tolerance=f"{check.tolerance}; {words}", status="undecided" if across else check.status)
+    words += "; less than half of the reference is covered" if found.sliver else ""
+    status = "undecided" if across or found.sliver else check.status
+    return replace(check, tolerance=f"{check.tolerance}; {words}", status=status)
