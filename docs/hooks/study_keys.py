@@ -32,9 +32,12 @@ from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
 PAGE = Path(__file__).parents[1] / "reference" / "study_keys.md"
-REPORT_ONLY = ("name", "title", "*.source", "inferred.*", "reference.*", "tolerances.*", "ancf.thesis_preset")
+REPORT_ONLY = (
+    *("name", "title", "*.source", "inferred.*", "reference.slope.*", "reference.band.*"),
+    *("tolerances.*", "ancf.thesis_preset"),
+)
 """Words, limits and what results are held against: the comparison reads them, nothing is computed again."""
-ASKS = ("tolerances.reference_wheel", "ancf.thesis_preset")
+ASKS = ("ancf.thesis_preset",)
 """Keys among those that ask a question of their own."""
 GROUPS = {
     "mesh": ("mesh", "mesh_*"),

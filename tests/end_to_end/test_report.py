@@ -59,7 +59,7 @@ def test_summary_holds_the_agreed_fields(first_report: Finished, workspace: Path
     assert (summary["schema"], summary["study"], summary["status"]) == (2, "exomars", "pass")
     ids = [c["id"] for c in summary["checks"]]
     assert len(ids) == len(set(ids))
-    for wanted in ("fe.initial_tangent", "fe.deflection_at_160N", "fe.deflection_at_250N", "fe.residual", "fe.balance",
+    for wanted in ("words.band", "fe.residual", "fe.balance",
                    "fe.reach", "fe.mesh_uncertainty", "fe.yield",
                    "fe.spread_20mm", "mesh.mass", "ancf.preset_phi000",
                    "ancf.preset_phi045", "ancf.flexible_mass", "ancf.surfaces",
@@ -67,6 +67,7 @@ def test_summary_holds_the_agreed_fields(first_report: Finished, workspace: Path
                    "ancf_vs_fe.iso_18571", "brush_vs_fe.relative_l2", "fe.first_yield_load",
                    "environment.similarity", "environment.stiffness_-40C"):  # fmt: skip
         assert wanted in ids
+    assert not [i for i in ids if i.startswith(("fe.initial_tangent", "fe.deflection_at_"))]  # by them it was chosen
     gates = [c for c in summary["checks"] if c["role"] == "gate"]
     assert {c["status"] for c in gates} == {"pass"}
     assert {t["task"] for t in summary["timings"]} == TASKS
@@ -178,7 +179,8 @@ def test_a_second_run_reuses_everything_and_a_wheel_that_fails_exits_1_if_asked(
 ) -> None:
     """Only the comparison changes: tolerances and a user's curve; the wheel misses its reach, which is a result."""
     (workspace / "mine.csv").write_text("# source: file\ndeflection_m,load_N\n0,0\n0.006,40\n", encoding="utf-8")
-    mine = '[[compare.curves]]\nfile = "mine.csv"\nlabel = "my digitised curve"\nsource = "Someone, Fig. 1"\n'
+    mine = '[[reference.curves]]\nfile = "mine.csv"\nlabel = "my digitised curve"\nsource = "Someone, Fig. 1"\n'
+    mine += 'kind = "published"\nuncertainty = "1 %"\n'
     strict = small_study_text().replace("[tolerances]", f"{mine}\n[tolerances]")
     strict = strict.replace('reach_deflection = "6 mm"', "").replace(
         "orientation_spread = 0.50", "orientation_spread = 5"
@@ -198,7 +200,8 @@ def test_a_second_run_reuses_everything_and_a_wheel_that_fails_exits_1_if_asked(
     assert (summary["verdict"]["computation"], summary["verdict"]["wheel"]) == ("yes", "no")
     assert next(c["status"] for c in summary["checks"] if c["id"] == "fe.reach") == "fail"
     user = next(c for c in summary["checks"] if c["id"] == "user_0.relative_l2")
-    assert (user["source"], user["role"]) == ("Someone, Fig. 1", "finding")
+    assert (user["source"], user["role"]) == ("published: Someone, Fig. 1", "finding")
+    assert "of the reference ±1 %" in user["tolerance"]
     page = (workspace / "strict" / "report.html").read_text(encoding="utf-8")
     assert "my digitised curve" in page
     unusual = "tolerances.orientation_spread = 5 is unusual for a relative tolerance"
@@ -209,13 +212,15 @@ def test_a_second_run_reuses_everything_and_a_wheel_that_fails_exits_1_if_asked(
 
 def test_gates_that_the_study_loosened_are_named_beside_the_verdict(first_report: Finished, workspace: Path) -> None:
     """On the page, on the terminal, in summary.md and summary.json; and every gate's tolerance is known as one."""
-    words = "4 tolerances are the study's own: tolerances.initial_tangent = 0.9 is looser than the project's own 0.03"
+    words = (
+        "3 tolerances are the study's own: tolerances.reach_deflection = 0.006 is looser than the project's own 0.03"
+    )
     folder = workspace / "report"
     page, markdown = ((folder / name).read_text(encoding="utf-8") for name in ("report.html", "summary.md"))
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     assert words in html.unescape(page)
     assert words in markdown
     assert words in " ".join(first_report.stdout.split())
-    assert len(summary["warnings"]) == 4
+    assert len(summary["warnings"]) == 3
     gates = [statement_of(c["id"], c["quantity"], c["title"]).setting for c in summary["checks"] if c["role"] == "gate"]
     assert set(gates) - {""} <= GATES.keys()

@@ -60,8 +60,9 @@ def _study_text() -> str:
         assert count == 1, pattern
     text = text.replace('[materials."Ti-6Al-4V"]', f"[materials.{metal}]")
     text = text.replace('material = "Ti-6Al-4V"', f"material = {metal}")
-    words = {"file": CURVE, "label": _nasty("_label"), "source": _nasty("=curve source")}
-    return f"{text}\n[[compare.curves]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in words.items())
+    words = {"file": CURVE, "label": _nasty("_label"), "kind": "measured", "source": _nasty("=curve source")}
+    words["uncertainty"] = "3 %"
+    return f"{text}\n[[reference.curves]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in words.items())
 
 
 def _run(folder: Path, *arguments: str, page: Path | None = None) -> Finished:

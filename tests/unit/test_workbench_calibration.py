@@ -81,9 +81,9 @@ def test_the_study_file_keeps_everything_else(tmp_path: Path) -> None:
 
 
 def test_curves_of_the_user_are_still_found() -> None:
-    text = '[[compare.curves]]\nfile = "mine.csv"   # digitised\nlabel = "file"\n'
+    text = '[[reference.curves]]\nfile = "mine.csv"   # digitised\nlabel = "file"\n'
     new = rewritten_study(text, {}, "note", Path("/somewhere"))
-    assert tomllib.loads(new)["compare"]["curves"] == [{"file": "/somewhere/mine.csv", "label": "file"}]
+    assert tomllib.loads(new)["reference"]["curves"] == [{"file": "/somewhere/mine.csv", "label": "file"}]
     assert "# digitised" in new
 
 

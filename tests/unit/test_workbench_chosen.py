@@ -58,9 +58,7 @@ def _thin(thickness: float) -> object:
 
 
 def test_what_belongs_to_the_shipped_wheel_is_left_out_elsewhere() -> None:
-    other = STUDY.model_copy(
-        update={"tolerances": STUDY.tolerances.model_copy(update={"reference_wheel": False}), "name": "other"}
-    )
+    other = STUDY.model_copy(update={"reference": None, "name": "other"})
     titles = [group.title for group in chosen_groups(other)]
     assert "The wheel" not in titles
     assert "Continuum model" in titles

@@ -42,7 +42,7 @@ def _springs(study: Study, **changes: object) -> Study:
 def test_the_graph_holds_every_orientation_of_a_period_on_three_meshes(study: Study) -> None:
     full = full_study(study)
     assert list(broken_rules(full)) == []
-    assert full.tolerances.initial_tangent_orientations == study.fe.orientations  # what the strip was chosen on
+    assert full.reference == study.reference
     tasks = {task.name: task for task in report_tasks(full)}
     solved = [name for name in tasks if name.startswith("fe_phi")]
     assert solved == [f"fe_phi{o:03d}" for o in range(0, 120, 5)]

@@ -114,11 +114,11 @@ def test_stiffness_tasks_take_the_orientations_asked_for(study: Study) -> None:
 
 
 def test_text_of_a_user_curve_is_part_of_the_key(study: Study, tmp_path: Path) -> None:
-    from workbench.study.model import CompareSection
-    from workbench.study.sections import CurveSection
+    from workbench.study.reference import CurveReference, ReferenceSection
 
-    section = CurveSection(file=str(tmp_path / "mine.csv"), label="mine", source="me")
-    with_curve = study.model_copy(update={"compare": CompareSection(curves=(section,))})
+    file = str(tmp_path / "mine.csv")
+    section = CurveReference(file=file, label="mine", source="me", kind="measured", uncertainty="3 %")
+    with_curve = study.model_copy(update={"reference": ReferenceSection(thesis_words=True, curves=(section,))})
     (tmp_path / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.01,82\n", encoding="utf-8")
     before = report_tasks(with_curve)
     (tmp_path / "mine.csv").write_text("deflection_m,load_N\n0,0\n0.01,83\n", encoding="utf-8")

@@ -220,16 +220,15 @@ def test_loosened_gates_are_told_in_the_verdict(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text(small_study_text(), encoding="utf-8")
     study = read_study(tmp_path / "s.toml")
     assert loosened(study) == (
-        "tolerances.initial_tangent = 0.9 is looser than the project's own 0.03",
         "tolerances.reach_deflection = 0.006 is looser than the project's own 0.03",
         "tolerances.fe_energy = 0.1 is looser than the project's own 0.01",
         "tolerances.mesh_uncertainty = 0.5 is looser than the project's own 0.05",
     )
-    assert "4 tolerances are the study's own: tolerances.initial_tangent = 0.9" in verdict([], loosened(study))
+    assert "3 tolerances are the study's own: tolerances.reach_deflection = 0.006" in verdict([], loosened(study))
     assert set(loosened(study)) <= set(warnings_of(study))
-    other = study.model_copy(update={"tolerances": study.tolerances.model_copy(update={"reference_wheel": False})})
-    assert len(loosened(other)) == 2
-    stricter = ToleranceSection(reference_wheel=True, min_scaled_jacobian=0.3, fe_energy=1e-3, reach_load="400 N")
+    other = study.model_copy(update={"reference": None})
+    assert len(loosened(other)) == 2  # reach is not asked of another wheel
+    stricter = ToleranceSection(min_scaled_jacobian=0.3, fe_energy=1e-3, reach_load="400 N")
     assert loosened(study.model_copy(update={"tolerances": stricter})) == ()
     easier = ToleranceSection(min_scaled_jacobian=0.1)
     assert len(loosened(study.model_copy(update={"tolerances": easier}))) == 1
@@ -237,14 +236,14 @@ def test_loosened_gates_are_told_in_the_verdict(tmp_path: Path) -> None:
 
 def test_gates_are_tolerances_that_checks_are_moved_by() -> None:
     settings = {family.statement.setting for family in families()}
-    assert GATES.keys() - {"reach_load", "reach_deflection", "initial_tangent_up_to"} <= settings
+    assert GATES.keys() - {"reach_load", "reach_deflection"} <= settings
     assert GATES.keys() <= ToleranceSection.model_fields.keys()
 
 
 def test_numbers_of_the_command_line_have_the_same_limits() -> None:
-    require_possible("target", 8250.0, "reference.initial_tangent")
+    require_possible("target", 8250.0, "reference.slope.value")
     with pytest.raises(InputError, match=r"target = 1e300 N/m: must lie between 1 N/m and 1e9 N/m"):
-        require_possible("target", 1e300, "reference.initial_tangent")
+        require_possible("target", 1e300, "reference.slope.value")
 
 
 @pytest.mark.parametrize(("modulus", "strength"), [("2 MPa", "8 MPa"), ("1.5 MPa", "25 MPa"), ("25 MPa", "40 MPa")])

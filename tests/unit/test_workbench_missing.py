@@ -19,7 +19,7 @@ from workbench.questions.numerics.question import solver_checks
 from workbench.questions.section.question import section_checks
 from workbench.study.sections import ToleranceSection
 
-TOLERANCES = ToleranceSection(reference_wheel=True)
+TOLERANCES = ToleranceSection()
 REASON = "orientation 15 deg, no point of the curve reached: a made-up reason"
 
 

@@ -38,6 +38,7 @@ ADDED = {
     "environment": {"environment"},
     "rover": {"rover", "rover_ancf"},
     "full": set(),
+    "reference": set(),
     "tolerances": set(),
     "inferred": set(),
 }
@@ -75,7 +76,7 @@ def test_a_section_adds_what_it_asks_for(section: str) -> None:
     assert {t.name for t in questions_of(more)} - {t.name for t in questions_of(alone)} == ADDED[section]
     assert {t.name for t in questions_of(alone)} <= {t.name for t in questions_of(more)}
     assert _tasks(alone) <= _tasks(more)
-    assert (_tasks(more) > _tasks(alone)) == (section not in ("full", "tolerances", "inferred"))
+    assert (_tasks(more) > _tasks(alone)) == (section not in ("full", "reference", "tolerances", "inferred"))
     full_study(more)
 
 
@@ -95,28 +96,26 @@ def test_a_study_without_reference_names_its_own_slope_to_calibrate(tmp_path: Pa
     table = {name: value for name, value in _table().items() if name in ENOUGH}
     path = tmp_path / "study.toml"
     path.write_text(tomlkit.dumps(table), encoding="utf-8")
-    with pytest.raises(InputError, match=r"target.* is missing, and the study has no \[reference\]"):
+    with pytest.raises(InputError, match=r"target.* is missing, and the study has no \[reference\] slope"):
         run_calibrate(path, None, tmp_path / "out", tmp_path / "store", Computing())
 
 
-def test_the_band_is_that_of_the_wheel_of_the_reference_only() -> None:
+def test_reach_is_asked_of_the_wheel_of_the_thesis_and_where_a_study_says_so() -> None:
     """ExoMars' numbers judge no other wheel."""
-    assert (_study().reference, _study().tolerances.asks_for_reach) == (None, False)
-    own = _study("tolerances")
-    assert own.reference is not None
-    assert own.reference.initial_tangent == pytest.approx(8250.0)
-    assert own.tolerances.asks_for_reach
+    assert (_study().reference, _study().asks_for_reach) == (None, False)
+    assert _study("reference").asks_for_reach
     table = _table()
+    del table["reference"]
     table["tolerances"] = {"reach_load": "100 N"}
-    assert study_of(built_in_study(), table).tolerances.asks_for_reach
+    assert study_of(built_in_study(), table).asks_for_reach
 
 
 def test_loads_beyond_what_the_runs_are_to_carry_are_not_judged() -> None:
     table = _table()
     table["fe"] |= {"max_load": "100 N", "snapshot_loads": []}
-    reference = study_of(built_in_study(), table)
-    assert (reference.judged_load, reference.judged_deflection) == (250.0, math.inf)
-    table["tolerances"] = {}
+    thesis = study_of(built_in_study(), table)
+    assert (thesis.judged_load, thesis.judged_deflection) == (250.0, math.inf)
+    del table["reference"]
     other = study_of(built_in_study(), table)
     assert (other.judged_load, other.judged_deflection) == (100.0, 0.040)
 

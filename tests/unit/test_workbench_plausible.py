@@ -26,7 +26,7 @@ def _wheel(number: int, miss: float, stress: float | None) -> dict[str, Any]:
 
 
 def _record(*wheels: dict[str, Any]) -> dict[str, Any]:
-    return {"study": {"compare": {}, "name": "x"}, "aims": {}, "searched": 9, "refused": 0, "wheels": list(wheels)}
+    return {"study": {"reference": {}, "name": "x"}, "aims": {}, "searched": 9, "refused": 0, "wheels": list(wheels)}
 
 
 @pytest.fixture
@@ -49,7 +49,7 @@ def test_wheels_that_satisfy_everything_are_kept_in_order_of_stress() -> None:
     assert [one["point"] for one in kept["wheels"]] == [3, 1]
     assert kept["wheels"][1]["numbers"][STRESS] == 970.123e6
     assert kept["wheels"][0]["values"] == {"x": "0.123456789 mm"}  # text, never rounded
-    assert "compare" not in kept["study"]
+    assert "reference" not in kept["study"]
     assert (kept["key"], kept["searched"], kept["confirmed"]) == ("key", 9, 6)
 
 

@@ -22,7 +22,7 @@ TEXT = HOOPS.read_text(encoding="utf-8")
 
 THICKNESS = r'thickness = "[^"]*"'
 SHAPE = r'shape = "hoop"'
-USER = '[[compare.curves]]\nfile = "none.csv"\nlabel = "a"\n'
+USER = '[[reference.curves]]\nfile = "none.csv"\nlabel = "a"\nkind = "measured"\nuncertainty = "3 %"\n'
 
 
 def _write(tmp_path: Path, old: str, new: str) -> Path:
@@ -46,7 +46,7 @@ def test_built_in_study_is_read_in_si() -> None:
     assert study.materials["Ti-6Al-4V"].young_modulus == 113.8e9
     degrees = (0, 15, 25, 40, 60, 80, 95, 105)
     assert study.fe.orientations == pytest.approx([math.radians(d) for d in degrees], abs=1e-14)
-    assert study.reference.initial_tangent == 8250.0
+    assert study.of_the_thesis
 
 
 def test_the_wheel_of_python_is_that_of_the_study() -> None:
@@ -129,9 +129,10 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
         ["mesh_study.orientations = 7 deg", "must be one of fe.orientations"],
     ),
     "slope where nobody solves": (
-        'initial_tangent_up_to = "5 mm"',
-        'initial_tangent_orientations = ["7 deg"]',
-        ["tolerances.initial_tangent_orientations = 7 deg", "must be one of fe.orientations"],
+        r"\n\[tolerances\]",
+        '\nslope = { value = "8 N/mm", orientations = ["7 deg"], uncertainty = 0, kind = "measured", source = "s" }\n'
+        "\n[tolerances]",
+        ["reference.slope.orientations = 7 deg", "must be one of fe.orientations"],
     ),
     "mesh study off the curve": (
         r'"20 mm", "30 mm"\]',
@@ -160,9 +161,8 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     ),
     "a curve beside no run": (
         r"\n\[tolerances\]",
-        '\n[[compare.curves]]\nfile = "a.csv"\nlabel = "a"\nsource = "b"\ncompare_with = "orientation"\n'
-        'orientation = "7 deg"\n\n[tolerances]',
-        ["compare.curves[0].orientation = 7 deg", "must be one of fe.orientations"],
+        f'\n{USER}source = "b"\norientation = "7 deg"\n\n[tolerances]',
+        ["reference.curves[0].orientation = 7 deg", "must be one of fe.orientations"],
     ),
     "two meshes": (r"factors = \[.*\]", "factors = [1, 2]", ["mesh_study.factors", "at least 3"]),
     "small element": (
@@ -233,8 +233,8 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
     "orientation twice": ('"0 deg", "15 deg"', '"15 deg", "15 deg"', ["fe.orientations", "holds 15 deg twice"]),
     "decimal comma": (THICKNESS, 'thickness = "0,6 mm"', ["wheel.tire.thickness = '0,6 mm'", "use a point"]),
     "not toml": ('name = "exomars_hoops"', "name = exomars", ["not valid TOML", "line"]),
-    "no curve file": (r"\[tolerances\]", USER + 'source = "b"\n[tolerances]', ["compare.curves[0].file = none.csv"]),
-    "curve without source": (r"\[tolerances\]", USER + "[tolerances]", ["compare.curves[0].source", "is missing"]),
+    "no curve file": (r"\[tolerances\]", USER + 'source = "b"\n[tolerances]', ["reference.curves[0].file = none.csv"]),
+    "curve without source": (r"\[tolerances\]", USER + "[tolerances]", ["reference.curves[0].source", "is missing"]),
 }
 
 

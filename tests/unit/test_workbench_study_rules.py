@@ -49,7 +49,7 @@ max_deflection = "10 mm"
 points = 2
 max_load = "300 N"
 """
-BAND = '[reference]\ninitial_tangent = "8 N/mm"\nsource = "s"\n[[reference.points]]\nload = "100 N"\n'
+BAND = '[reference.band]\nkind = "measured"\nsource = "s"\nuncertainty = 0\n[[reference.band.points]]\nload = "100 N"\n'
 ENVIRONMENT = '[environment]\ntemperatures = ["20 degC"]\norientation = "0 deg"\n'
 
 
@@ -75,7 +75,7 @@ REFUSED = {
         '[hub_study]\norientation = "0 deg"\ndeflections = ["9 mm"]\n',
         "hub_study = a table: needs [wheel.i",
     ),
-    "band": (BAND + 'low = "50 mm"\nhigh = "9 mm"\n', "reference.points[0].low = 50 mm: must not exceed high"),
+    "band": (BAND + 'low = "50 mm"\nhigh = "9 mm"\n', "reference.band.points[0].low = 50 mm: must not exceed high"),
     "deflection of a temperature": (
         ENVIRONMENT + 'max_deflection = "11 mm"\n',
         "environment.max_deflection = 11 mm: must not exceed fe.max_deflection",
@@ -103,7 +103,7 @@ PLANE = '[fe.obstacle]\nshape = "plane"\n'
 FIT = '[ancf_fit]\n[[ancf_fit.tires]]\nspokes = 4\ncircumferential_plates = 4\nfree = ["phase"]\n'
 SHAPES = "must be one of plane, step, half_round_rock"
 NAMED = {
-    "missing in a list of tables": (BAND + 'low = "5 mm"\n', "reference.points[0].high: is missing"),
+    "missing in a list of tables": (BAND + 'low = "5 mm"\n', "reference.band.points[0].high: is missing"),
     "missing name of a tire": (FIT, "ancf_fit.tires[0].name: is missing"),
     "empty list": (
         'snapshot_loads = []\n[sweep]\nstrip_thickness = ["1 mm"]\nloads = []\n',
@@ -185,13 +185,8 @@ def test_a_direction_that_says_what_is_so_anyway_is_read(tmp_path: Path) -> None
         ('["10 mm", "20 mm", "30 mm"]', '["20 mm", "10 mm"]', "mesh_study.deflections = 20 mm, 10 mm: must increase"),
         (
             "[tolerances]",
-            "[compare]\ncurves = [{file='a',label='a',source='b',orientation='7 deg'}]\n[tolerances]",
-            "compare.curves[0].orientation = 7 deg: belongs",
-        ),
-        (
-            "[tolerances]",
-            "[compare]\ncurves = [{file='a',label='a',source='b',compare_with='orientation'}]\n[tolerances]",
-            "compare.curves[0].orientation: belongs",
+            "[[reference.curves]]\nfile='a'\nlabel='a'\nsource='b'\nkind='measured'\norientation='7 deg'\n[tolerances]",
+            "reference.curves[0].orientation = 7 deg: must be one of fe.orientations",
         ),
     ],
 )

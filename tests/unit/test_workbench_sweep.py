@@ -157,8 +157,8 @@ def test_csv_and_parquet_hold_the_same(made: tuple[SweepTable, list[Outcome], Sw
 def test_a_reference_of_the_study_s_own_comes_before_the_base(tmp_path: Path) -> None:
     (tmp_path / "mine.csv").write_text("deflection_mm,load_kN\n0,0\n40,0.32\n", encoding="utf-8")
     study, graph = _swept(**{"fe.max_load": ["300 N", "310 N"]})
-    curve = {"file": "mine.csv", "label": "mine", "source": "me"}
-    own = study_of(tmp_path / "s.toml", read_study_table(PATH) | {"compare": {"curves": [curve]}})
+    curve = {"file": "mine.csv", "label": "mine", "source": "me", "kind": "measured", "uncertainty": "1 %"}
+    own = study_of(tmp_path / "s.toml", read_study_table(PATH) | {"reference": {"curves": [curve]}})
     found = outcomes(graph, {}, {})
     assert references(study, tmp_path, found) == {}
     reference = references(own, tmp_path, found)["section"]

@@ -32,9 +32,10 @@ WORDS = ("title", "source", "label")
 def _table() -> dict[str, Any]:
     """The built-in study with every text that a study may have beside it."""
     table = read_study_table(BUILT_IN)
-    table["compare"] = {"curves": [{"file": "amalia_fe.csv", "label": "a paper", "source": "its figure 3"}]}
+    said = {"kind": "published", "source": "a text", "uncertainty": "3 %"}
     points = [{"load": "160 N", "low": "15 mm", "high": "20 mm"}]
-    table["reference"] = {"initial_tangent": "8.25 N/mm", "points": points, "source": "a text"}
+    table["reference"] |= {"slope": said | {"value": "8.25 N/mm"}, "band": said | {"points": points}}
+    table["reference"]["curves"] = [said | {"file": "amalia_fe.csv", "label": "a paper"}]
     return table
 
 
@@ -75,7 +76,7 @@ def known() -> dict[str, str]:
 def test_the_places_are_all_there() -> None:
     assert {place[-1] for place in PLACES} >= {"name", "title", "source", "label"}
     assert sum(place[0] == "inferred" for place in PLACES) == len(_table()["inferred"])
-    assert ("compare", "curves", 0, "source") in PLACES
+    assert ("reference", "curves", 0, "source") in PLACES
     assert ("materials", "Ti-6Al-4V", "source") in PLACES
 
 

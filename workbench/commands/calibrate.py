@@ -50,7 +50,7 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     if target is None:
         wanted = _of_the_reference(study)
     else:
-        wanted = above_zero("target", target, "N/m", "reference.initial_tangent", "8.25 N/mm")
+        wanted = above_zero("target", target, "N/m", "reference.slope.value", "8.25 N/mm")
     check_folder(out)
     name = f"{path.stem}_calibrated.toml"
     check_targets(out, ("calibration.json", name))
@@ -71,9 +71,10 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
 
 
 def _of_the_reference(study: Study) -> float:
-    if study.reference is None:
-        raise InputError("target", "", "is missing, and the study has no [reference]", "give --target '8.25 N/mm'")
-    return study.reference.initial_tangent
+    if study.reference is None or study.reference.slope is None:
+        rule = "is missing, and the study has no [reference] slope"
+        raise InputError("target", "", rule, "give --target '8.25 N/mm'")
+    return study.reference.slope.value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,7 +102,7 @@ class _Runs:
         """A run ends at the first point of the study's curve that the tangent needs, and keeps no fields."""
         if "deflections" not in task.inputs:
             return task
-        up_to, points = self.study.tolerances.initial_tangent_up_to, list(task.inputs["deflections"])
+        up_to, points = self.study.tangent_up_to, list(task.inputs["deflections"])
         last = next((i for i, d in enumerate(points) if d >= up_to - 1e-12), len(points) - 1)
         return replace(task, inputs=without_fields(task.inputs) | {"deflections": points[: last + 1]})
 
@@ -113,7 +114,7 @@ class _Runs:
         curves = [read_curve(path / CURVE, model=model, orientation_deg=turns[name]) for name, path in folders.items()]
         if any(curve.partial for curve in curves):
             raise RunError(f"{_NAMES[model]}: a run to the initial tangent does not converge; see workbench stiffness")
-        return mean_curve(curves, around(self.study)).initial_tangent(self.study.tolerances.initial_tangent_up_to)
+        return mean_curve(curves, around(self.study)).initial_tangent(self.study.tangent_up_to)
 
 
 def _summary(study: Study, found: Calibration) -> dict[str, Any]:
@@ -131,7 +132,7 @@ def _summary(study: Study, found: Calibration) -> dict[str, Any]:
         "schema": 1,
         "study": study.name,
         "target_N_per_m": found.target,
-        "tangent_up_to_m": study.tolerances.initial_tangent_up_to,
+        "tangent_up_to_m": study.tangent_up_to,
         "orientations_deg": [degrees(o) for o in study.fe.orientations],
         "first": row(found.first),
         "corrected": row(found.corrected),
@@ -148,7 +149,7 @@ def _check_rewritten(path: Path, text: str, thickness: dict[str, float]) -> None
 
 
 def _print(study: Study, found: Calibration) -> None:
-    title = f"initial tangent to {study.tolerances.initial_tangent_up_to * 1e3:g} mm, mean of the orientations"
+    title = f"initial tangent to {study.tangent_up_to * 1e3:g} mm, mean of the orientations"
     columns = ("trial", "rim thickness", "section", "solid", "target", "solid - target")
     table = empty_table(title, columns, texts=["trial"])
     for name, trial in (

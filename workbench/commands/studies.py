@@ -28,7 +28,8 @@ __all__ = ["run_check", "run_new"]
 
 
 def run_new(path: Path, like: str) -> int:
-    """Write a copy of a shipped study, comments and all, named after the new file, which must not exist yet."""
+    """Write a copy of a shipped study, comments and all, named after the new file, which must not exist yet; without
+    the words of the thesis, which speak of one wheel."""
     shipped = {one.stem: one for one in sorted(built_in_study().parent.glob("*.toml"))}
     if like not in shipped:
         raise InputError("--from", repr(like), "is no study to begin with", f"choose one of {', '.join(shipped)}")
@@ -36,11 +37,20 @@ def run_new(path: Path, like: str) -> int:
     text = rewritten_study(input_text(source, "study file"), {}, f"begun as a copy of {source.name}", source.parent)
     document = tomlkit.parse(text)
     document["name"] = path.stem
+    _without_the_thesis(document)
     study_of(path, document.unwrap())  # the file's name may be none that a study may have
     with naming_the_disk(STUDY, path):
         _write_new(path, tomlkit.dumps(document))
     console.print(f"study: {path}; next: workbench check {path}", soft_wrap=True)
     return 0
+
+
+def _without_the_thesis(document: tomlkit.TOMLDocument) -> None:
+    """Another wheel is not the one the thesis speaks of: nobody is judged by its words without saying so."""
+    if document.get("reference", {}).pop("thesis_words", None) is not None:
+        if not document["reference"]:
+            document.pop("reference")
+        document.get("inferred", {}).pop("reference.thesis_words", None)
 
 
 def _write_new(path: Path, text: str) -> None:

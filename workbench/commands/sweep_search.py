@@ -118,7 +118,7 @@ class _Batches:
     def require_columns(self, section: SweepSection) -> None:
         """Refuse an aim that is no number of the table."""
         nothing = self._refused(0, {}, "", section)
-        numbers = measured(nothing, section, self._study.tolerances.initial_tangent_up_to, None, self._followed)
+        numbers = measured(nothing, section, self._study.tangent_up_to, None, self._followed)
         known = [name for name in numbers if name != "held_against"]
         for name, key in section.wanted.items():
             if name not in known:
@@ -146,7 +146,7 @@ class _Batches:
         found = {o.run.point.number: o for o in outcomes(graph, ended.entries, ended.failures)}
         for number, chosen in enumerate(values, start=first):
             outcome = found.get(number) or self._refused(number, chosen, refused[number], section)
-            judged = judge(outcome, section, self._study.tolerances.initial_tangent_up_to, self._followed)
+            judged = judge(outcome, section, self._study.tangent_up_to, self._followed)
             self.searched.judged[number] = judged
             self.searched.found.append(judged.outcome)
         return [self.searched.judged[number] for number in range(first, first + len(values))]

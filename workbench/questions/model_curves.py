@@ -10,6 +10,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from contracts.curves import Around, StiffnessCurve, average_curve, read_curve
 from contracts.errors import IncrementRecord
 from workbench.execution.result_files import FAILURE, read_result
@@ -95,11 +98,21 @@ class ModelCurves:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UserCurve:
-    """A curve the user dropped in, and what it is held against."""
+    """A curve of the study's reference.
+
+    Attributes
+    ----------
+    label, kind : what the report calls it; measured, published or inferred
+    curve : the curve
+    orientation_deg : the orientation it belongs to [deg]; None for the average
+    uncertainty : (n,) float [N], half width of the interval in which each of its loads lies
+    """
 
     label: str
+    kind: str
     curve: StiffnessCurve
     orientation_deg: float | None
+    uncertainty: NDArray[np.float64]
 
 
 def model_curves(model: str, folders: Mapping[str, Path], around: Around | None = None) -> ModelCurves:

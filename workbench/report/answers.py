@@ -13,6 +13,7 @@ from contracts.records import Check
 from workbench.questions.comparison import Comparison
 from workbench.report.stand_ins import StandIn, stand_ins
 from workbench.study.model import Study
+from workbench.study.reference import NO_EVIDENCE, NO_REFERENCE, THESIS_KIND, THESIS_WORDS, ReferenceSection, kind_of
 from workbench.verdict.decision import Decision, decided, together
 from workbench.verdict.number_format import displayed, displayed_reference
 
@@ -21,7 +22,7 @@ __all__ = ["Answer", "Answers", "Part", "answers", "computation", "wheel"]
 _SHOWN = 3
 """Parts of an answer on the first page where there are many."""
 _JOB = {
-    "stiffness": ("fe.initial_tangent", "fe.deflection_at_"),
+    "stiffness": ("fe.initial_tangent", "fe.deflection_at_", "fe.band", "user_", "words.band"),
     "reach": ("fe.reach",),
     "evenness": ("fe.spread_",),
     "strength": ("fe.first_yield_load",),
@@ -34,6 +35,7 @@ _SHORT = {
     "fe.spread_": "largest spread around the wheel",
     "fe.reach": "share of the way that every orientation comes",
     "fe.first_yield_load": "begins to yield at",
+    "words.band": "distance from the band of the plausible set",
 }
 """How an identifier begins -> what its number is called on the first page; the title of the check else."""
 
@@ -112,25 +114,22 @@ def computation(checks: Sequence[Check], question_of: Mapping[str, str]) -> Answ
         question="Is the computation sound?",
         decision=together(decided(check) for check in gates) if gates else "undecided",
         sentence=sentence if gates else "The study asks for no gate.",
-        parts=[_part(c.title, [c], question_of) for c in bad[:_SHOWN]],
+        parts=[_part(c.title, [c], question_of, None) for c in bad[:_SHOWN]],
     )
 
 
 def wheel(study: Study, checks: Sequence[Check], question_of: Mapping[str, str]) -> Answer:
     """Whether the wheel does what the study asks of it: each part of its job that has checks."""
-    asked = {
-        name: found
-        for name, begins in _JOB.items()
-        if (found := [c for c in checks if c.id.startswith(begins) and not c.id.endswith("_around")])
-    }
+    asked = {name: found for name, begins in _JOB.items() if (found := [c for c in checks if c.id.startswith(begins)])}
     if "orientation_spread" not in study.tolerances.model_fields_set:
         asked.pop("evenness", None)
-    parts = [_part(name, found, question_of) for name, found in asked.items()]
+    parts = [_part(name, found, question_of, study.reference) for name, found in asked.items()]
     decision = together(part.decision for part in parts)
     named = {d: [part.name for part in parts if part.decision == d] for d in ("yes", "no", "undecided")}
     words = {"yes": "as asked", "no": "not as asked", "undecided": "not decided"}
     told = [f"{words[d]}: {', '.join(names)}" for d, names in named.items() if names]
     sentence = f"{'; '.join(told)}." if told else "The study asks nothing of it."
+    sentence += "" if study.reference is not None else f" {NO_REFERENCE}."
     return Answer(
         question="Does the wheel do its job?",
         decision=decision,
@@ -139,16 +138,26 @@ def wheel(study: Study, checks: Sequence[Check], question_of: Mapping[str, str])
     )
 
 
-def _part(name: str, checks: Sequence[Check], question_of: Mapping[str, str]) -> Part:
-    """Told by its first check that is not passed, or by its first."""
+def _part(
+    name: str, checks: Sequence[Check], question_of: Mapping[str, str], reference: ReferenceSection | None
+) -> Part:
+    """Told by its first check that is not passed, or by its first, and by the kind of its reference."""
     order = {"no": 0, "undecided": 1, "yes": 2}
     worst = min(checks, key=lambda check: (order[decided(check)], -_used(check)))
     return Part(
         name=name,
         decision=together(decided(check) for check in checks),
-        text=_told(worst),
+        text=_told(worst) + _of_what_kind(worst, reference),
         section=question_of[worst.id],
     )
+
+
+def _of_what_kind(check: Check, reference: ReferenceSection | None) -> str:
+    """Kind of the reference in words, for what is held against ``[reference]``."""
+    if check.id == "words.band":
+        return f"; the reference is {THESIS_KIND}, {THESIS_WORDS}, and {NO_EVIDENCE}"
+    kind = kind_of(reference, check.id)
+    return "" if kind is None else f"; the reference is {kind}"
 
 
 def _listed(models: Sequence[StandIn]) -> str:

@@ -66,7 +66,7 @@ def chosen_groups(study: Study, data: Path = DATA) -> tuple[ChosenGroup, ...]:
 
 def _applies(study: Study, row: Mapping[str, Any]) -> bool:
     asked = "section" not in row or getattr(study, row["section"]) is not None
-    return asked and (study.tolerances.reference_wheel or not row.get("reference_wheel", False))
+    return asked and (study.of_the_thesis or not row.get("thesis_wheel", False))
 
 
 def _chosen(study: Study, row: Mapping[str, Any]) -> Chosen:

@@ -22,14 +22,14 @@ _WORDS = {
     "no difference": "cannot be told apart",
     "agrees": "agrees",
     "differs": "differs",
-    "undecided": "undecided: the mesh could tip it",
+    "undecided": "undecided: what is not known could tip it",
     "not known": "not judged: uncertainty not known",
 }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rating:
-    """One curve of the user's beside the continuum: its name, what was found, the verdict in words."""
+    """One curve of the study's reference beside the continuum: its name, what was found, the verdict in words."""
 
     name: str
     found: Agreement
@@ -55,7 +55,7 @@ class Opening:
     verdict : what the gates say, and which of them the study has made easier
     warnings : what is unusual about the study
     counts : role, status, number
-    ratings : the user's curves beside the continuum
+    ratings : the reference's curves beside the continuum
     outside : checks that did not pass, gates first
     """
 
@@ -70,7 +70,7 @@ class Opening:
 def opening(study: Study, found: Comparison) -> Opening:
     """Choose it."""
     checks, judged = found.checks, found.agreements
-    names = {f"user_{k}": user.label for k, user in enumerate(study.compare.curves)}
+    names = {f"user_{k}": user.label for k, user in enumerate(study.reference_curves)}
     ratings = [
         Rating(name=n, found=judged[k], words=_WORDS[judged[k].verdict]) for k, n in names.items() if k in judged
     ]

@@ -12,6 +12,7 @@ from contracts.errors import InputError
 from geometry.parts import SpringSet
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
+from workbench.study.reference import ReferenceSection
 from workbench.study.sections import RoverSection
 from workbench.study.wheel_design import wheel_design
 
@@ -85,10 +86,9 @@ def full_study(study: Study) -> Study:
             rule = f"is not among 0 to {steps[-1]:g} deg by {step:g} deg"
             raise InputError("fe.orientations", f"{orientation:g} deg", rule, "choose another full.orientation_step")
     mesh_study, around = study.mesh_study, tuple(math.radians(o) for o in steps)
-    chosen_on = study.tolerances.initial_tangent_orientations or study.fe.orientations
     return study.model_copy(
         update={
-            "tolerances": study.tolerances.model_copy(update={"initial_tangent_orientations": chosen_on}),
+            "reference": study.reference and _of_the_same_orientations(study.reference, study),
             "title": f"{study.title}: full study",
             "fe": study.fe.model_copy(update={"orientations": around}),
             "mesh": study.mesh.model_copy(update={"factor": full.factor}),
@@ -97,6 +97,14 @@ def full_study(study: Study) -> Study:
             and mesh_study.model_copy(update={"factors": full.mesh_study_factors, "orientations": around}),
         }
     )
+
+
+def _of_the_same_orientations(reference: ReferenceSection, study: Study) -> ReferenceSection:
+    """The slope stays that of the study's own orientations: it was stated for their mean."""
+    if reference.slope is None:
+        return reference
+    around = reference.slope.orientations or study.fe.orientations
+    return reference.model_copy(update={"slope": reference.slope.model_copy(update={"orientations": around})})
 
 
 def _all_runs(rover: RoverSection | None) -> RoverSection | None:

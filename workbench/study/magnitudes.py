@@ -40,11 +40,9 @@ __all__ = [
 
 _MOST = 12
 """Warnings told one by one; a unit mistaken once may make many."""
-_OF_THE_REFERENCE = {
-    **{"initial_tangent": 1.0, "initial_tangent_up_to": 1.0, "reach_deflection": -1.0, "reach_load": -1.0}
-}
-"""What the wheel of the reference alone is asked for."""
-GATES = _OF_THE_REFERENCE | {
+_OF_THE_THESIS = {"reach_deflection": -1.0, "reach_load": -1.0}
+"""What the wheel of the thesis alone is asked for."""
+GATES = _OF_THE_THESIS | {
     **{"ancf_preset": 1.0, "flexible_mass": 1.0, "mesh_mass": 1.0, "min_scaled_jacobian": -1.0},
     **{"fe_residual": 1.0, "fe_balance": 1.0, "fe_energy": 1.0, "mesh_uncertainty": 1.0, "surface_distance": 1.0},
 }
@@ -109,7 +107,7 @@ def loosened(study: Study) -> tuple[str, ...]:
         if (
             _asked(study, key)
             and sign * (value - usual) > 1e-9 * usual
-            and (given.reference_wheel or key not in _OF_THE_REFERENCE)
+            and (key not in _OF_THE_THESIS or study.of_the_thesis)
         ):
             found.append(f"tolerances.{key} = {value:g} is looser than the project's own {usual:g}")
     return tuple(found)

@@ -6,24 +6,20 @@ Verified by tests/unit/test_workbench_study.py.
 from __future__ import annotations
 
 import math
-import tomllib
-from functools import cache
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import Field, PrivateAttr, model_validator
+from pydantic import Field, PrivateAttr
 
 from contracts.errors import InputError
 from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
-from workbench.study.quantities import Force, Length, Stiffness
-from workbench.study.section import Positive, Section, in_key
+from workbench.study.reference import INITIAL, CurveReference, ReferenceSection, told
 from workbench.study.sections import (
     AncfSection,
     BrushSection,
-    CurveSection,
     FeSection,
     GroundSection,
     MeshSection,
@@ -34,52 +30,10 @@ from workbench.study.sections import (
 from workbench.study.sweep import SweepSection
 from workbench.study.wheel import WheelStudy
 
-__all__ = ["Band", "BandPoint", "CompareSection", "Study", "stated", "thesis_band"]
+__all__ = ["Study", "stated"]
 
 DATA = Path(__file__).parents[1] / "data"
 LARGEST_WHEEL_LOAD = 250.0
-
-
-class BandPoint(Section):
-    """Deflection [m] at which the average curve should reach a load [N]: between ``low`` and ``high``."""
-
-    load: Annotated[Force, Positive]
-    """[N]."""
-    low: Annotated[Length, Positive]
-    """Smallest deflection at this load [m]."""
-    high: Annotated[Length, Positive]
-    """Largest deflection at this load [m]."""
-
-    @model_validator(mode="after")
-    def _in_order(self) -> BandPoint:
-        if self.low > self.high:
-            rule, hint = f"must not exceed high = {1e3 * self.high:g} mm", "give the smaller deflection as low"
-            raise in_key("low", f"{1e3 * self.low:g} mm", rule, hint)
-        return self
-
-
-class Band(Section):
-    """What the average curve is held against: initial tangent [N/m] and deflections at loads, with their source."""
-
-    initial_tangent: Annotated[Stiffness, Positive]
-    """Slope of the average curve near first touch [N/m]."""
-    points: Annotated[tuple[BandPoint, ...], Field(min_length=1)]
-    """Deflections of the average curve at loads."""
-    source: Annotated[str, Field(min_length=1)]
-    """Where they come from."""
-
-
-@cache
-def thesis_band() -> Band:
-    """The band inferred from the thesis, from the package's data file."""
-    return Band.model_validate(tomllib.loads((DATA / "stiffness_band.toml").read_text(encoding="utf-8")))
-
-
-class CompareSection(Section):
-    """The user's own curves, if any."""
-
-    curves: tuple[CurveSection, ...] = ()
-    """Your own curves."""
 
 
 def stated[T](section: T | None, name: str) -> T:
@@ -107,7 +61,8 @@ class Study(WheelStudy):
     verification : whether the benchmarks of finite elements and plates are part of the report
     sweep : what `workbench sweep` varies
     ancf_fit : ANCF tires fitted to the FE curves
-    compare, reference, tolerances : what results are held against
+    reference : what the wheel's stiffness is judged by; None: by nothing
+    tolerances : how far results may lie off
     inferred : key -> why: values that no publication states; the report lists them
     """
 
@@ -126,9 +81,8 @@ class Study(WheelStudy):
     ancf_fit: AncfFitSection | None = None
     brush: BrushSection | None = None
     sweep: SweepSection | None = None
-    compare: CompareSection = CompareSection()
     environment: EnvironmentSection | None = None
-    reference: Band | None = None
+    reference: ReferenceSection | None = None
     tolerances: ToleranceSection = ToleranceSection()
     inferred: dict[str, str] = Field(default_factory=dict)
     """Key -> why: values that no publication states."""
@@ -145,19 +99,38 @@ class Study(WheelStudy):
         return self
 
     @property
+    def of_the_thesis(self) -> bool:
+        """Whether the wheel is the one that the thesis speaks of, so that its words are asked of it."""
+        return self.reference is not None and self.reference.thesis_words
+
+    @property
+    def reference_curves(self) -> tuple[CurveReference, ...]:
+        """Whole curves of the reference, if any."""
+        return () if self.reference is None else self.reference.curves
+
+    @property
+    def reference_told(self) -> str:
+        """What its stiffness is judged by, in a few sentences."""
+        return told(self.reference)
+
+    @property
+    def tangent_up_to(self) -> float:
+        """Deflection up to which the initial tangent is taken [m]: that of the reference's slope, or 5 mm."""
+        slope = None if self.reference is None else self.reference.slope
+        return INITIAL if slope is None else slope.up_to
+
+    @property
+    def asks_for_reach(self) -> bool:
+        """Whether every orientation is to come somewhere: of the thesis' wheel, and where a study says where to."""
+        return self.of_the_thesis or bool({"reach_deflection", "reach_load"} & self.tolerances.model_fields_set)
+
+    @property
     def judged_load(self) -> float:
         """Load up to which strength is judged [N]: 250, the largest of the thesis' sweep (Samarini 2020, section 3.2),
         or for any but the thesis' wheel what the runs are to carry if that is less."""
-        return LARGEST_WHEEL_LOAD if self.tolerances.reference_wheel else min(LARGEST_WHEEL_LOAD, self.fe.max_load)
+        return LARGEST_WHEEL_LOAD if self.of_the_thesis else min(LARGEST_WHEEL_LOAD, self.fe.max_load)
 
     @property
     def judged_deflection(self) -> float:
         """Deflection [m] up to which loads are judged: any of the thesis' wheel, else what the runs are to reach."""
-        return math.inf if self.tolerances.reference_wheel else self.fe.max_deflection
-
-    @model_validator(mode="after")
-    def _reference_of_its_wheel(self) -> Study:
-        """The wheel of the thesis is held against the thesis' band, unless the study states another."""
-        if self.reference is None and self.tolerances.reference_wheel:
-            return self.model_copy(update={"reference": thesis_band()})
-        return self
+        return math.inf if self.of_the_thesis else self.fe.max_deflection

@@ -24,6 +24,8 @@ from workbench.study.key_units import nearest_key, parts_of, words_of
 from workbench.study.magnitudes import impossible, numbers_of
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
+from workbench.study.reference import refuse_moved
+from workbench.study.reference_file import read_band, stated_uncertainty
 from workbench.study.rules import broken_rules, broken_springs
 from workbench.study.wheel_design import SectionInputError, wheel_design
 
@@ -73,6 +75,7 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
     """Check and freeze the content of a study file, which may have been changed since it was read; as `read_study`."""
     written: Any = None
     try:
+        refuse_moved(table)
         study = Study.model_validate(written := _in_one_line(table))
     except ValidationError as error:
         raise _study_error(path, error, written) from error
@@ -235,12 +238,20 @@ def _key_of(error: SectionInputError) -> str:
 
 
 def _with_whole_paths(study: Study, folder: Path) -> Study:
-    """The study with the whole paths of its ANCF tire's surfaces and of the user's curves."""
-    curves = [one.model_copy(update={"file": str((folder / one.file).absolute())}) for one in study.compare.curves]
-    changes: dict[str, Any] = {"compare": study.compare.model_copy(update={"curves": tuple(curves)})}
+    """The study with the whole paths of its ANCF tire's surfaces and of its reference's files."""
+
+    def whole(file: str) -> dict[str, str]:
+        return {"file": str((folder / file).absolute())}
+
+    changes: dict[str, Any] = {}
+    if (reference := study.reference) is not None:
+        band = reference.band
+        moved: dict[str, Any] = {"curves": tuple(one.model_copy(update=whole(one.file)) for one in reference.curves)}
+        if band is not None and band.file is not None:
+            moved["band"] = band.model_copy(update=whole(band.file))
+        changes["reference"] = reference.model_copy(update=moved)
     if study.ancf is not None and study.ancf.surfaces is not None:
-        surfaces = str((folder / study.ancf.surfaces).absolute())
-        changes["ancf"] = study.ancf.model_copy(update={"surfaces": surfaces})
+        changes["ancf"] = study.ancf.model_copy(update={"surfaces": whole(study.ancf.surfaces)["file"]})
     return study.model_copy(update=changes)
 
 
@@ -254,10 +265,18 @@ def _check_surfaces(path: Path, study: Study, table: Mapping[str, Any]) -> None:
 
 
 def _check_curves(path: Path, study: Study, table: Mapping[str, Any]) -> None:
-    """Read the user's own curves once, so that a bad one is found before anything runs."""
-    for i, section in enumerate(study.compare.curves):
-        try:
+    """Read the reference's files once, so that a bad one is found before anything runs."""
+    reference, key = study.reference, ""
+    if reference is None:
+        return
+    try:
+        if reference.band is not None and reference.band.file is not None:
+            key = "reference.band.file"
+            read_band(Path(reference.band.file))
+        for i, section in enumerate(reference.curves):
+            key = f"reference.curves[{i}].file"
             in_si(Path(section.file))
-        except InputError as error:
-            written = _at(table, ("compare", "curves", i, "file"))
-            raise StudyError(path, f"compare.curves[{i}].file", written, error.rule, error.hint) from error
+            key = f"reference.curves[{i}].uncertainty"
+            stated_uncertainty(section)
+    except InputError as error:
+        raise StudyError(path, key, _at(table, parts_of(key)) or "", error.rule, error.hint) from error

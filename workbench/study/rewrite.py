@@ -22,7 +22,7 @@ def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder
     text : the old file
     thickness : of ``"tire"`` and of each spring set by its name [m]
     note : one line, put first as a comment and as the reason of an inferred tire thickness
-    folder : where the old file lies; the user's curves and surfaces are named from there
+    folder : where the old file lies; the reference's files and surfaces are named from there
     """
     document = _parsed(text)
     wheel = document.get("wheel", {})
@@ -31,7 +31,8 @@ def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder
             part["thickness"] = f"{thickness[name] * 1e3:.4f} mm"
     if "tire" in thickness and "wheel.tire.thickness" in document.get("inferred", {}):
         document["inferred"]["wheel.tire.thickness"] = note
-    files = [(curve, "file") for curve in document.get("compare", {}).get("curves", ())]
+    reference = document.get("reference", {})
+    files = [(one, "file") for one in (reference.get("band", {}), *reference.get("curves", ()))]
     for section, key in (*files, (document.get("ancf", {}), "surfaces")):
         if key in section:
             section[key] = str((folder / section[key]).resolve())

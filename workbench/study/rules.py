@@ -178,13 +178,15 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
             key, value = "mesh_study.orientations", f"{math.degrees(angle):g} deg"
             hint = "add it there or choose one of them"
             yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint=hint)
-    for angle in study.tolerances.initial_tangent_orientations or ():
+    reference = study.reference
+    slope = None if reference is None else reference.slope
+    for angle in () if slope is None else slope.orientations or ():
         if not any(abs(angle - o) < 1e-9 for o in fe.orientations):
-            key, value = "tolerances.initial_tangent_orientations", f"{math.degrees(angle):g} deg"
+            key, value = "reference.slope.orientations", f"{math.degrees(angle):g} deg"
             yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
-    for k, curve in enumerate(study.compare.curves):
+    for k, curve in enumerate(study.reference_curves):
         if curve.orientation is not None and not any(abs(curve.orientation - o) < 1e-9 for o in fe.orientations):
-            key, value = f"compare.curves[{k}].orientation", f"{math.degrees(curve.orientation):g} deg"
+            key, value = f"reference.curves[{k}].orientation", f"{math.degrees(curve.orientation):g} deg"
             yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
     penalty, environment = study.penalty_study, study.environment
     for key, drop in (

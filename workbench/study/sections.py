@@ -32,7 +32,6 @@ from workbench.study.section import Positive, Section, in_key
 __all__ = [
     "AncfSection",
     "BrushSection",
-    "CurveSection",
     "Drop",
     "Factor",
     "FeSection",
@@ -175,38 +174,11 @@ class BrushSection(Section):
     """Lateral force per degree of slip angle at zero slip [N]."""
 
 
-class CurveSection(Section):
-    """A user's own curve, e.g. digitised from a paper: CSV with ``deflection_m,load_N`` and where it comes from."""
-
-    file: Annotated[str, Field(min_length=1)]
-    """CSV with deflection and load; relative to the study file."""
-    label: Annotated[str, Field(min_length=1)]
-    """What the report calls it."""
-    source: Annotated[str, Field(min_length=1)]
-    """Where it comes from."""
-    compare_with: Literal["average", "orientation"] = "average"
-    """The average of the FE curves, or one orientation."""
-    orientation: Annotated[Angle, Field(ge=0.0, lt=2.0 * math.pi)] | None = None
-    """One of fe.orientations [rad]."""
-
-    @model_validator(mode="after")
-    def _orientation_if_wanted(self) -> CurveSection:
-        if (self.compare_with == "orientation") != (self.orientation is not None):
-            rule, hint = 'belongs to compare_with = "orientation", and only there', "give both or neither"
-            value = "" if self.orientation is None else f"{math.degrees(self.orientation):g} deg"
-            raise in_key("orientation", value, rule, hint)
-        return self
-
-
 class ToleranceSection(Section):
     """How far a number may lie off; relative unless a unit is named. The gates' defaults are the project's own."""
 
     initial_tangent: Annotated[Number, Positive] = 0.03
-    """Slope against the reference, relative [-]."""
-    initial_tangent_up_to: Annotated[Length, Positive] = 0.005
-    """Deflection up to which the slope is taken [m]."""
-    initial_tangent_orientations: Orientations | None = None
-    """Those of fe.orientations whose mean the slope is taken of; all of them by default."""
+    """Slope against that of [reference], relative [-]."""
     ancf_preset: Annotated[Number, Positive] = 0.01
     """Curves of the thesis' tire against their known table, relative [-]."""
     ancf_fit: Annotated[Number, Positive] = 0.03
@@ -238,18 +210,11 @@ class ToleranceSection(Section):
     section_agreement: Annotated[Number, Positive] = 0.05
     """Planar against solid model, relative [-]."""
     model_agreement: Annotated[Number, Positive] = 0.10
-    """ANCF, brush and own curves against FE: relative L2 difference [-]."""
+    """ANCF, brush and the curves of [reference] against FE: relative L2 difference [-]."""
     iso_rating: Annotated[Number, Positive] = 0.80
     """ISO/TS 18571 rating, at least [-]."""
     orientation_spread: Annotated[Number, Positive] = 0.50
     """(Largest - smallest) / mean load over the orientations [-]."""
-    reference_wheel: StrictBool = False
-    """True: this wheel is the one the reference describes; the thesis' band, reach and words are asked of it."""
-
-    @property
-    def asks_for_reach(self) -> bool:
-        """Whether every orientation is to come somewhere: of the reference's wheel, and where a study says where to."""
-        return self.reference_wheel or bool({"reach_deflection", "reach_load"} & self.model_fields_set)
 
 
 class GroundSection(Section):

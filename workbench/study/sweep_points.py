@@ -304,7 +304,7 @@ def _turn(table: dict[str, Any], value: Value) -> None:
         if name in table:
             table[name] |= change
     table.get("mesh_study", {}).pop("orientation", None)
-    table.get("tolerances", {}).pop("initial_tangent_orientations", None)
+    table.get("reference", {}).get("slope", {}).pop("orientations", None)
 
 
 def _replated(ancf: Mapping[str, Any], value: Value) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from contracts.records import Check, Role, Status
 from workbench.verdict.number_format import PERCENT_QUANTITIES, displayed
 from workbench.verdict.statements import statement_of
 
-__all__ = ["Claim", "at_least", "at_most", "near", "stated", "within"]
+__all__ = ["SURE", "Claim", "Doubt", "at_least", "at_most", "near", "stated", "within"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,29 +30,44 @@ type Number = Callable[[], float]
 """Computes the value; an InputError (curve too short) makes the check's status ``error``."""
 
 
-def near(claim: Claim, number: Number, reference: float, tolerance: float) -> Check:
-    """|value - reference| <= tolerance |reference|."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Doubt:
+    """How well a number and its reference are known: half ``width`` in the number's unit, and in ``words``."""
+
+    width: float
+    words: str
+
+
+SURE = Doubt(width=0.0, words="")
+
+
+def near(claim: Claim, number: Number, reference: float, tolerance: float, doubt: Doubt = SURE) -> Check:
+    """|value - reference| <= tolerance |reference|, whatever the doubt adds; undecided where it reaches across."""
     value = _evaluate(number)
-    good = value is not None and abs(value - reference) <= tolerance * abs(reference)
-    return _check(claim, value, reference, f"{100.0 * tolerance:g} %", good)
+    beyond = math.nan if value is None else abs(value - reference) - tolerance * abs(reference)
+    return _check(claim, value, reference, f"{100.0 * tolerance:g} %", beyond, doubt)
 
 
-def within(claim: Claim, number: Number, low: float, high: float) -> Check:
-    """low <= value <= high."""
+def within(claim: Claim, number: Number, low: float, high: float, doubt: Doubt = SURE) -> Check:
+    """low <= value <= high, as `near`."""
     value = _evaluate(number)
-    return _check(claim, value, (low, high), "inside the band", value is not None and low <= value <= high)
+    beyond = math.nan if value is None else max(low - value, value - high)
+    return _check(claim, value, (low, high), "inside the band", beyond, doubt)
 
 
-def at_most(claim: Claim, number: Number, limit: float) -> Check:
-    """value <= limit."""
+def at_most(claim: Claim, number: Number, limit: float, doubt: Doubt = SURE) -> Check:
+    """value <= limit, as `near`."""
     value = _evaluate(number)
-    return _check(claim, value, limit, f"at most {_shown(limit, claim)}", value is not None and value <= limit)
+    beyond = math.nan if value is None else value - limit
+    return _check(claim, value, limit, f"at most {_shown(limit, claim)}", beyond, doubt)
 
 
 def at_least(claim: Claim, number: Number, limit: float) -> Check:
     """value >= limit."""
     value = _evaluate(number)
-    return _check(claim, value, limit, f"at least {_shown(limit, claim)}", value is not None and value >= limit)
+    return _check(
+        claim, value, limit, f"at least {_shown(limit, claim)}", math.nan if value is None else limit - value, SURE
+    )
 
 
 def _evaluate(number: Number) -> float | None:
@@ -64,10 +79,17 @@ def _evaluate(number: Number) -> float | None:
 
 
 def _check(
-    claim: Claim, value: float | None, reference: float | tuple[float, float], tolerance: str, good: bool
+    claim: Claim,
+    value: float | None,
+    reference: float | tuple[float, float],
+    tolerance: str,
+    beyond: float,
+    doubt: Doubt,
 ) -> Check:
-    status: Status = "error" if value is None else "pass" if good else "fail"
-    return stated(claim, value, reference, tolerance, status)
+    """``beyond``: by how much the value lies outside of what is allowed, negative within."""
+    status: Status = "pass" if beyond + doubt.width <= 0.0 else "fail" if beyond - doubt.width > 0.0 else "undecided"
+    words = f"{tolerance}; {doubt.words}" if doubt.words else tolerance
+    return stated(claim, value, reference, words, "error" if value is None else status)
 
 
 def stated(

@@ -1,4 +1,4 @@
-"""Checks of the continuum model: the curves against the band, which mean is meant, springs that pass into the rim.
+"""Checks of the continuum model: how far curves go, how they vary around the wheel, springs that pass into the rim.
 
 Verified by tests/unit/test_workbench_checks.py and tests/unit/test_workbench_limits.py.
 """
@@ -10,16 +10,15 @@ from functools import partial
 
 import numpy as np
 
-from contracts.curves import Around, StiffnessCurve
+from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check, Role
-from workbench.questions.model_curves import ModelCurves, mean_curve
+from workbench.questions.model_curves import ModelCurves
 from workbench.questions.models.metrics import largest_spread
-from workbench.study.model import Band
 from workbench.study.sections import ToleranceSection
-from workbench.verdict.rules import Claim, at_least, at_most, near, within
+from workbench.verdict.rules import Claim, at_least, at_most
 
-__all__ = ["band_checks", "circumferential_tangent_check", "overlap_checks", "reach_check", "spread_checks"]
+__all__ = ["overlap_checks", "reach_check", "spread_checks"]
 
 _SWEEP = "Samarini 2020, section 3.2 and Fig. 20: 160 to 250 N on a wheel; the room beyond is ours"
 _SPREAD_AT = (0.005, 0.020, 0.030)
@@ -29,35 +28,12 @@ _OVERLAP_ALLOWED = 50e-6
 _LOADS = (160.0, 250.0)
 
 
-def band_checks(fe: ModelCurves, band: Band, tolerances: ToleranceSection, around: Around | None = None) -> list[Check]:
-    """Average curve against the band: tangent near first contact, deflection at each of the band's loads.
-
-    Findings: whether the wheel meets a reference is what the computation is asked.
-    """
-    checks = [_tangent_check(fe, band, tolerances, around)]
-    for point in band.points:
-        name, title = f"fe.deflection_at_{point.load:g}N", f"Average FE curve: deflection at {point.load:g} N"
-        claim = _claim(name, title, "deflection", "m", "finding", band.source)
-        checks.append(within(claim, partial(fe.average.deflection_at, point.load), point.low, point.high))
-    return checks
-
-
-def _tangent_check(fe: ModelCurves, band: Band, tolerances: ToleranceSection, around: Around | None) -> Check:
-    up_to, named = tolerances.initial_tangent_up_to, tolerances.initial_tangent_orientations
-    average, which = fe.average, "Average FE curve"
-    if named is not None and len(named) < len(fe.by_orientation):
-        chosen = {o: c for o, c in fe.by_orientation.items() if any(abs(math.degrees(n) - o) < 1e-6 for n in named)}
-        average = mean_curve(list(chosen.values()), around)
-        which = f"Average FE curve of {', '.join(f'{o:g}' for o in chosen)} degrees alone"
-    title = f"{which}: slope from first contact to {up_to * 1e3:g} mm"
-    claim = _claim("fe.initial_tangent", title, "initial tangent", "N/m", "finding", band.source)
-    return near(claim, lambda: average.initial_tangent(up_to), band.initial_tangent, tolerances.initial_tangent)
-
-
-def spread_checks(fe: ModelCurves, tolerances: ToleranceSection, up_to: float) -> list[Check]:
+def spread_checks(
+    fe: ModelCurves, tolerances: ToleranceSection, up_to: float, *, of_the_thesis: bool = False
+) -> list[Check]:
     """How much the load varies around the wheel at those of three deflections that lie within ``up_to`` [m].
 
-    A single orientation of any but the reference's wheel is asked none.
+    A single orientation of any but the thesis' wheel is asked none.
     """
     curves = list(fe.by_orientation.values())
     return [
@@ -74,7 +50,7 @@ def spread_checks(fe: ModelCurves, tolerances: ToleranceSection, up_to: float) -
             tolerances.orientation_spread,
         )
         for d in _SPREAD_AT
-        if d <= up_to and (len(curves) > 1 or tolerances.reference_wheel)
+        if d <= up_to and (len(curves) > 1 or of_the_thesis)
     ]
 
 
@@ -101,28 +77,6 @@ def reach_check(fe: ModelCurves, tol: ToleranceSection) -> Check:
 
 def _claim(id: str, title: str, quantity: str, unit: str, role: Role, source: str) -> Claim:
     return Claim(id=id, title=title, quantity=quantity, unit=unit, role=role, source=source)
-
-
-def circumferential_tangent_check(fe: ModelCurves, band: Band, tolerances: ToleranceSection, around: Around) -> Check:
-    """Initial tangent of the mean of all orientations, each weighted by the arc it stands for ``around`` the wheel."""
-    up_to = tolerances.initial_tangent_up_to
-    claim = Claim(
-        id="fe.initial_tangent_around",
-        title="FE: the same slope, of the mean that weights each orientation by the arc it stands for",
-        quantity="initial tangent",
-        unit="N/m",
-        role="finding",
-        source=f"{band.source}; which mean the thesis means is not known",
-    )
-
-    def mean() -> float:
-        angles = list(fe.by_orientation)
-        if len(angles) < 2:
-            raise InputError("orientations", len(angles), "two or more are needed for a mean", "add an orientation")
-        tangents = [curve.initial_tangent(up_to) for curve in fe.by_orientation.values()]
-        return float(np.dot(around.weights(angles), tangents))
-
-    return near(claim, mean, band.initial_tangent, tolerances.initial_tangent)
 
 
 def overlap_checks(fe: ModelCurves, *, inner_contact: bool, up_to: float = math.inf) -> list[Check]:

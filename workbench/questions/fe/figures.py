@@ -1,4 +1,4 @@
-"""Figures of the continuum's curves, and what others draw beside them: uncertainty, reference band, users' curves.
+"""Figures of the continuum's curves, and what others draw beside them: uncertainty, reference.
 
 Verified by tests/end_to_end/test_report.py.
 """
@@ -6,6 +6,7 @@ Verified by tests/end_to_end/test_report.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 from contracts.curves import Around, StiffnessCurve
 from contracts.errors import InputError
@@ -15,20 +16,26 @@ from workbench.charts.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOU
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve
 from workbench.questions.strength.yielding import judged_stress
-from workbench.study.model import Band
+from workbench.questions.words.plausible import plausible
+from workbench.study.reference import THESIS_KIND, BandReference, ReferenceSection
+from workbench.study.reference_file import load_band, read_band
 
-__all__ = ["add_band", "add_uncertainty", "add_users", "around_figure", "fe_figure", "stress_figure"]
+__all__ = ["add_reference", "add_uncertainty", "add_users", "around_figure", "fe_figure", "stress_figure"]
 
 _TOLD_AT = 0.010, 0.020, 0.030
 """Deflections at which loads are drawn around the wheel [m]."""
+_GREEN = "#009e73"
+_STRONG = "rgba(0, 158, 115, 0.35)"
 _LEAST = 3
 """Orientations that make a figure around the wheel."""
 
 
-def fe_figure(fe: ModelCurves, study: MeshStudy | None, users: Sequence[UserCurve], band: Band | None) -> str:
-    """FE at each orientation, their average with the mesh uncertainty, the band if there is one."""
+def fe_figure(
+    fe: ModelCurves, study: MeshStudy | None, users: Sequence[UserCurve], reference: ReferenceSection | None
+) -> str:
+    """FE at each orientation, their average with the mesh uncertainty, the reference if there is one."""
     figure = empty_figure()
-    add_band(figure, band)
+    add_reference(figure, reference)
     add_orientations(figure, fe.by_orientation, "FE")
     add_uncertainty(figure, fe.average, study)
     add_line(figure, fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
@@ -92,30 +99,41 @@ def add_uncertainty(figure: Figure, average: StiffnessCurve, study: MeshStudy | 
     add_area(figure, average.deflection * 1e3, high, low, name, "rgba(26, 26, 26, 0.22)")
 
 
-def add_band(figure: Figure, band: Band | None) -> None:
-    """The band as it is known: a slope near the origin and one interval of deflection at each load."""
-    if band is None:
+def add_reference(figure: Figure, reference: ReferenceSection | None) -> None:
+    """Slope and band of ``[reference]`` by their kinds: a line near the origin, intervals at loads, an area."""
+    if reference is None:
         return
-    end = 8.0
-    slope = band.initial_tangent * 1e-3
-    figure.add_scatter(
-        x=[0.0, end],
-        y=[0.0, slope * end],
-        mode="lines",
-        line={"color": "#009e73", "width": 7},
-        opacity=0.35,
-        name=f"inferred slope {slope:g} N/mm",
-        hoverinfo="skip",
-    )
-    loads = [p.load for p in band.points]
+    if reference.thesis_words:
+        band = load_band(plausible().band)
+        add_area(figure, 1e3 * band.deflection, band.low, band.high, f"{THESIS_KIND} band: the thesis' words", _STRONG)
+    if (slope := reference.slope) is not None:
+        end = 1.6e3 * slope.up_to
+        figure.add_scatter(
+            x=[0.0, end],
+            y=[0.0, 1e-3 * slope.value * end],
+            mode="lines",
+            line={"color": _GREEN, "width": 7},
+            opacity=0.35,
+            name=f"{slope.kind} slope {1e-3 * slope.value:g} N/mm",
+            hoverinfo="skip",
+        )
+    if reference.band is not None:
+        _add_band(figure, reference.band)
+
+
+def _add_band(figure: Figure, band: BandReference) -> None:
+    if band.file is not None:
+        loads = read_band(Path(band.file))
+        add_area(figure, 1e3 * loads.deflection, loads.low, loads.high, f"{band.kind} band", _STRONG)
+        return
     figure.add_scatter(
         x=[500.0 * (p.low + p.high) for p in band.points],
-        y=loads,
+        y=[p.load for p in band.points],
         mode="markers",
-        marker={"color": "#009e73", "symbol": "line-ns-open", "size": 14},
-        error_x={"type": "data", "array": [500.0 * (p.high - p.low) for p in band.points], "color": "#009e73",
+        marker={"color": _GREEN, "symbol": "line-ns-open", "size": 14},
+        error_x={"type": "data", "array": [500.0 * (p.high - p.low) for p in band.points], "color": _GREEN,
                  "thickness": 4, "width": 9},
-        name="inferred band",
+        name=f"{band.kind} band",
         hovertemplate="%{x:.1f} mm",
     )  # fmt: skip
     for p in band.points:
@@ -124,14 +142,17 @@ def add_band(figure: Figure, band: Band | None) -> None:
 
 
 def add_users(figure: Figure, users: Sequence[UserCurve]) -> None:
-    """Curves that the user dropped in."""
+    """Curves of the study's reference, with their uncertainty."""
     for i, user in enumerate(users):
+        colour = ("#cc79a7", "#56b4e9", "#f0e442")[i % 3]
+        at, load, width = 1e3 * user.curve.deflection, user.curve.load, user.uncertainty
         figure.add_scatter(
-            x=user.curve.deflection * 1e3,
-            y=user.curve.load,
-            name=user.label,
+            x=at,
+            y=load,
+            name=f"{user.label} ({user.kind})",
             mode="markers+lines",
             marker={"symbol": "star", "size": 8},
-            line={"color": ("#cc79a7", "#56b4e9", "#f0e442")[i % 3], "width": 1.5},
+            line={"color": colour, "width": 1.5},
+            error_y={"type": "data", "array": width, "color": colour, "thickness": 1, "width": 4},
             hovertemplate="%{y:.1f} N",
         )

@@ -9,14 +9,9 @@ from collections.abc import Mapping, Sequence
 
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.fe.checks import (
-    band_checks,
-    circumferential_tangent_check,
-    overlap_checks,
-    reach_check,
-    spread_checks,
-)
+from workbench.questions.fe.checks import overlap_checks, reach_check, spread_checks
 from workbench.questions.fe.graph import fe_curve_tasks
+from workbench.questions.fe.reference_checks import reference_checks
 from workbench.questions.fe.results import ContinuumCurves, read_continuum
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths
@@ -46,12 +41,12 @@ def _tasks(study: Study) -> Sequence[Task]:
 
 def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
     tolerances, fe = study.tolerances, results.fe
-    checks = [] if study.reference is None else band_checks(fe, study.reference, tolerances, around(study))
-    checks += [reach_check(fe, tolerances)] if tolerances.asks_for_reach else []
-    checks += spread_checks(fe, tolerances, study.judged_deflection)
-    checks += overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.judged_load)
+    checks = []
     if study.reference is not None:
-        checks.append(circumferential_tangent_check(fe, study.reference, tolerances, around(study)))
+        checks += reference_checks(fe, study.reference, tolerances, around(study), results.mesh_study)
+    checks += [reach_check(fe, tolerances)] if study.asks_for_reach else []
+    checks += spread_checks(fe, tolerances, study.judged_deflection, of_the_thesis=study.of_the_thesis)
+    checks += overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.judged_load)
     return checks
 
 

@@ -14,6 +14,7 @@ from workbench.questions.wheel.graph import MESH
 from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
+from workbench.study.reference_file import stated_uncertainty
 
 __all__ = ["ContinuumCurves", "read_continuum", "user_curves"]
 
@@ -26,7 +27,7 @@ class ContinuumCurves:
     ----------
     fe : at each orientation, and their average
     mesh_study : three meshes, and the numerical uncertainty they give every curve; None where the study has none
-    users : the user's own curves
+    users : the curves of the study's reference
     mesh_folder, solved : where the mesh lies, and the fields of each orientation [deg]
     picture : still of the deformed wheel; None if no orientation came to its load
     """
@@ -59,12 +60,14 @@ def read_continuum(study: Study, folders: Mapping[str, Path]) -> ContinuumCurves
 
 
 def user_curves(study: Study, folder: Path) -> tuple[UserCurve, ...]:
-    """The user's curves, in SI as the task ``metrics`` wrote them into ``folder``."""
+    """The curves of the study's reference, in SI as the task ``metrics`` wrote them into ``folder``."""
     return tuple(
         UserCurve(
             label=section.label,
             curve=replace(read_curve(folder / f"user_{i}.csv", model=section.label), source=section.source),
             orientation_deg=None if section.orientation is None else degrees(section.orientation),
+            kind=section.kind,
+            uncertainty=stated_uncertainty(section),
         )
-        for i, section in enumerate(study.compare.curves)
+        for i, section in enumerate(study.reference_curves)
     )

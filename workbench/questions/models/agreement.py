@@ -6,15 +6,21 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.mesh_study.results import MeshStudy
-from workbench.questions.model_curves import ModelCurves
+from workbench.questions.model_curves import ModelCurves, UserCurve
 from workbench.questions.models.metrics import CurveMetrics
+from workbench.study.model import LARGEST_WHEEL_LOAD
 
 __all__ = ["Agreement", "Verdict", "agreements", "noted", "verdict"]
 
+_SAMPLES = 401
+LEAST_COMMON = 0.5
+"""Share of a reference's range that has to be covered before it judges [-]: none from a sliver of it."""
 Verdict = Literal["no difference", "agrees", "differs", "undecided", "not known"]
 
 
@@ -26,8 +32,11 @@ class Agreement:
     ----------
     pair : key of the pair in the metrics
     distance : relative L2 difference over the range compared [-]
-    uncertainty : how much of it the mesh of the continuum model may account for [-]; None if not known
+    uncertainty : how much of it the mesh of the continuum model may account for, with a curve of the study's reference
+        also that curve's own, root-sum-square [-]; None if the mesh's is not known
     limit : the largest distance that counts as agreement [-]
+    own : uncertainty of the study's reference alone [-]; None where the pair has no curve of it
+    sliver : whether less than half of the reference's curve, up to the loads compared, was covered: too little to judge
     verdict : "no difference": smaller than its uncertainty; "agrees", "differs": inside or outside the limit, whatever
         the mesh adds; "undecided": the uncertainty reaches across the limit; "not known": no uncertainty
     """
@@ -37,6 +46,8 @@ class Agreement:
     uncertainty: float | None
     limit: float
     verdict: Verdict
+    own: float | None = None
+    sliver: bool = False
 
 
 def verdict(distance: float, uncertainty: float | None, limit: float) -> Verdict:
@@ -51,33 +62,70 @@ def verdict(distance: float, uncertainty: float | None, limit: float) -> Verdict
 
 
 def agreements(
-    metrics: Mapping[str, CurveMetrics], fe: ModelCurves, study: MeshStudy | None, limit: float
+    metrics: Mapping[str, CurveMetrics],
+    fe: ModelCurves,
+    study: MeshStudy | None,
+    limit: float,
+    users: Sequence[UserCurve] = (),
 ) -> dict[str, Agreement]:
-    """Judge every pair of the metrics; each has a continuum curve in it."""
-    return {pair: _judge(pair, numbers, _continuum_curve(pair, fe), study, limit) for pair, numbers in metrics.items()}
+    """Judge every pair of the metrics; each has a continuum curve in it, and ``user_0`` the first of ``users``."""
+    judged = {}
+    for pair, numbers in metrics.items():
+        user = users[int(pair.removeprefix("user_"))] if pair.startswith("user_") else None
+        curve = _continuum_curve(pair, fe, user)
+        total, own = _uncertainty(numbers, curve, study, user)
+        found = verdict(numbers.relative_l2, total, limit)
+        judged[pair] = Agreement(
+            pair=pair,
+            distance=numbers.relative_l2,
+            uncertainty=total,
+            limit=limit,
+            verdict=found,
+            own=own,
+            sliver=user is not None and _is_sliver(numbers, user.curve),
+        )
+    return judged
 
 
-def _continuum_curve(pair: str, fe: ModelCurves) -> StiffnessCurve:
-    return fe.by_orientation[float(pair.removeprefix("ancf_phi"))] if pair.startswith("ancf_phi") else fe.average
+def _is_sliver(numbers: CurveMetrics, reference: StiffnessCurve) -> bool:
+    """Whether the range compared is less than half of a reference's up to the loads compared."""
+    first, last = reference.deflection[0], reference.deflection[-1]
+    if reference.load.max() >= LARGEST_WHEEL_LOAD:
+        last = reference.deflection_at(LARGEST_WHEEL_LOAD)
+    return bool(numbers.end - numbers.start < LEAST_COMMON * (1.0 - 1e-9) * (last - first))
 
 
-def _judge(pair: str, numbers: CurveMetrics, curve: StiffnessCurve, study: MeshStudy | None, limit: float) -> Agreement:
-    distance = numbers.relative_l2
+def _continuum_curve(pair: str, fe: ModelCurves, user: UserCurve | None) -> StiffnessCurve:
+    orientation = float(pair.removeprefix("ancf_phi")) if pair.startswith("ancf_phi") else None
+    orientation = orientation if user is None else user.orientation_deg
+    return fe.average if orientation is None else fe.by_orientation[orientation]
+
+
+def _uncertainty(
+    numbers: CurveMetrics, curve: StiffnessCurve, study: MeshStudy | None, user: UserCurve | None
+) -> tuple[float | None, float | None]:
+    """Of a relative L2 difference: that of mesh and reference together, and of the reference alone [-].
+
+    Loads known to +-U(d) move the norm of the difference by at most norm(U), of which each is sqrt(U_1^2 + U_2^2).
+    """
     try:
-        uncertainty = None if study is None else study.l2_uncertainty(curve, numbers.start, numbers.end)
+        if user is None:
+            return None if study is None else study.l2_uncertainty(curve, numbers.start, numbers.end), None
+        d = np.linspace(numbers.start, numbers.end, _SAMPLES)
+        norm = np.linalg.norm(user.curve.load_at(d))
+        own = np.interp(d, user.curve.deflection, user.uncertainty)
     except InputError:
-        uncertainty = None
-    return Agreement(
-        pair=pair,
-        distance=distance,
-        uncertainty=uncertainty,
-        limit=limit,
-        verdict=verdict(distance, uncertainty, limit),
-    )
+        return None, None
+    alone = float(np.linalg.norm(own) / norm)
+    try:
+        mesh = None if study is None else study.relative_uncertainty(d) * curve.load_at(d)
+    except InputError:
+        mesh = None
+    return None if mesh is None else float(np.linalg.norm(np.hypot(own, mesh)) / norm), alone
 
 
 def noted(checks: Sequence[Check], judged: Mapping[str, Agreement]) -> list[Check]:
-    """The checks of L2 differences with their numerical uncertainty and verdict in the words of the tolerance.
+    """The checks of L2 differences with their uncertainty and verdict in the words of the tolerance.
 
     One whose uncertainty reaches across its limit is undecided.
     """
@@ -87,8 +135,14 @@ def noted(checks: Sequence[Check], judged: Mapping[str, Agreement]) -> list[Chec
 
 
 def _note(check: Check, found: Agreement) -> Check:
-    if found.uncertainty is None:
-        return replace(check, tolerance=f"{check.tolerance}; numerical uncertainty not known")
-    words = f"numerical uncertainty ±{100.0 * found.uncertainty:.2g} %: {found.verdict}"
-    status = "undecided" if found.verdict == "undecided" else check.status
+    words = "numerical uncertainty not known"
+    if found.uncertainty is not None:
+        words = f"uncertainty ±{100.0 * found.uncertainty:.2g} %: {found.verdict}"
+        words = f"numerical {words}" if found.own is None else f"{words} (of the reference ±{100.0 * found.own:.2g} %)"
+    elif found.own is not None:
+        words = f"uncertainty of the reference ±{100.0 * found.own:.2g} %, {words}"
+    known = found.own if found.uncertainty is None else found.uncertainty
+    across = known is not None and found.distance - known <= found.limit < found.distance + known
+    words += "; less than half of the reference is covered" if found.sliver else ""
+    status = "undecided" if across or found.sliver else check.status
     return replace(check, tolerance=f"{check.tolerance}; {words}", status=status)

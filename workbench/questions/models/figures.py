@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from workbench.charts.curves import add_line
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import MODEL_COLOURS
-from workbench.questions.fe.figures import add_band, add_uncertainty, add_users
+from workbench.questions.fe.figures import add_reference, add_uncertainty, add_users
 
 if TYPE_CHECKING:
     from workbench.questions.models.results import ComparedModels
@@ -17,9 +17,9 @@ __all__ = ["models_figures"]
 
 
 def models_figures(study: Study, results: ComparedModels) -> dict[str, str]:
-    """The averages of all models together, with the band and the user's curves."""
+    """The averages of all models together, with the reference."""
     figure, continuum, fe = empty_figure(), results.continuum, results.continuum.fe.average
-    add_band(figure, study.reference)
+    add_reference(figure, study.reference)
     add_uncertainty(figure, fe, continuum.mesh_study)
     add_line(figure, fe, "FE average", MODEL_COLOURS["fe"], width=4.0)
     if results.ancf is not None:

@@ -27,13 +27,13 @@ def brush_task(study: Study) -> Task:
 
 
 def metrics_task(study: Study) -> Task:
-    """Distances between curves; the text of the user's own curves is part of the inputs, their labels are not."""
+    """Distances between curves; the text of the reference's curves is part of the inputs, their labels are not."""
     users = [
         {
             "orientation": None if section.orientation is None else degrees(section.orientation),
             "text": in_si(Path(section.file)),
         }
-        for section in study.compare.curves
+        for section in study.reference_curves
     ]
     curves = [orientation_name("fe", degrees(o)) for o in study.fe.orientations]
     if study.ancf is not None:

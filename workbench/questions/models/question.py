@@ -123,16 +123,16 @@ def _rating(numbers: CurveMetrics) -> float:
 def user_checks(
     users: Sequence[UserCurve], metrics: Mapping[str, CurveMetrics], tolerances: ToleranceSection
 ) -> list[Check]:
-    """The FE curve against each curve the user dropped in: findings."""
+    """The FE curve against each curve of the study's reference: findings."""
     return [
         at_most(
             Claim(
                 id=f"user_{i}.relative_l2",
-                title=f"FE {_place(user)} against the user's curve '{user.label}'",
+                title=f"FE {_place(user)} against the {user.kind} curve '{user.label}'",
                 quantity="relative L2 difference",
                 unit="-",
                 role="finding",
-                source=user.curve.source,
+                source=f"{user.kind}: {user.curve.source}",
             ),
             partial(_difference_from_user, metrics, i),
             tolerances.model_agreement,

@@ -44,7 +44,7 @@ def confirmed_record(
     for number, found in confirms.items():
         one = judged[number]
         outcome, curves = one.outcome, one.outcome.by_orientation
-        numbers = measured(outcome, section, study.tolerances.initial_tangent_up_to, None, followed)
+        numbers = measured(outcome, section, study.tangent_up_to, None, followed)
         wheels.append(
             {
                 "point": number,

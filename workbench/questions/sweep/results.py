@@ -101,13 +101,13 @@ def _reach(curves: Sequence[StiffnessCurve]) -> list[str]:
 
 
 def references(study: Study, folder: Path, found: Sequence[Outcome]) -> dict[str, Reference]:
-    """What each model is held against: the study's first own curve, else the model's curve of the study as it is.
+    """What each model is held against: the first curve of its reference, else the model's curve of the study as it is.
 
     ``folder`` is where the study's files lie. A model without either has none.
     """
     models = dict.fromkeys(outcome.run.model for outcome in found)
-    if study.compare.curves:
-        section = study.compare.curves[0]
+    if study.reference_curves:
+        section = study.reference_curves[0]
         own = Reference(label=section.label, curve=read_measured_curve(Path(section.file)).curve)
         return dict.fromkeys(models, own)
     label = "the study as it is"
@@ -116,9 +116,10 @@ def references(study: Study, folder: Path, found: Sequence[Outcome]) -> dict[str
 
 
 def own_curves(study: Study) -> dict[str, StiffnessCurve]:
-    """The study's own curves by their labels: small letters, underscores for what is neither letter nor digit."""
-    names = [re.sub(r"[^0-9a-z]+", "_", one.label.lower()).strip("_") for one in study.compare.curves]
-    files = [Path(one.file) for one in study.compare.curves]
+    """The reference's curves by their labels: small letters, underscores for what is neither letter nor digit."""
+    curves = study.reference_curves
+    names = [re.sub(r"[^0-9a-z]+", "_", one.label.lower()).strip("_") for one in curves]
+    files = [Path(one.file) for one in curves]
     return {name: read_measured_curve(file).curve for name, file in zip(names, files, strict=True)}
 
 

@@ -79,7 +79,7 @@ def sweep_table(
     for outcome in found:
         values = outcome.run.point.values
         told = [convert(values[key]) if key in values else None for key, (_, _, convert) in columns.items()]
-        up_to, reference = study.tolerances.initial_tangent_up_to, against.get(outcome.run.model)
+        up_to, reference = study.tangent_up_to, against.get(outcome.run.model)
         numbers = measured(outcome, section, up_to, reference, followed)
         if judged:
             number = outcome.run.point.number

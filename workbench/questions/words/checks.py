@@ -6,7 +6,7 @@ from functools import partial
 
 from contracts.records import Check
 from workbench.questions.words.results import AVERAGE, FOLLOWS, LOADS, SMALL, SPREAD_AT, Words, follows, spread
-from workbench.verdict.rules import Claim, at_least, at_most, near
+from workbench.verdict.rules import Claim, Doubt, at_least, at_most, near
 
 __all__ = ["verdicts", "words_checks"]
 
@@ -76,9 +76,17 @@ def words_checks(words: Words) -> list[Check]:
             _claim("band", "distance of the average from the band of the plausible set", "difference"),
             lambda: words.plausible.outside(words.average),
             BAND,
+            _doubt(words.mesh),
         ),
     ]
     return checks
+
+
+def _doubt(mesh: float | None) -> Doubt:
+    """What the mesh leaves open of a distance from the band; the band's own uncertainty is the limit."""
+    if mesh is None:
+        return Doubt(width=0.0, words="numerical uncertainty not known")
+    return Doubt(width=mesh, words=f"numerical uncertainty ±{100.0 * mesh:.2g} %")
 
 
 def _claim(name: str, title: str, quantity: str, unit: str = "-") -> Claim:

@@ -22,10 +22,10 @@ DEFLECTIONS = (0.005, 0.010, 0.015, 0.020)
 
 
 def asked(study: Study) -> bool:
-    """Whether the study has the wheel of the reference, the thesis' tires, and more than one set of springs."""
+    """Whether the wheel is the one the thesis speaks of, with the thesis' tires and more than one set of springs."""
     tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None
     springs = len(study.wheel.springs) > 1 and without_planar_model(study) is None
-    return bool(study.tolerances.reference_wheel and tires and springs)
+    return bool(study.of_the_thesis and tires and springs)
 
 
 def in_phase(study: Study) -> Study:

@@ -50,7 +50,7 @@ def kept_record(record: Mapping[str, Any]) -> dict[str, Any]:
     loaded = [one for one in record["wheels"] if STRESS in one["numbers"]]
     wheels = [one for one in loaded if _largest_miss(one) <= 1.0 and one["numbers"][STRESS] <= AGED]
     nearest = sorted(loaded, key=_largest_miss)[:NEAREST]
-    study = {key: value for key, value in record["study"].items() if key != "compare"}
+    study = {key: value for key, value in record["study"].items() if key != "reference"}
     chosen = _varying_less_than_in_phase(study, sorted(wheels or nearest, key=lambda one: one["numbers"][STRESS]))
     kept: dict[str, Any] = {
         "study": study,

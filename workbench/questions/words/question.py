@@ -14,6 +14,8 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.task import Task
+from workbench.questions.fe.reference_checks import mesh_share
+from workbench.questions.mesh_study.question import mesh_study_of
 from workbench.questions.model_curves import model_curves
 from workbench.questions.models.curves import brush_curve
 from workbench.questions.question import Question
@@ -44,6 +46,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> Words:
         twin=model_curves(TWIN, folders, around(study)),
         yield_strength=yield_strengths(study),
         plausible=plausible(),
+        mesh=mesh_share(mesh_study_of(study, folders), fe.average, 0.0, fe.average.deflection[-1]),
     )
     turns = around(hoops())
     own = model_curves(HOOPS, folders, turns)

@@ -45,6 +45,7 @@ class Words:
     section, twin : planar model of the wheel, and of its twin with all springs in phase
     yield_strength : of each part [Pa]
     plausible : wheels that satisfy the statements
+    mesh : numerical uncertainty of the average, relative [-]; None if not known
     verdicts : by statement, "holds", "does not hold" or "not decided"
     hoops : the same of the wheel with hoops, by the section model
     """
@@ -58,6 +59,7 @@ class Words:
     twin: ModelCurves
     yield_strength: Mapping[str, float]
     plausible: Plausible
+    mesh: float | None = None
     verdicts: Mapping[str, str] = field(default_factory=dict)
     hoops: Words | None = None
 
