@@ -18,6 +18,7 @@ from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
+from workbench.study.input_uncertainty import InputUncertaintySection
 from workbench.study.quantities import Force, Length, Stiffness
 from workbench.study.section import Positive, Section, in_key
 from workbench.study.sections import (
@@ -106,6 +107,7 @@ class Study(WheelStudy):
     penalty_study : where the load is held against other contact penalties
     verification : whether the benchmarks of finite elements and plates are part of the report
     sweep : what `workbench sweep` varies
+    input_uncertainty : what is not known of the wheel as it is made; `workbench sample` draws from it
     ancf_fit : ANCF tires fitted to the FE curves
     compare, reference, tolerances : what results are held against
     inferred : key -> why: values that no publication states; the report lists them
@@ -126,6 +128,7 @@ class Study(WheelStudy):
     ancf_fit: AncfFitSection | None = None
     brush: BrushSection | None = None
     sweep: SweepSection | None = None
+    input_uncertainty: InputUncertaintySection | None = None
     compare: CompareSection = CompareSection()
     environment: EnvironmentSection | None = None
     reference: Band | None = None
