@@ -121,7 +121,7 @@ def _curves(study: Study, results: InputUncertainty) -> Sequence[StiffnessCurve]
     return []
 
 
-INPUT_UNCERTAINTY = Question(
+INPUT_UNCERTAINTY: Question = Question(
     name="input_uncertainty",
     title="Input uncertainty",
     group="Wheel",
