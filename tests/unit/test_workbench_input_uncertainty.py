@@ -21,9 +21,10 @@ from scipy.stats import qmc
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError, StudyError
+from workbench.questions.input_uncertainty.keeping import found_of
 from workbench.questions.input_uncertainty.question import INPUT_UNCERTAINTY, inputs_checks
 from workbench.questions.input_uncertainty.results import Sampled, solid_over_section
-from workbench.questions.input_uncertainty.samples import RECORD, Samples, found_of, record_task, samples_of
+from workbench.questions.input_uncertainty.samples import RECORD, Samples, record_task, samples_of
 from workbench.questions.input_uncertainty.statistics import percentiles, rank_correlations, told_apart
 from workbench.questions.kept import keep
 from workbench.questions.sweep.graph import SweepRun

@@ -14,7 +14,8 @@ from workbench.commands.computing import console, naming, warn
 from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_all
 from workbench.execution.store import Store
-from workbench.questions.input_uncertainty.samples import RECORD, found_of, record_task
+from workbench.questions.input_uncertainty.keeping import found_of
+from workbench.questions.input_uncertainty.samples import RECORD, record_task
 from workbench.questions.kept import keep
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.sweep.graph import sweep_graph

@@ -39,6 +39,13 @@ class UncertainInput(Section):
     source: Annotated[str, Field(min_length=1)]
     """Where range or deviation come from."""
 
+    @property
+    def words(self) -> str:
+        """What is drawn: ``"11 mm to 13 mm"``, ``"standard deviation 0.03 mm"``."""
+        if self.deviation is None:
+            return f"{self.low} to {self.high}"
+        return f"standard deviation {self.deviation}"
+
 
 class InputUncertaintySection(Section):
     """What is not exactly known of the wheel: every other key is a key of the study, or several, as in [sweep].

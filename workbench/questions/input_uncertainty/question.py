@@ -23,6 +23,7 @@ from workbench.questions.question import Question
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.strength.yielding import largest_utilisation, peak_stresses, yield_strengths
 from workbench.study.full import around
+from workbench.study.input_uncertainty import UncertainInput
 from workbench.study.model import Study, stated
 from workbench.verdict.rules import Claim, at_most
 
@@ -40,15 +41,15 @@ class InputUncertainty:
     kept : None where there is no record
     state : of the record; "missing" without one
     sampled : None without a record, and where it is stale
-    names : of the inputs, in words
-    sources : of the inputs, by key
+    names : of the inputs, in words, by key
+    inputs : what is drawn of them, by key
     """
 
     kept: Kept | None
     state: State | str
     sampled: Sampled | None
     names: Mapping[str, str]
-    sources: Mapping[str, str]
+    inputs: Mapping[str, UncertainInput]
 
     def strongest(self, output: Output) -> list[tuple[str, float]]:
         """Names and rank correlations of the inputs that move a number most, as far as they are told from none."""
@@ -80,7 +81,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> InputUncertainty:
         state=state,
         sampled=sampled,
         names={key: in_words(study, key) for key in section.inputs},
-        sources={key: one.source for key, one in section.inputs.items()},
+        inputs=section.inputs,
     )
 
 
