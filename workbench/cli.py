@@ -182,6 +182,20 @@ def sweep(
 
 
 @app.command()
+def sample(
+    study: StudyOrBuiltIn = None,
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
+) -> None:
+    r"""Sample what is not exactly known of a wheel, \[input_uncertainty]; the report reads what is kept of it."""
+    from workbench.commands.sample import run_sample
+
+    raise typer.Exit(run_sample(study, store, computing(workers, ranks, scheduler)))
+
+
+@app.command()
 def rover(
     scenario: Annotated[
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)

@@ -34,9 +34,10 @@ from workbench.study.reading import built_in_study, read_study
 PAGE = Path(__file__).parents[1] / "reference" / "study_keys.md"
 REPORT_ONLY = (
     *("name", "title", "*.source", "inferred.*", "reference.slope.*", "reference.band.*"),
-    *("tolerances.*", "ancf.thesis_preset"),
+    *("tolerances.*", "ancf.thesis_preset", "input_uncertainty.*"),
 )
-"""Words, limits and what results are held against: the comparison reads them, nothing is computed again."""
+"""Words, limits and what results are held against, and what another command samples: the comparison reads them, nothing
+of the report is computed again."""
 ASKS = ("ancf.thesis_preset",)
 """Keys among those that ask a question of their own."""
 GROUPS = {

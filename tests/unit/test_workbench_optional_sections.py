@@ -34,6 +34,7 @@ ADDED = {
     "mesh_study": {"mesh_study"},
     "hub_study": {"hub"},
     "penalty_study": {"contact"},
+    "input_uncertainty": {"input_uncertainty"},
     "verification": {"multibody", "verification", "speed"},
     "environment": {"environment"},
     "rover": {"rover", "rover_ancf"},
@@ -76,7 +77,8 @@ def test_a_section_adds_what_it_asks_for(section: str) -> None:
     assert {t.name for t in questions_of(more)} - {t.name for t in questions_of(alone)} == ADDED[section]
     assert {t.name for t in questions_of(alone)} <= {t.name for t in questions_of(more)}
     assert _tasks(alone) <= _tasks(more)
-    assert (_tasks(more) > _tasks(alone)) == (section not in ("full", "reference", "tolerances", "inferred"))
+    idle = ("full", "reference", "tolerances", "inferred", "input_uncertainty")
+    assert (_tasks(more) > _tasks(alone)) == (section not in idle)
     full_study(more)
 
 

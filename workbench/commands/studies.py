@@ -20,6 +20,7 @@ from workbench.questions.study_graph import report_tasks
 from workbench.questions.sweep.graph import sweep_graph
 from workbench.report.placing import moved
 from workbench.study.full import full_study
+from workbench.study.input_points import require_inputs
 from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.study.rewrite import rewritten_study
 from workbench.study.sweep_points import beyond_reach, end_points
@@ -71,7 +72,7 @@ def _write_new(path: Path, text: str) -> None:
 
 
 def run_check(path: Path) -> int:
-    """Read a study as every command does, plan its reports, the ends of its sweep; what is unusual goes to stderr."""
+    """Read a study as every command does, plan its reports, its sweep, its samples; what is unusual goes to stderr."""
     study = read_and_warn(path)
     points = end_points(path, read_study_table(path)) if study.sweep is not None else []
     warn(path, beyond_reach(study, points))
@@ -81,5 +82,7 @@ def run_check(path: Path) -> int:
             full_study(study)
         if study.sweep is not None:
             sweep_graph(points, study.sweep.models)
+        if study.input_uncertainty is not None:
+            require_inputs(path, read_study_table(path), study.input_uncertainty)
     console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)
     return 0

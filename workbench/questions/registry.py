@@ -10,6 +10,7 @@ from workbench.questions.contact.question import CONTACT
 from workbench.questions.environment.question import ENVIRONMENT
 from workbench.questions.fe.question import FE
 from workbench.questions.hub.question import HUB
+from workbench.questions.input_uncertainty.question import INPUT_UNCERTAINTY
 from workbench.questions.mesh_study.question import MESH_STUDY
 from workbench.questions.models.question import MODELS
 from workbench.questions.multibody.question import MULTIBODY
@@ -41,6 +42,7 @@ QUESTIONS: tuple[Question, ...] = (
     MESH_STUDY,
     CONTACT,
     SECTION,
+    INPUT_UNCERTAINTY,
     HUB,
     ENVIRONMENT,
     ANCF,

@@ -16,6 +16,7 @@ from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
+from workbench.study.input_uncertainty import InputUncertaintySection
 from workbench.study.reference import INITIAL, CurveReference, ReferenceSection, told
 from workbench.study.sections import (
     AncfSection,
@@ -60,6 +61,7 @@ class Study(WheelStudy):
     penalty_study : where the load is held against other contact penalties
     verification : whether the benchmarks of finite elements and plates are part of the report
     sweep : what `workbench sweep` varies
+    input_uncertainty : what is not known of the wheel as it is made; `workbench sample` draws from it
     ancf_fit : ANCF tires fitted to the FE curves
     reference : what the wheel's stiffness is judged by; None: by nothing
     tolerances : how far results may lie off
@@ -81,6 +83,7 @@ class Study(WheelStudy):
     ancf_fit: AncfFitSection | None = None
     brush: BrushSection | None = None
     sweep: SweepSection | None = None
+    input_uncertainty: InputUncertaintySection | None = None
     environment: EnvironmentSection | None = None
     reference: ReferenceSection | None = None
     tolerances: ToleranceSection = ToleranceSection()

@@ -73,7 +73,10 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
     design = wheel_design(study)
     yield from _lonely(study)
     yield from _of_the_sweep(study)
-    yield from _room("fe", study.fe.max_deflection, design.tire.inner_radius - design.outer_hub.outer_radius)
+    gap = design.tire.inner_radius - design.outer_hub.outer_radius
+    yield from _room("fe", study.fe.max_deflection, gap)
+    if study.input_uncertainty is not None:
+        yield from _room("input_uncertainty", study.input_uncertainty.max_deflection, gap)
     if study.ancf is not None:
         preset = ancf_preset(study)
         yield from _room("ancf", study.ancf.max_deflection, preset.zero_radius - preset.hub_radius)

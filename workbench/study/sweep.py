@@ -6,7 +6,7 @@ Verified by tests/unit/test_workbench_sweep_points.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, StrictBool, StrictInt, model_validator
@@ -15,7 +15,17 @@ from workbench.study.quantities import Angle, Force, number_and_unit
 from workbench.study.section import Positive, Section, in_key
 from workbench.study.sections import Drop
 
-__all__ = ["MOST_POINTS", "Aim", "SweepRange", "SweepSection", "SweptModel", "Value"]
+__all__ = [
+    "MOST_PARAMETERS",
+    "MOST_POINTS",
+    "Aim",
+    "SweepRange",
+    "SweepSection",
+    "SweptModel",
+    "Value",
+    "checked_range",
+    "flattened",
+]
 
 type Value = str | int | float | bool
 """A value as the study file has it, with its unit."""
@@ -144,7 +154,7 @@ class SweepSection(Section):
             return section
         own = cls.model_fields.keys() - {"parameters"}
         others = {key: value for key, value in section.items() if key not in own}
-        found = dict(_flattened("", others))
+        found = dict(flattened("", others, {"low", "high"}))
         if not found:
             raise in_key("strip_thickness", "", "must be given, or another key to vary", 'e.g. ["0.5 mm", "0.6 mm"]')
         if len(found) > MOST_PARAMETERS:
@@ -191,12 +201,15 @@ class SweepSection(Section):
         return self
 
 
-def _flattened(prefix: str, table: Mapping[str, Any]) -> list[tuple[str, Any]]:
-    """Keys written without quotes make tables: ``fe.friction = [...]`` is ``{"fe": {"friction": [...]}}``."""
+def flattened(prefix: str, table: Mapping[str, Any], last: Set[str]) -> list[tuple[str, Any]]:
+    """Keys written without quotes make tables: ``fe.friction = [...]`` is ``{"fe": {"friction": [...]}}``.
+
+    A table with a key among ``last`` is a value.
+    """
     found = []
     for key, value in table.items():
-        if isinstance(value, Mapping) and not value.keys() & {"low", "high"}:
-            found += _flattened(f"{prefix}{key}.", value)
+        if isinstance(value, Mapping) and not value.keys() & last:
+            found += flattened(f"{prefix}{key}.", value, last)
         else:
             found.append((f"{prefix}{key}", value))
     return found
@@ -205,7 +218,7 @@ def _flattened(prefix: str, table: Mapping[str, Any]) -> list[tuple[str, Any]]:
 def _checked_values(key: str, values: object) -> object:
     """A range, or a list of plain values without repeats, all with one unit."""
     if isinstance(values, Mapping):
-        return _checked_range(key, values)
+        return checked_range(key, values)
     if not isinstance(values, list | tuple) or not values:
         raise in_key(key, values, "must be a list of values or a range", "e.g. [1, 2] or { low = 1, high = 2 }")
     if any(not isinstance(value, str | int | float | bool) for value in values):
@@ -219,7 +232,8 @@ def _checked_values(key: str, values: object) -> object:
     return values
 
 
-def _checked_range(key: str, values: Mapping[str, object]) -> SweepRange:
+def checked_range(key: str, values: Mapping[str, object]) -> SweepRange:
+    """A range, as written: two numbers in one unit, low below high."""
     example = 'e.g. { low = "0.5 mm", high = "0.8 mm" }'
     low, high = values.get("low"), values.get("high")
     ends = number_and_unit(low), number_and_unit(high)

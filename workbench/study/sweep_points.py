@@ -33,11 +33,13 @@ __all__ = [
     "design_points",
     "drawn_values",
     "end_points",
+    "latin_hypercube",
     "place_of",
     "probes",
     "require_keys",
     "study_point",
     "sweep_points",
+    "written_at",
 ]
 
 NAMED = {
@@ -86,9 +88,14 @@ def design_points(section: SweepSection) -> list[dict[str, Value]]:
     if section.design == "grid":
         lists = [values for values in parameters.values() if not isinstance(values, SweepRange)]
         return [dict(zip(parameters, chosen, strict=True)) for chosen in itertools.product(*lists)]
+    return drawn_values(section, latin_hypercube(section))
+
+
+def latin_hypercube(section: SweepSection) -> NDArray[np.float64]:
+    """Places of the points of a hypercube, (samples, parameters) in [0, 1), by the section's seed."""
     assert section.samples is not None
-    drawn = qmc.LatinHypercube(d=len(parameters), rng=np.random.default_rng(section.seed)).random(section.samples)
-    return drawn_values(section, drawn)
+    generator = np.random.default_rng(section.seed)
+    return qmc.LatinHypercube(d=len(section.parameters), rng=generator).random(section.samples)
 
 
 def drawn_values(section: SweepSection, u: NDArray[np.float64]) -> list[dict[str, Value]]:
@@ -103,13 +110,19 @@ def place_of(section: SweepSection, base: Mapping[str, Any]) -> NDArray[np.float
     return np.array([_place(key, values, base) for key, values in section.parameters.items()])
 
 
-def _place(key: str, values: Sequence[Value] | SweepRange, base: Mapping[str, Any]) -> float:
+def written_at(key: str, base: Mapping[str, Any]) -> Any:
+    """What a study file's table has at a parameter, the first key of several; None where it is silent."""
     found: Any = base
     try:
         for part in parts_of(NAMED.get(key) or tied_keys(key)[0][1]):
             found = found[part]
     except (KeyError, IndexError, TypeError):
-        return 0.5
+        return None
+    return found
+
+
+def _place(key: str, values: Sequence[Value] | SweepRange, base: Mapping[str, Any]) -> float:
+    found = written_at(key, base)
     if not isinstance(values, SweepRange):
         return (values.index(found) + 0.5) / len(values) if found in values else 0.5
     ends = [number_and_unit(one) for one in (values.low, found, values.high)]

@@ -1,0 +1,92 @@
+"""What `workbench sample` found: inputs, average curve and stress of every sample; kept as JSON beside the study.
+
+Verified by tests/unit/test_workbench_input_uncertainty.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.execution.task import Task
+from workbench.questions.section.graph import section_tasks
+from workbench.study.input_points import as_sampled
+from workbench.study.input_uncertainty import InputUncertaintySection
+from workbench.study.model import Study
+
+__all__ = ["RECORD", "Samples", "record_task", "samples_of"]
+
+RECORD = "input_uncertainty"
+"""Name of the record, see `workbench.questions.kept`."""
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Samples:
+    """Everything that was drawn, and what became of it; not a number where there is none.
+
+    Attributes
+    ----------
+    keys : of the inputs, as the study has them
+    units : of ``values``, as the study writes them; empty for plain numbers
+    values : (n, inputs) float
+    deflection : (m,) float [m], from 0
+    nominal_load, load : (m,), (n, m) float [N], average curve of the section model
+    nominal_stress, stress : float, (n,) float [Pa], largest judged stress of all parts and orientations at the load
+        up to which strength is judged
+    nominal_used, used : float, (n,) float [-], largest stress over yield strength up to that load
+    early : samples whose curve ends before its target at some orientation
+    notes : number of a sample -> why it has no curve or an early end; the first few
+    """
+
+    keys: tuple[str, ...]
+    units: tuple[str, ...]
+    values: Array
+    deflection: Array
+    nominal_load: Array
+    load: Array
+    nominal_stress: float
+    stress: Array
+    nominal_used: float
+    used: Array
+    early: int
+    notes: Mapping[str, str]
+
+    @property
+    def failed(self) -> int:
+        """Samples without a curve."""
+        return int(np.isnan(self.load).all(axis=1).sum())
+
+
+def record_task(study: Study, section: InputUncertaintySection) -> Task:
+    """What a record is about: the runs of the wheel as it is, and all that decides which samples are drawn of it."""
+    nominal = section_tasks(as_sampled(study, section))
+    drawn = section.model_dump(
+        mode="json", exclude={"inputs": {"__all__": {"source"}}, "deflections": True, "loads": True}
+    )
+    inputs = {"nominal": [task.inputs for task in nominal], "drawn": drawn, "judged_load": study.judged_load}
+    return Task(name=RECORD, function=nominal[0].function, inputs=inputs)
+
+
+def samples_of(found: Mapping[str, Any]) -> Samples:
+    """The samples of a record."""
+    nominal, sampled = found["nominal"], found["samples"]
+    return Samples(
+        keys=tuple(found["inputs"]),
+        units=tuple(found["units"]),
+        values=np.array(list(found["inputs"].values()), dtype=np.float64).T,
+        deflection=np.array(found["deflection_m"], dtype=np.float64),
+        nominal_load=np.array(nominal["load_N"], dtype=np.float64),
+        load=np.array([one["load_N"] for one in sampled], dtype=np.float64),
+        nominal_stress=float(np.array(nominal["stress_Pa"], dtype=np.float64)),
+        stress=np.array([one["stress_Pa"] for one in sampled], dtype=np.float64),
+        nominal_used=float(np.array(nominal["used"], dtype=np.float64)),
+        used=np.array([one["used"] for one in sampled], dtype=np.float64),
+        early=found["early"],
+        notes=found["notes"],
+    )

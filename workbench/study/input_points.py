@@ -1,0 +1,134 @@
+"""The samples of [input_uncertainty]: a Latin hypercube of a sweep, each point a whole study with the sampled runs.
+
+Verified by tests/unit/test_workbench_input_uncertainty.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtr, ndtri
+
+from contracts.errors import StudyError
+from workbench.study.input_uncertainty import CUT, InputUncertaintySection, UncertainInput
+from workbench.study.model import Study
+from workbench.study.quantities import number_and_unit
+from workbench.study.sweep import SweepSection, Value
+from workbench.study.sweep_points import (
+    Point,
+    drawn_values,
+    latin_hypercube,
+    study_point,
+    written_at,
+)
+
+__all__ = ["as_sampled", "as_sweep", "input_points", "input_values", "normal_places", "require_inputs"]
+
+_SECTION = "input_uncertainty"
+_NEEDED = ("name", "title", "wheel", "materials", "mesh", "fe")
+"""Sections of a study file that the section model computes with; a whole file takes ten times as long to read."""
+
+
+def as_sweep(path: Path, section: InputUncertaintySection, base: Mapping[str, Any]) -> SweepSection:
+    """The section as a sweep: the ends of every input, about the values of a study file's table.
+
+    Raises
+    ------
+    StudyError
+        If the study's own value lies outside a range, or a deviation has no value in its unit to be about.
+    """
+    ranges = {key: _ends(path, key, one, base) for key, one in section.inputs.items()}
+    own = {"design": "latin-hypercube", "samples": section.samples, "seed": section.seed, "models": ("section",)}
+    return SweepSection.model_validate(ranges | own)
+
+
+def _ends(path: Path, key: str, one: UncertainInput, base: Mapping[str, Any]) -> dict[str, Any]:
+    """Low and high of one input, as a sweep has them."""
+    found = number_and_unit(written_at(key, base))
+    if one.deviation is None:
+        ends = [number_and_unit(end) for end in (one.low, one.high)]
+        low, high = (end or (0.0, "") for end in ends)
+        if found is not None and found[1] == low[1] and not low[0] <= found[0] <= high[0]:
+            hint = f"widen it so that it holds {written_at(key, base)}"
+            raise StudyError(path, f"{_SECTION}.{key}", f"{one.low} to {one.high}", "misses the study's value", hint)
+        return {"low": one.low, "high": one.high}
+    deviation, unit = number_and_unit(one.deviation) or (0.0, "")
+    if found is None or found[1] != unit:
+        hint = f"write both in one unit; the study has {written_at(key, base)!r}"
+        rule = "must be in the unit of the value it is about"
+        raise StudyError(path, f"{_SECTION}.{key}.deviation", one.deviation, rule, hint)
+    ends_of = [found[0] + sign * CUT * deviation for sign in (-1.0, 1.0)]
+    low_end, high_end = (f"{end:.9g} {unit}" if unit else end for end in ends_of)
+    return {"low": low_end, "high": high_end}
+
+
+def normal_places(u: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Places in [0, 1) between both cuts of a normal distribution, of ``u`` (n,) in [0, 1) drawn alike.
+
+    With Phi the distribution function and c = `CUT`: (c + Phi^-1(Phi(-c) + u (Phi(c) - Phi(-c)))) / 2c.
+    """
+    at_cut = ndtr(-CUT)
+    found = (CUT + ndtri(at_cut + u * (1.0 - 2.0 * at_cut))) / (2.0 * CUT)
+    return np.clip(found, 0.0, np.nextafter(1.0, 0.0))
+
+
+def input_values(path: Path, section: InputUncertaintySection, base: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Values of every sample, as a study file would have them; each input's in n pieces equally likely, one in each."""
+    sweep = as_sweep(path, section, base)
+    u = latin_hypercube(sweep)
+    for place, one in enumerate(section.inputs.values()):
+        if one.deviation is not None:
+            u[:, place] = normal_places(u[:, place])
+    return list(drawn_values(sweep, u))
+
+
+def input_points(path: Path, table: Mapping[str, Any], section: InputUncertaintySection) -> list[Point]:
+    """The study as it is (point 0) and every sample, with the runs of the section.
+
+    Raises
+    ------
+    StudyError
+        As `as_sweep`, and if a sample makes a study that cannot be used: names point, input and key.
+    """
+    base = _needed(table)
+    values = [{}, *input_values(path, section, base)]
+    points = [_point(path, base, number, chosen) for number, chosen in enumerate(values)]
+    return [replace(point, study=as_sampled(point.study, section)) for point in points]
+
+
+def _point(path: Path, base: Mapping[str, Any], number: int, values: Mapping[str, Value]) -> Point:
+    try:
+        return study_point(path, base, number, values)
+    except StudyError as error:
+        key = error.key.replace("[sweep] point", f"[{_SECTION}] sample")
+        raise StudyError(path, key, error.value, error.rule, error.hint) from error
+
+
+def require_inputs(path: Path, table: Mapping[str, Any], section: InputUncertaintySection) -> None:
+    """Refuse an input that is no key of the study, or whose range does not fit its value; StudyError names it."""
+    base = _needed(table)
+    sweep = as_sweep(path, section, base)
+    (middle,) = drawn_values(sweep, np.full((1, len(sweep.parameters)), 0.5))
+    _point(path, base, 0, middle)
+
+
+def _needed(table: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in table.items() if key in _NEEDED}
+
+
+def as_sampled(study: Study, section: InputUncertaintySection) -> Study:
+    """A study with the runs that are sampled."""
+    runs = {
+        "orientations": section.orientations,
+        "max_deflection": section.max_deflection,
+        "points": section.points,
+        "max_load": section.max_load,
+        "snapshot_loads": (),
+        "keep_points": False,
+    }
+    return study.model_copy(update={"fe": study.fe.model_copy(update=runs), "mesh_study": None})
