@@ -71,7 +71,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> InputUncertainty:
             solid=fe.average,
             solid_stress=stress,
             solid_used=used,
-            up_to=study.tolerances.initial_tangent_up_to,
+            up_to=study.tangent_up_to,
             deflections=section.deflections,
             loads=section.loads,
             judged_load=study.judged_load,
