@@ -13,6 +13,7 @@ import pytest
 from contracts.errors import InputError, StudyError
 from workbench.commands.studies import run_new
 from workbench.questions.words.graph import asked
+from workbench.study.magnitudes import warnings_of
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study, study_of
 from workbench.study.reference import kind_of
@@ -142,3 +143,9 @@ def test_the_thesis_words_are_asked_of_the_wheel_that_says_so_and_not_of_a_copy(
     copied = read_study(path)
     assert (copied.reference, asked(copied)) == (None, False)
     assert "reference.thesis_words" not in copied.inferred
+
+
+def test_words_that_cannot_be_asked_are_told(tmp_path: Path) -> None:
+    assert not [line for line in warnings_of(read_study(built_in_study())) if "thesis_words" in line]
+    (line,) = (line for line in warnings_of(_study(tmp_path, thesis_words=True)) if "thesis_words" in line)
+    assert line.startswith("reference.thesis_words judges no stiffness: the thesis' words need [ancf] with")

@@ -119,7 +119,7 @@ def of_the_file(study: Study) -> tuple[str, ...]:
 
 
 def _idle(study: Study) -> Iterator[str]:
-    """Materials that no part, variant or value of a sweep names; tolerances of checks that are not in the report."""
+    """Materials that nothing names; tolerances of checks that are not in the report, words that cannot be asked."""
     used = {*part_materials(study).values(), *(study.environment.variants if study.environment else ())}
     swept = study.sweep.parameters.values() if study.sweep else ()
     used |= {value for values in swept if isinstance(values, tuple) for value in values if isinstance(value, str)}
@@ -129,6 +129,10 @@ def _idle(study: Study) -> Iterator[str]:
     for key in sorted(study.tolerances.model_fields_set):
         if not _asked(study, key):
             yield f"tolerances.{key} has no effect: its check needs {_NEEDED[key]}"
+    tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None
+    if study.of_the_thesis and not (tires and len(study.wheel.springs) > 1):
+        needs = "[ancf] with thesis_preset, [brush] and two sets of springs"
+        yield f"reference.thesis_words judges no stiffness: the thesis' words need {needs}"
 
 
 def _asked(study: Study, tolerance: str) -> bool:
