@@ -67,8 +67,8 @@ def test_load_goes_with_the_thickness_and_not_with_the_yield_strength(sampled: S
     ("more", "message"),
     [
         ("", "input_uncertainty: is missing"),
-        (SECTION.replace("0.03 mm", "0.03 m"), "deviation = '0.03 m': must be in the unit of the value"),
-        (SECTION.replace("wheel.tire.thickness", "wheel.tyre.thickness"), "must be in the unit of the value"),
+        (SECTION.replace("0.03 mm", "0.03 m"), "deviation = 0.03 m: must be in the unit of the value"),
+        (SECTION.replace("wheel.tire.thickness", "wheel.tyre.thickness"), "is about no value of the study file"),
     ],
 )
 def test_what_cannot_be_sampled_is_one_message(tmp_path: Path, more: str, message: str) -> None:

@@ -25,7 +25,12 @@ from workbench.questions.input_uncertainty.keeping import found_of
 from workbench.questions.input_uncertainty.question import INPUT_UNCERTAINTY, inputs_checks
 from workbench.questions.input_uncertainty.results import Sampled, solid_over_section
 from workbench.questions.input_uncertainty.samples import RECORD, Samples, record_task, samples_of
-from workbench.questions.input_uncertainty.statistics import percentiles, rank_correlations, told_apart
+from workbench.questions.input_uncertainty.statistics import (
+    at_most_of_all,
+    percentiles,
+    rank_correlations,
+    told_apart,
+)
 from workbench.questions.kept import keep
 from workbench.questions.sweep.graph import SweepRun
 from workbench.questions.sweep.results import Outcome
@@ -162,6 +167,23 @@ def test_a_sample_that_ends_early_or_failed_is_left_out_where_it_is_missing() ->
         found.half_width(0.020)
     (check,) = inputs_checks(found, 0.1)
     assert (check.status, check.value) == ("error", None)
+
+
+def test_of_none_among_n_the_share_of_all_is_bounded_as_by_the_binomial() -> None:
+    """(1 - p)^n = 0.05 where none is found."""
+    assert (1.0 - at_most_of_all(0, 32)) ** 32 == pytest.approx(0.05)
+    assert at_most_of_all(1, 32) > at_most_of_all(0, 32) > at_most_of_all(0, 200)
+    assert at_most_of_all(5, 5) == 1.0
+
+
+def test_a_wheel_that_all_samples_lie_to_one_side_of_is_told() -> None:
+    """As with friction, whose range begins at the study's value."""
+    line = 5000.0 * 0.010 * np.arange(5)
+    inside, outside = (
+        _sampled(np.outer(factors, line), factors[:, None]).outputs[1]
+        for factors in (np.linspace(0.9, 1.1, 20), np.linspace(1.01, 1.1, 20))
+    )
+    assert (inside.beyond, outside.beyond) == (False, True)
 
 
 def test_the_share_that_yields_is_corrected_and_counts_only_what_reaches_the_load() -> None:

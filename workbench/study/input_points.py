@@ -58,7 +58,12 @@ def _ends(path: Path, key: str, one: UncertainInput, base: Mapping[str, Any]) ->
             raise StudyError(path, f"{_SECTION}.{key}", f"{one.low} to {one.high}", "misses the study's value", hint)
         return {"low": one.low, "high": one.high}
     deviation, unit = number_and_unit(one.deviation) or (0.0, "")
-    if found is None or found[1] != unit:
+    if found is None:
+        hint = "correct the key's spelling, or state its value there"
+        raise StudyError(
+            path, f"{_SECTION}.{key}.deviation", one.deviation, "is about no value of the study file", hint
+        )
+    if found[1] != unit:
         hint = f"write both in one unit; the study has {written_at(key, base)!r}"
         rule = "must be in the unit of the value it is about"
         raise StudyError(path, f"{_SECTION}.{key}.deviation", one.deviation, rule, hint)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["in_words", "inputs_figures", "shown_outputs"]
 
-_LEFT, _RIGHT, _APART, _BAR = -2.05, 1.05, 0.2, 9.0
+_LEFT, _RIGHT, _APART, _BAR = -2.9, 1.05, 0.2, 9.0
 """Ends of the axis of correlations, whose left part the names take; half the distance of two bars, their width."""
 
 
@@ -77,7 +77,7 @@ def _ranks(study: Study, found: Sampled) -> Figure:
             font={"size": 12},
         )
     figure.update_xaxes(range=[_LEFT, _RIGHT], rangemode="normal", tickvals=[-1.0, -0.5, 0.0, 0.5, 1.0])
-    figure.update_yaxes(visible=False, range=[-0.7, len(order) - 0.3], rangemode="normal")
+    figure.update_yaxes(visible=False, tickvals=[], range=[-0.7, len(order) - 0.3], rangemode="normal")
     figure.update_layout(hovermode="closest", height=130 + 34 * len(order), margin={"l": 16})
     return figure
 

@@ -19,7 +19,12 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.input_uncertainty.samples import Samples
-from workbench.questions.input_uncertainty.statistics import percentiles, rank_correlations, told_apart
+from workbench.questions.input_uncertainty.statistics import (
+    at_most_of_all,
+    percentiles,
+    rank_correlations,
+    told_apart,
+)
 
 __all__ = ["Output", "Sampled", "corrected", "solid_over_section"]
 
@@ -52,6 +57,12 @@ class Output:
         """5th, 50th and 95th percentile of the samples that reach it."""
         low, middle, high = percentiles(self.values)
         return float(low), float(middle), float(high)
+
+    @property
+    def beyond(self) -> bool:
+        """Whether the wheel as it is lies outside the 5th to 95th percentile of the samples."""
+        low, _, high = self.band
+        return not low <= self.nominal <= high
 
     @property
     def missing(self) -> int:
@@ -180,6 +191,12 @@ class Sampled:
         used = self.outputs[-1].values
         reached = used[np.isfinite(used)]
         return float(np.mean(reached >= 1.0)) if len(reached) else math.nan
+
+    @property
+    def yielding_at_most(self) -> float:
+        """Share of all such wheels that yield below the judged load at most, with 95 % confidence [-]."""
+        used = self.outputs[-1].values
+        return at_most_of_all(int((used >= 1.0).sum()), int(np.isfinite(used).sum()))
 
     @cached_property
     def band(self) -> StiffnessCurve:

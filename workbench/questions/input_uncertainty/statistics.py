@@ -9,9 +9,9 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import spearmanr, t
+from scipy.stats import beta, spearmanr, t
 
-__all__ = ["FEWEST_RANKS", "LEVEL", "percentiles", "rank_correlations", "told_apart"]
+__all__ = ["FEWEST_RANKS", "LEVEL", "at_most_of_all", "percentiles", "rank_correlations", "told_apart"]
 
 LEVEL = 0.05
 """Chance that an input without any effect is taken for one with an effect."""
@@ -58,3 +58,8 @@ def told_apart(count: int, level: float = LEVEL) -> float:
         return math.nan
     quantile = float(t.ppf(1.0 - 0.5 * level, count - 2))
     return quantile / math.sqrt(count - 2 + quantile**2)
+
+
+def at_most_of_all(found: int, count: int, level: float = LEVEL) -> float:
+    """Share of all that are so at most, where ``found`` of ``count`` samples are, at a level [-] (Clopper, Pearson)."""
+    return 1.0 if found >= count else float(beta.ppf(1.0 - level, found + 1, count - found))
