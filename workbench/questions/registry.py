@@ -7,6 +7,7 @@ from workbench.questions.ancf_dynamics.question import ANCF_DYNAMICS
 from workbench.questions.ancf_fit.question import ANCF_FIT
 from workbench.questions.ancf_mesh.question import ANCF_MESH
 from workbench.questions.contact.question import CONTACT
+from workbench.questions.crosscheck.question import CROSSCHECK
 from workbench.questions.environment.question import ENVIRONMENT
 from workbench.questions.fe.question import FE
 from workbench.questions.hub.question import HUB
@@ -53,6 +54,7 @@ QUESTIONS: tuple[Question, ...] = (
     ROVER_CROSSCHECK,
     ROVER_CLOSER,
     VERIFICATION,
+    CROSSCHECK,
     MULTIBODY,
     SPEED,
     NUMERICS,
