@@ -25,6 +25,7 @@ from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.questions.section.question import SECTION
 from workbench.questions.speed.question import SPEED
 from workbench.questions.strength.question import STRENGTH
+from workbench.questions.validation.question import VALIDATION
 from workbench.questions.verification.question import VERIFICATION
 from workbench.questions.wheel.question import WHEEL
 from workbench.questions.words.question import WORDS
@@ -55,6 +56,7 @@ QUESTIONS: tuple[Question, ...] = (
     ROVER_CLOSER,
     VERIFICATION,
     CROSSCHECK,
+    VALIDATION,
     MULTIBODY,
     SPEED,
     NUMERICS,
