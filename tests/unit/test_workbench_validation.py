@@ -106,7 +106,7 @@ def test_it_is_asked_where_a_record_lies_beside_the_study(studies: Path) -> None
 
 
 def test_a_difference_beyond_what_is_unknown_fails(studies: Path) -> None:
-    study = study_with(studies, E3, found(E3, 0.016))
+    study = study_with(studies, E3, found(E3, 0.0146))  # 3.6 times
     (check,) = VALIDATION.checks(study, answered(study))
     assert (check.id, check.status, check.role) == ("validation.e3", "fail", "finding")
     study = study_with(studies, E3, found(E3))
@@ -152,7 +152,7 @@ def test_every_wheel_has_points_and_inputs_that_its_study_has() -> None:
             name = task.name.removeprefix("mesh_")
             by_value[name] = by_value.get(name, "") + str(task.inputs)
         assert len(set(by_value.values())) == len(by_value)  # each value of an input is another wheel
-        assert wheel.deflections[0] < wheel.points[0][1] < wheel.points[-1][1] < wheel.deflections[-1]
+        assert wheel.deflections[0] < wheel.points[0][1] <= wheel.points[-1][1] < wheel.deflections[-1]
         assert wheel.open
 
 
