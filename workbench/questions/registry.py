@@ -7,6 +7,7 @@ from workbench.questions.ancf_dynamics.question import ANCF_DYNAMICS
 from workbench.questions.ancf_fit.question import ANCF_FIT
 from workbench.questions.ancf_mesh.question import ANCF_MESH
 from workbench.questions.contact.question import CONTACT
+from workbench.questions.crosscheck.question import CROSSCHECK
 from workbench.questions.environment.question import ENVIRONMENT
 from workbench.questions.fe.question import FE
 from workbench.questions.hub.question import HUB
@@ -25,6 +26,7 @@ from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.questions.section.question import SECTION
 from workbench.questions.speed.question import SPEED
 from workbench.questions.strength.question import STRENGTH
+from workbench.questions.validation.question import VALIDATION
 from workbench.questions.verification.question import VERIFICATION
 from workbench.questions.wheel.question import WHEEL
 from workbench.questions.words.question import WORDS
@@ -55,6 +57,8 @@ QUESTIONS: tuple[Question, ...] = (
     ROVER_CROSSCHECK,
     ROVER_CLOSER,
     VERIFICATION,
+    CROSSCHECK,
+    VALIDATION,
     MULTIBODY,
     SPEED,
     NUMERICS,

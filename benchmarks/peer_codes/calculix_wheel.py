@@ -1,0 +1,176 @@
+"""The wheel on the ground as a CalculiX deck: our mesh with 20-node hexahedra, a raised rigid block, springs on rim.
+
+Nodes and elements are those of `geometry.inp`. The block is one 8-node hexahedron whose upper face is the plane at
+first touch; every node of it is moved along the plane's normal, one step a deflection. Contact is CalculiX's face to
+face penalty (CalculiX CrunchiX user's manual 2.20, *CONTACT PAIR and *SURFACE BEHAVIOR): K times the overlap at the
+integration points of the slave faces, which is our law but for its ramp around touch. Verified by
+tests/unit/test_calculix_wheel.py and tests/verification/test_calculix_wheel.py.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.peer_codes.calculix import PROGRAM
+from benchmarks.peer_codes.outcome import measured
+from contracts.materials import Material
+from contracts.mesh import TaggedMesh
+from geometry.hexahedra import FACE_CORNERS
+from geometry.inp import TWENTY_NODES, write_inp
+
+__all__ = ["CalculixRun", "WheelDeck", "face_labels", "solve", "write_deck"]
+
+Array = NDArray[np.float64]
+
+_LABELS = np.array([1, 3, 6, 4, 5, 2])
+"""CalculiX's number of each of our cells' faces, in the order of `FACE_CORNERS`: bottom, front, left, right, ..."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelDeck:
+    """One orientation of a wheel, pressed on a plane.
+
+    Attributes
+    ----------
+    mesh : 27-node hexahedra of half the wheel, face group ``symmetry`` at y = 0
+    materials : of every part that deforms
+    rigid : parts that are held
+    ground_faces : face groups that may touch the plane
+    pairs : slave and master face groups of the wheel's own parts
+    normal : unit normal of the plane, to the wheel, (3,) [-]
+    distance_at_touch : of the plane from the wheel's centre at first touch [m]
+    deflections : rises of the plane, ascending [m]
+    stiffness : penalty [N/m^3]
+    """
+
+    mesh: TaggedMesh
+    materials: Mapping[str, Material]
+    rigid: tuple[str, ...]
+    ground_faces: tuple[str, ...]
+    pairs: tuple[tuple[str, str], ...]
+    normal: Array
+    distance_at_touch: float
+    deflections: tuple[float, ...]
+    stiffness: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CalculixRun:
+    """Loads of the whole wheel [N] at the deflections, iterations and wall time [s] of the run."""
+
+    loads: tuple[float, ...]
+    iterations: int
+    wall_s: float
+
+
+def face_labels(mesh: TaggedMesh, group: str, without: NDArray[np.int64] | None = None) -> list[tuple[int, int]]:
+    """Cell (from 0) and CalculiX's face number of every facet of a group; none that has a node of ``without``."""
+    facets = mesh.facets[mesh.facet_tags == mesh.faces[group]]
+    if without is not None:
+        facets = facets[~np.isin(facets, without).any(axis=1)]
+    wanted = {tuple(sorted(corners)) for corners in facets[:, :4].tolist()}
+    corners = np.sort(mesh.cells[:, np.array(FACE_CORNERS)], axis=2)
+    near = np.flatnonzero(np.isin(mesh.cells[:, :8], facets).sum(axis=1) >= 4)
+    rows = ((int(cell), face) for cell in near for face in range(6) if tuple(corners[cell, face]) in wanted)
+    return [(cell, int(_LABELS[face])) for cell, face in rows]
+
+
+def write_deck(deck: WheelDeck, folder: Path) -> None:
+    """Write ``mesh.inp`` and ``case.inp``."""
+    mesh = deck.mesh
+    used = np.unique(mesh.cells[:, TWENTY_NODES])
+    held = np.unique(mesh.cells[np.isin(mesh.cell_tags, [mesh.parts[part] for part in deck.rigid])])
+    middle = np.setdiff1d(_nodes(mesh, "symmetry"), held)
+    write_inp(mesh, folder / "mesh.inp", node_sets={"held": held, "middle": middle})
+    lines = ["*INCLUDE, INPUT=mesh.inp", *_block(deck, int(used[-1]) + 2, len(mesh.cells) + 1), *_sections(deck)]
+    lines += [*_contact(deck), "*BOUNDARY", "HELD, 1, 3", "MIDDLE, 2, 2"]
+    for rise in deck.deflections:
+        lines += _step(deck, rise)
+    (folder / "case.inp").write_text("\n".join(lines) + "\n")
+
+
+def _nodes(mesh: TaggedMesh, group: str) -> NDArray[np.int64]:
+    return np.unique(mesh.facets[mesh.facet_tags == mesh.faces[group]])
+
+
+def _block(deck: WheelDeck, first_node: int, element: int) -> list[str]:
+    """The block: nodes, one element, its upper face as a surface, its corners as the set GROUND."""
+    up, across = deck.normal, np.array([0.0, 1.0, 0.0])
+    along, reach = np.cross(across, up), 1.5 * float(np.abs(deck.mesh.points).max())
+    middle = -deck.distance_at_touch * up
+    flat = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+    corners = [middle + reach * (a * along + b * across) - depth * up for depth in (reach, 0.0) for a, b in flat]
+    numbers = range(first_node, first_node + 8)
+    nodes = [f"{n}, {x:.12e}, {y:.12e}, {z:.12e}" for n, (x, y, z) in zip(numbers, corners, strict=True)]
+    listed = ", ".join(map(str, numbers))
+    cell = ["*ELEMENT, TYPE=C3D8, ELSET=BLOCK", f"{element}, {listed}"]
+    return ["*NODE", *nodes, *cell, "*NSET, NSET=GROUND", listed, "*SURFACE, NAME=PLANE", f"{element}, S2"]
+
+
+def _sections(deck: WheelDeck) -> list[str]:
+    """A material for each part: its own, or for what is rigid and held anyway that of any other."""
+    some = next(iter(deck.materials.values()))
+    lines = []
+    for part in (*deck.mesh.parts, "block"):
+        m = deck.materials.get(part, some)
+        lines += [f"*MATERIAL, NAME=OF_{part.upper()}", "*ELASTIC", f"{m.young_modulus!r}, {m.poisson_ratio!r}"]
+        lines.append(f"*SOLID SECTION, ELSET={part.upper()}, MATERIAL=OF_{part.upper()}")
+    return lines
+
+
+def _contact(deck: WheelDeck) -> list[str]:
+    """Surfaces and pairs: the ground below the tread, then strips off rings.
+
+    Facets of a strip that share a node with the ring are left out: along its weld the strip has no gap, and curved
+    20-node faces of two parts overlap there before anything moves.
+    """
+    mesh = deck.mesh
+    lines = ["*SURFACE, NAME=TREAD"]
+    for group in deck.ground_faces:
+        lines += [f"{cell + 1}, S{face}" for cell, face in face_labels(mesh, group)]
+    lines += ["*SURFACE INTERACTION, NAME=PENALTY", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"]
+    lines += [f"{deck.stiffness!r}"]
+    pair = "*CONTACT PAIR, INTERACTION=PENALTY, TYPE=SURFACE TO SURFACE"
+    lines += [pair, "TREAD, PLANE"]
+    for number, (slave, master) in enumerate(deck.pairs):
+        shared = np.intersect1d(_nodes(mesh, slave), _nodes(mesh, master))
+        for side, group, without in (("S", slave, shared), ("M", master, None)):
+            lines += [f"*SURFACE, NAME={side}{number}"]
+            lines += [f"{cell + 1}, S{face}" for cell, face in face_labels(mesh, group, without)]
+        lines += [pair, f"S{number}, M{number}"]
+    return lines
+
+
+def _step(deck: WheelDeck, rise: float) -> list[str]:
+    """Raise the block to a deflection, CalculiX cuts increments as it needs; print the force on it at the end."""
+    lines = ["*STEP, NLGEOM, INC=400", "*STATIC, SOLVER=SPOOLES", "0.2, 1., 1e-6, 1.", "*BOUNDARY"]
+    lines += [f"GROUND, {axis + 1}, {axis + 1}, {rise * deck.normal[axis]:.12e}" for axis in range(3)]
+    lines += ["*NODE PRINT, NSET=GROUND, TOTALS=ONLY, FREQUENCY=10000", "RF", "*END STEP"]
+    return lines
+
+
+def solve(deck: WheelDeck, folder: Path, threads: int, limit_s: float) -> CalculixRun:
+    """Write the deck, run CalculiX, read the loads of the whole wheel.
+
+    Raises
+    ------
+    RuntimeError
+        If it did not reach the last deflection.
+    subprocess.SubprocessError
+        If it failed or took more than ``limit_s`` of processor time.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    write_deck(deck, folder)
+    run = measured([PROGRAM, "-i", "case"], folder, threads, limit_s)
+    rows = [line.split() for line in (folder / "case.sta").read_text().splitlines()[2:]]
+    found = re.findall(r"total force .*\n\n\s*(\S+)\s+(\S+)\s+(\S+)", (folder / "case.dat").read_text())
+    if len(found) != len(deck.deflections):
+        raise RuntimeError(f"CalculiX ended in step {len(found) + 1} of {len(deck.deflections)}")
+    loads = tuple(2.0 * float(np.array(force, dtype=np.float64) @ deck.normal) for force in found)
+    return CalculixRun(loads=loads, iterations=sum(int(row[3]) for row in rows), wall_s=run.wall_s)

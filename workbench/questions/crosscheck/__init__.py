@@ -1,0 +1,1 @@
+"""Does another code, CalculiX, find the same loads on our mesh?"""

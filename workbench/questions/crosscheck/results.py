@@ -1,0 +1,107 @@
+"""Loads of the solid model beside those that another code found on the same mesh, and whether they belong together.
+
+The other code's loads are kept by ``make bench NAME=crosscheck`` (`workbench.questions.kept`); ours are this report's
+wherever its wheel is that of the record. Verified by tests/unit/test_workbench_crosscheck.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from contracts.curves import StiffnessCurve
+from workbench.execution.task import Task
+from workbench.questions.fe.graph import fe_curve_tasks
+from workbench.questions.kept import Kept, State
+from workbench.questions.wheel.graph import wheel_meshes
+from workbench.study.model import Study
+from workbench.study.orientation import degrees
+
+__all__ = ["COMMAND", "NAME", "LoadRow", "PeerCheck", "crosscheck_tasks", "peer_check", "points_of"]
+
+NAME, COMMAND = "crosscheck", "make bench NAME=crosscheck"
+_ORIENTATIONS = 5
+_SHARES = (0.25, 0.5, 0.75)
+"""Deflections over the study's largest [-]."""
+
+
+def points_of(study: Study) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Orientations [deg], five of the study's, evenly; deflections [m], of those that its curves have the nearest."""
+    every = [degrees(o) for o in study.fe.orientations]
+    places = np.linspace(0, len(every) - 1, min(_ORIENTATIONS, len(every))).round().astype(int)
+    step = study.fe.max_deflection / study.fe.points
+    deflections = {round(step * max(1, round(share * study.fe.points)), 12) for share in _SHARES}
+    return tuple(every[k] for k in places), tuple(sorted(deflections))
+
+
+def crosscheck_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
+    """Mesh and curves that a record is about."""
+    return [wheel_meshes(study)[0], *fe_curve_tasks(study, orientations_deg)]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadRow:
+    """Load of the whole wheel [N] at an orientation [deg] and a deflection [m], ours and the other code's."""
+
+    orientation: float
+    deflection: float
+    ours: float
+    peer: float
+
+    @property
+    def difference(self) -> float:
+        """The other code's load over ours, less one [-]."""
+        return self.peer / self.ours - 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PeerCheck:
+    """A record, whether it is about this study, and its rows.
+
+    Attributes
+    ----------
+    record : as kept; ``found`` holds ``peer``, ``peer_unknowns``, ``deflections_m`` and ``runs``
+    state : "current", "older sources" or "stale"
+    rows : ours are this report's unless the record is stale or the report has no curve there: then the record's
+    """
+
+    record: Kept
+    state: State
+    rows: tuple[LoadRow, ...]
+
+    @property
+    def deflections(self) -> list[float]:
+        """Of the record, ascending [m]."""
+        return [float(d) for d in self.record.found["deflections_m"]]
+
+    @property
+    def orientations(self) -> list[float]:
+        """Of the record [deg]."""
+        return [float(run["orientation_deg"]) for run in self.record.found["runs"]]
+
+    @property
+    def iterations(self) -> tuple[int, int]:
+        """Fewest and most iterations of the other code at an orientation."""
+        counts = [int(run["iterations"]) for run in self.record.found["runs"]]
+        return min(counts), max(counts)
+
+    def largest(self, deflection: float) -> float:
+        """Largest size of the difference at a deflection, of any orientation [-]."""
+        return max(abs(row.difference) for row in self.rows if row.deflection == deflection)
+
+
+def peer_check(study: Study, record: Kept, curves: Mapping[float, StiffnessCurve]) -> PeerCheck:
+    """The record beside the curves of this report, by orientation [deg]."""
+    orientations = [float(run["orientation_deg"]) for run in record.found["runs"]]
+    state = record.state(crosscheck_tasks(study, orientations))
+    rows = []
+    for run in record.found["runs"]:
+        orientation = float(run["orientation_deg"])
+        curve = None if state == "stale" else curves.get(orientation)
+        for d, kept_load, peer in zip(record.found["deflections_m"], run["ours_N"], run["peer_N"], strict=True):
+            here = curve is not None and curve.deflection[-1] >= d
+            ours = float(curve.load_at(d)) if curve is not None and here else float(kept_load)
+            rows.append(LoadRow(orientation=orientation, deflection=float(d), ours=ours, peer=float(peer)))
+    return PeerCheck(record=record, state=state, rows=tuple(rows))
