@@ -40,12 +40,14 @@ _SHORT = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part:
-    """One thing asked: what it is called, the answer, the check that decides it in words, the section with more."""
+    """One thing asked: what it is called, the answer, the check that decides it in words, the section with more, and
+    the check's identifier."""
 
     name: str
     decision: Decision
     text: str
     section: str
+    check: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -148,6 +150,7 @@ def _part(name: str, checks: Sequence[Check], question_of: Mapping[str, str]) ->
         decision=together(decided(check) for check in checks),
         text=_told(worst),
         section=question_of[worst.id],
+        check=worst.id,
     )
 
 

@@ -194,4 +194,5 @@ ROVER = Question(
     figures=_figures,
     series=_series,
     applies=lambda study: study.rover is not None,
+    budget=1150,
 )
