@@ -91,7 +91,9 @@ _FOLDS = re.compile(
 )
 
 
-_STOPS = re.compile(r"(?:stopped|broke down) at (?:t = )?(?P<time>[-+.\de]+) s")
+_STOPS = re.compile(r"(?:stopped|broke down|folds) at (?:t = )?(?P<time>[-+.\de]+) s")
+_REASONS = {"plates fold": "plates fold", "a tire folds": "a tire folds"}
+"""What a message says -> why, in words; that no step converges, else."""
 
 
 def plainly(stopped: str) -> str:
@@ -105,7 +107,8 @@ def plainly(stopped: str) -> str:
         part, wheel, load = folds["part"], folds["wheel"], folds["load"]
         return f"{_when(folds['time'])}: a {part} of the {wheel} wheel folds at {load} N"
     if stops is not None:
-        return f"{_when(stops['time'])}: {'plates fold' if 'plates fold' in stopped else 'no step converges there'}"
+        why = next((words for said, words in _REASONS.items() if said in stopped), "no step converges there")
+        return f"{_when(stops['time'])}: {why}"
     return f"ended early: {re.split('[;.] ', stopped)[0]}"
 
 
