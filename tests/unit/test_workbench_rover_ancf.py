@@ -185,7 +185,7 @@ def test_the_section_shows_both_tires_and_what_stopped(study: Study, results: An
     series, figures = series_links(ROVER_ANCF.series(study, results)), ROVER_ANCF.figures(study, results)
     values = {"results": results, "series": series, "figures": figures}
     short, text = (environment.get_template(f"rover_ancf/{n}.html.j2").render(values) for n in ("section", "evidence"))
-    assert "the sweep ends early" not in short
+    assert "the sweep stops" not in short
     assert results.power == pytest.approx(
         {"drives": 50.0, "contact_damping": 30.0, "kinetic": 20.0, "speed": 0.0187}
         | dict.fromkeys(("strain", "contact", "weight", "damping", "friction"), 0.0)

@@ -194,5 +194,5 @@ ENVIRONMENT: Question = Question(
     figures=environment_figures,
     curves=_curves,
     applies=lambda study: study.environment is not None,
-    budget=820,
+    budget=1000,
 )

@@ -129,5 +129,5 @@ STRENGTH: Question = Question(
     read=_read,
     checks=_checks,
     figures=strength_figures,
-    budget=620,
+    budget=740,
 )

@@ -80,5 +80,5 @@ WORDS = Question(
     figures=words_figures,
     curves=_curves,
     applies=asked,
-    budget=1000,
+    budget=1050,
 )
