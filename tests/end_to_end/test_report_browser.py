@@ -1,10 +1,10 @@
 """The report in a real browser, as a reader has it: everything drawn, nothing complained of, on any width.
 
-Claim: all drawn, the report keeps to 15 screens of 1000 points and each of its questions to its budget. The pages of the
-small study open from disk without an error on their console, draw each figure and scene when the reader comes to it,
-turn scenes under the mouse and by finger, keep to the width of a phone, give their files and print whole. As large as
-the shipped study's, the page draws no more for its first screen. Controls: a section that takes more than its budget and
-a figure that is damaged are caught by the same reading; a free scene keeps the swipe that else scrolls.
+Claim: all drawn, the report keeps to 15 screens of 1000 points and each of its questions to its budget. The pages of
+the small study open from disk without an error on their console, draw each figure and scene when the reader comes to
+it, turn scenes under the mouse and by finger, keep to the width of a phone, give their files and print whole. As large
+as the shipped study's, the page draws no more for its first screen. Controls: a section that takes more than its
+budget and a damaged figure are caught by the same reading; a free scene keeps the swipe that else scrolls.
 """
 
 from __future__ import annotations

@@ -200,5 +200,5 @@ ROVER = Question(
     figures=_figures,
     series=_series,
     applies=lambda study: study.rover is not None,
-    budget=1200,
+    budget=1260,
 )

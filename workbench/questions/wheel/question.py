@@ -134,5 +134,5 @@ WHEEL = Question(
     read=read_wheel,
     checks=_checks,
     figures=_figures,
-    budget=700,
+    budget=760,
 )
