@@ -72,6 +72,11 @@ def _changed(path: Path, changes: Mapping[str, str]) -> str:
     return text
 
 
+def both_pages(folder: Path) -> str:
+    """The report and its evidence, one behind the other."""
+    return "".join((folder / name).read_text(encoding="utf-8") for name in ("report.html", "evidence.html"))
+
+
 def command(*arguments: str | Path) -> list[str]:
     """Command line of the workbench in this Python."""
     return [sys.executable, "-m", "workbench", *map(str, arguments)]

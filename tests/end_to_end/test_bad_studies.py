@@ -44,6 +44,7 @@ def earlier(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name in (
         "report/summary.json",
         "report/report.html",
+        "report/evidence.html",
         "report/curves/fe_phi000.csv",
         f"store/ab/{'ab' * 32}/manifest.json",
     ):

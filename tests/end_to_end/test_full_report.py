@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.end_to_end.small_study import run, small_study_text
+from tests.end_to_end.small_study import both_pages, run, small_study_text
 
 FULL = '[full]\norientation_step = "40 deg"\nfactor = 1\n'
 
@@ -29,6 +29,6 @@ def test_the_full_report_covers_a_period_and_shows_it(
     mirror = next(check for check in summary["checks"] if check["id"] == "fe.mirror_symmetry")
     assert mirror["status"] == "pass"
     assert mirror["value"] < 1e-4  # of two runs; the CSV files' twelve digits may be the same
-    page = (workspace / "full" / "report.html").read_text(encoding="utf-8")
+    page = both_pages(workspace / "full")
     for words in ("full study", "cover one period in equal steps", "40° and 80°", "orientation-map"):
         assert words in page, words

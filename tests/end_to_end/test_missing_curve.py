@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from contracts.curves import read_curve
-from tests.end_to_end.small_study import run, small_study_text
+from tests.end_to_end.small_study import both_pages, run, small_study_text
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.integrity import sealed, unsealed
 from workbench.execution.result_files import FAILURE, read_result
@@ -34,7 +34,7 @@ def _report(folder: Path, text: str) -> tuple[Finished, dict[str, Any], str]:
     (folder / "study.toml").write_text(text, encoding="utf-8")
     done = run("report", folder / "study.toml", "--out", "report", "--store", "store", folder=folder)
     summary = json.loads((folder / "report" / "summary.json").read_text(encoding="utf-8"))
-    return done, summary, (folder / "report" / "report.html").read_text(encoding="utf-8")
+    return done, summary, both_pages(folder / "report")
 
 
 def _statuses(summary: dict[str, Any]) -> dict[str, str]:
@@ -81,7 +81,7 @@ def test_one_missing_orientation_is_named_with_where_how_far_why_and_what_to_try
     assert reason in line
     pattern = r"orientation 0 deg, no point of the curve reached: .* stalls at a relative residual of \S+, .*last "
     assert re.match(pattern + r"converged at 0; .*set the relative tolerance to \S+ or more", reason)
-    page = (folder / "report.html").read_text(encoding="utf-8")
+    page = both_pages(folder)
     assert f"<b>0° is missing:</b> no point of its curve converged, and the average is without it. {reason}" in page
     assert r"FE 0\u00b0 (missing)" in page
     assert "no point (missing)" in page
@@ -124,7 +124,7 @@ def test_a_study_of_which_nothing_converges_still_ends_in_a_report(tmp_path: Pat
 def test_the_small_study_itself_misses_nothing(first_report: Finished, workspace: Path) -> None:
     """Negative control: at the study's own tolerance nothing is missing."""
     assert first_report.returncode == 0
-    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    page = both_pages(workspace / "report")
     figures = page.partition("Continuum finite elements")[2]
     assert "is missing" not in figures
     assert "(missing)" not in figures

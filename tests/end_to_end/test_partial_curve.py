@@ -22,7 +22,7 @@ from contracts.curves import read_curve
 from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
 from reference_fe.verification.structured_hexahedra import block_mesh
-from tests.end_to_end.small_study import run
+from tests.end_to_end.small_study import both_pages, run
 from tests.unit.test_workbench_runner import Recorder
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.integrity import sealed, unsealed
@@ -149,7 +149,7 @@ def test_the_curve_is_marked_partial_everywhere(cut_off: tuple[Finished, Path]) 
     for name in ("fe_phi000", "fe_average"):
         assert read_curve(folder / "curves" / f"{name}.csv").partial
     assert not read_curve(folder / "curves" / "ancf_average.csv").partial
-    page = (folder / "report.html").read_text(encoding="utf-8")
+    page = both_pages(folder)
     assert re.search(r"mm, \d+ N \(partial\)</td>", page)
     assert f"<b>fe_phi000 is partial.</b> {REASON}" in page
     assert page.count("FE average (partial)") >= 3  # two figures and the table of distances
@@ -159,6 +159,6 @@ def test_the_curve_is_marked_partial_everywhere(cut_off: tuple[Finished, Path]) 
 def test_the_small_study_itself_is_complete(first_report: Finished, workspace: Path) -> None:
     """Negative control: before the cut nothing is marked."""
     assert first_report.returncode == 0
-    assert "(partial)" not in (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    assert "(partial)" not in both_pages(workspace / "report")
     summary = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))
     assert summary["provenance"]["partial"] == {}

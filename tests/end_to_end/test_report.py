@@ -15,7 +15,7 @@ import pytest
 from contracts.curves import read_curve
 from contracts.series import read_series
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
-from tests.end_to_end.small_study import run, small_study_text
+from tests.end_to_end.small_study import both_pages, run, small_study_text
 from workbench.charts.packing import unpacked
 from workbench.questions.words.readings import READINGS
 from workbench.study.magnitudes import GATES
@@ -106,11 +106,11 @@ def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished
 
 
 def test_time_series_are_csv_and_linked(first_report: Finished, workspace: Path) -> None:
-    """Named ``{scenario}_{tire}.csv``; the page holds each whole, behind a link of its section."""
+    """Named ``{scenario}_{tire}.csv``; the evidence holds each whole, and its section leads there."""
     folder = workspace / "report" / "series"
     wheel = {"wheel_drop_ancf.csv", "wheel_drop_share_ancf.csv", "wheel_half_round_ancf.csv"}
     assert {p.name for p in folder.iterdir()} == wheel | {f"{name}_brush.csv" for name in SCENARIOS}
-    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    page = (workspace / "report" / "evidence.html").read_text(encoding="utf-8")
     section = page[page.index('<section id="ancf_dynamics">') :].partition("</section>")[0]
     for path in (folder / name for name in wheel):
         text = path.read_text(encoding="utf-8")
@@ -121,47 +121,87 @@ def test_time_series_are_csv_and_linked(first_report: Finished, workspace: Path)
         series = read_series(path, scenario, "ancf")
         assert np.all(np.diff(series.time) > 0.0)
         assert series.partial == (scenario == "wheel_drop_share"), "the tire folds under the rover's share"
-        link = re.search(rf'href="data:application/gzip;base64,([^"]+)" download="{path.name}.gz"', section)
+        assert f'href="#series/{path.name}"' in section
+        link = re.search(rf'href="data:application/gzip;base64,([^"]+)" download="{path.name}.gz"', page)
         assert link, path.name
         assert unpacked(link[1]).decode("utf-8") == text
 
 
 def test_the_rover_has_its_section_and_its_series(first_report: Finished, workspace: Path) -> None:
-    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    report, page = (
+        (workspace / "report" / name).read_text(encoding="utf-8") for name in ("report.html", "evidence.html")
+    )
     section = page[page.index('<section id="rover">') :].partition("</section>")[0]
+    short = report[report.index('<section id="rover">') :].partition("</section>")[0]
+    assert short.count("<tr>") == 1 + 7  # one row a scenario of the mission
+    assert "static stability, 40 degrees" in short
+    assert "not met" in short
     for name in SCENARIOS:
         path = workspace / "report" / "series" / f"{name}_brush.csv"
         assert not read_series(path, name, "brush").partial
-        link = re.search(rf'href="data:application/gzip;base64,([^"]+)" download="{path.name}.gz"', section)
+        assert f'href="#series/{path.name}"' in section
+        link = re.search(rf'href="data:application/gzip;base64,([^"]+)" download="{path.name}.gz"', page)
         assert link, name
         assert unpacked(link[1]).decode("utf-8") == path.read_text(encoding="utf-8")
     for text in ("Figs 18, 19", "Fig. 25", "not met", "197.92"):
         assert text in section
 
 
-def test_page_is_self_contained_and_shows_everything(first_report: Finished, workspace: Path) -> None:
-    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+@pytest.mark.parametrize("name", ["report.html", "evidence.html"])
+def test_a_page_is_self_contained(first_report: Finished, workspace: Path, name: str) -> None:
+    """The other page is all that it names; it loads nothing."""
+    page = (workspace / "report" / name).read_text(encoding="utf-8")
     outside_scripts = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
-    assert not re.search(r"""(src|href)=["'](?!#|data:)""", outside_scripts)
+    assert not re.search(r"""(src|href)=["'](?!#|data:|(report|evidence)\.html[?#])""", outside_scripts)
     assert not re.search(r"<script[^>]+src=", page)
-    assert outside_scripts.count("data:image/webp;base64,") == 3
+
+
+def test_the_pages_show_everything(first_report: Finished, workspace: Path) -> None:
+    pages = both_pages(workspace / "report")
+    assert re.sub(r"<script.*?</script>", "", pages, flags=re.DOTALL).count("data:image/webp;base64,") == 3
     summary = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))
     gates = sum(c["role"] == "gate" for c in summary["checks"])
     for text in (f"All {gates} gates passed", "Inferred, not published", "inferred from the thesis", "FE average",
                  "ANCF 45", "brush line", "grid convergence index", "The deformed wheel on the ground",
                  "How to read this"):  # fmt: skip
-        assert text in page, text
-    named = re.findall(r".{4}Sivo's data", html.unescape(page))
+        assert text in pages, text
+    named = re.findall(r".{4}Sivo's data", html.unescape(pages))
     assert named
     assert set(named) == {"not Sivo's data"}
 
 
-def test_every_check_shows_its_evidence_and_every_link_leads_somewhere(first_report: Finished, workspace: Path) -> None:
-    page = (workspace / "report" / "report.html").read_text(encoding="utf-8")
+def test_every_link_of_both_pages_leads_somewhere(first_report: Finished, workspace: Path) -> None:
+    """And both ways: each section that stands on both pages leads to its other part."""
+    pages = {n: (workspace / "report" / f"{n}.html").read_text(encoding="utf-8") for n in ("report", "evidence")}
+    places = {name: set(re.findall(r'\bid="([^"]+)"', page)) for name, page in pages.items()}
+    for name, page in pages.items():
+        for other, place in re.findall(r'href="(?:(report|evidence)\.html)?(?:\?[^"#]*)?#([^"]+)"', page):
+            assert html.unescape(place) in places[other or name], (name, other, place)
+    sections = {name: set(re.findall(r'<section id="([^"]+)"', page)) for name, page in pages.items()}
+    both = sections["report"] & sections["evidence"]
+    assert {"wheel", "fe", "strength", "rover"} <= both
+    for section in both:
+        assert f'href="evidence.html#{section}"' in pages["report"]
+        assert f'href="report.html#{section}"' in pages["evidence"]
+
+
+def test_every_number_of_the_first_page_has_its_source_one_click_away(first_report: Finished, workspace: Path) -> None:
+    page, evidence = (
+        (workspace / "report" / name).read_text(encoding="utf-8") for name in ("report.html", "evidence.html")
+    )
+    first = page[page.index('<section id="verdict">') :].partition("</section>")[0]
+    checks = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))["checks"]
+    led = set(re.findall(r'href="evidence\.html#evidence-([^"]+)"', first))
+    assert {check["id"] for check in checks if check["status"] != "pass"} <= led
+    for name in led:
+        fold = evidence[evidence.index(f'id="evidence-{name}"') :].partition("</details>")[0]
+        assert "<dt>Source</dt>" in fold
+
+
+def test_every_check_shows_its_evidence(first_report: Finished, workspace: Path) -> None:
+    page = (workspace / "report" / "evidence.html").read_text(encoding="utf-8")
     checks = json.loads((workspace / "report" / "summary.json").read_text(encoding="utf-8"))["checks"]
     section = page[page.index('<section id="evidence">') : page.index('<section id="chosen">')]
-    places = set(re.findall(r'\bid="([^"]+)"', page))
-    assert [link for link in re.findall(r'href="#([^"]+)"', section) if html.unescape(link) not in places] == []
     for check in checks:
         assert html.escape(check["claim"], quote=False).replace("'", "&#39;") in section, check["id"]
         assert check["tasks"], check["id"]

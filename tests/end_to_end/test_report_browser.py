@@ -1,9 +1,10 @@
 """The report in a real browser, as a reader has it: everything drawn, nothing complained of, on any width.
 
-Claim: the page of the small study opens from disk without an error on its console, draws each figure and scene when
-the reader comes to it, turns its scenes under the mouse and by finger, keeps to the width of a phone, gives its files
-and prints whole. As large as the shipped study's page, it shows verdict and first figure within 3 s. Controls: a page
-whose figure is damaged is caught by the same reading of the console; a free scene keeps the swipe that else scrolls.
+Claim: all drawn, the report keeps to 15 screens of 1000 points and each of its questions to its budget. The pages of
+the small study open from disk without an error on their console, draw each figure and scene when the reader comes to
+it, turn scenes under the mouse and by finger, keep to the width of a phone, give their files and print whole. As large
+as the shipped study's, the page draws no more for its first screen. Controls: a section that takes more than its
+budget and a damaged figure are caught by the same reading; a free scene keeps the swipe that else scrolls.
 """
 
 from __future__ import annotations
@@ -19,11 +20,16 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
+from tests.end_to_end.small_study import ROOT
+from workbench.questions.registry import QUESTIONS
 from workbench.questions.speed.record import DATA
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 pytestmark = pytest.mark.skipif(CHROMIUM is None and os.environ.get("CI") != "true", reason="no Chromium on PATH")
 
+SCREENS = 15
+"""Height of the report in screens of 1000 CSS points."""
+BUILT_IN = ROOT / "build" / "report" / "report.html"
 DRAWN = "[data-drawn='1']"
 AT_REST = "!busy && !waiting.length"
 """Nothing is being drawn and nothing waits for it."""
@@ -64,6 +70,13 @@ def wide(browser: Browser, first_report: Finished, workspace: Path) -> tuple[Pag
 
 
 @pytest.fixture(scope="module")
+def behind(browser: Browser, first_report: Finished, workspace: Path) -> tuple[Page, list[str]]:
+    """The evidence."""
+    assert first_report.returncode == 0, first_report.stderr
+    return opened(browser, workspace / "report" / "evidence.html")
+
+
+@pytest.fixture(scope="module")
 def phone(browser: Browser, first_report: Finished, workspace: Path) -> Iterator[tuple[Page, list[str]]]:
     screen = {"width": 390, "height": 844}
     context = browser.new_context(viewport=screen, has_touch=True, is_mobile=True)  # type: ignore[arg-type]
@@ -79,6 +92,47 @@ def test_the_verdict_is_first_and_soon_there(wide: tuple[Page, list[str]]) -> No
         assert box["y"] < 900, words
     assert page.locator("nav.contents a.here").inner_text() == "Verdict"
     assert errors == []
+
+
+def test_the_report_and_each_of_its_questions_keep_to_their_room(wide: tuple[Page, list[str]]) -> None:
+    page, errors = wide
+    heights_hold(page)
+    assert errors == []
+
+
+def test_control_a_section_that_takes_more_is_caught(browser: Browser, first_report: Finished, workspace: Path) -> None:
+    page, _ = opened(browser, workspace / "report" / "report.html")
+    page.evaluate("document.querySelector('#strength').style.minHeight = '2000px'")
+    with pytest.raises(AssertionError, match="strength"):
+        heights_hold(page)
+    page.close()
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not BUILT_IN.exists(), reason="no report of the built-in study: make report")
+def test_the_built_in_report_keeps_to_its_room(browser: Browser) -> None:
+    page, errors = opened(browser, BUILT_IN)
+    heights_hold(page)
+    assert errors == []
+    page.close()
+
+
+def heights_hold(page: Page) -> None:
+    """Every figure drawn with its legend, then the height of the page and of each section [CSS points]."""
+    draw_all(page)
+    found = page.evaluate(
+        "Object.fromEntries([...document.querySelectorAll('main > section')].map((s) => [s.id, s.offsetHeight]))"
+    )
+    budgets = {question.name: question.budget for question in QUESTIONS}
+    assert {n: h for n, h in found.items() if n in budgets and h > budgets[n]} == {}
+    assert page.evaluate("document.documentElement.scrollHeight") <= SCREENS * 1000
+
+
+def draw_all(page: Page) -> None:
+    boxes = page.locator(".plot, .scene")
+    for number in range(boxes.count()):
+        boxes.nth(number).scroll_into_view_if_needed()
+    page.wait_for_function("[...document.querySelectorAll('.plot, .scene')].every((b) => b.dataset.drawn === '1')")
 
 
 def test_a_page_of_full_size_draws_no_more_for_its_first_screen(
@@ -99,7 +153,7 @@ def test_a_page_of_full_size_draws_no_more_for_its_first_screen(
         page.wait_for_function(AT_REST)
         drawn.append(page.locator(DRAWN).count())
         assert errors == []
-    assert drawn[0] == drawn[1] < 0.2 * page.locator(".plot, .scene").count()
+    assert drawn[0] == drawn[1] < 0.5 * page.locator(".plot, .scene").count()
     page.evaluate("scrollTo(0, document.body.scrollHeight)")
     page.wait_for_function(f"document.querySelectorAll({DRAWN!r}).length > {drawn[1]}")
     page.close()
@@ -111,9 +165,9 @@ def full_size() -> int:
     return int(next(row["ours"] for row in rows if row["metric"] == "size of the page"))
 
 
-def test_a_link_saves_the_file_of_the_folder(wide: tuple[Page, list[str]], tmp_path: Path, workspace: Path) -> None:
-    page, errors = wide
-    link = page.locator("a[href^='data:application/gzip']").first
+def test_a_link_saves_the_file_of_the_folder(behind: tuple[Page, list[str]], tmp_path: Path, workspace: Path) -> None:
+    page, errors = behind
+    link = page.locator("a[id^='series/']").first
     with page.expect_download() as waiting:
         link.click()
     name = waiting.value.suggested_filename
@@ -122,8 +176,8 @@ def test_a_link_saves_the_file_of_the_folder(wide: tuple[Page, list[str]], tmp_p
     assert errors == []
 
 
-def test_every_figure_is_drawn_when_it_is_seen(wide: tuple[Page, list[str]]) -> None:
-    page, errors = wide
+def test_every_figure_is_drawn_when_it_is_seen(behind: tuple[Page, list[str]]) -> None:
+    page, errors = behind
     boxes = page.locator(".plot, .scene")
     undrawn = page.evaluate("document.querySelectorAll('.plot:not([data-drawn])').length")
     assert undrawn > 10, "figures are drawn before they are seen"
@@ -132,7 +186,7 @@ def test_every_figure_is_drawn_when_it_is_seen(wide: tuple[Page, list[str]]) -> 
         box.scroll_into_view_if_needed()
         box.locator("svg, canvas").first.wait_for(state="attached")
     page.wait_for_function("[...document.querySelectorAll('.plot, .scene')].every((b) => b.dataset.drawn === '1')")
-    assert boxes.count() > 20
+    assert boxes.count() > 15
     assert errors == []
 
 
@@ -171,7 +225,17 @@ def test_lines_are_switched_and_checks_filtered(wide: tuple[Page, list[str]]) ->
     page.evaluate("scrollTo(0, 0)")
     page.locator(".lead .legend button").last.click()
     page.wait_for_function("document.getElementById('model-curves').data.at(-1).visible === 'legendonly'")
+    assert errors == []
+
+
+def test_a_count_leads_to_those_checks_which_are_filtered(
+    browser: Browser, first_report: Finished, workspace: Path
+) -> None:
+    """From the report into the evidence, and by words there."""
+    page, errors = opened(browser, workspace / "report" / "report.html")
     page.locator(".counts a.gate").first.click()
+    page.wait_for_url("**/evidence.html?show=gate+pass#checks")
+    page.wait_for_selector("details.checks[open]")
     assert page.locator("details.checks[open]").count() > 3
     assert page.locator("details.checks tr.finding:visible").count() == 0
     page.locator(".filter input").fill("no such words")
@@ -179,11 +243,12 @@ def test_lines_are_switched_and_checks_filtered(wide: tuple[Page, list[str]]) ->
     assert page.locator(".filter [role=status]").inner_text() == "0 shown"
     page.locator(".filter input").fill("")
     assert errors == []
+    page.close()
 
 
-def test_it_prints_whole(wide: tuple[Page, list[str]], tmp_path: Path) -> None:
+def test_it_prints_whole(behind: tuple[Page, list[str]], tmp_path: Path) -> None:
     """Figures no wider than the paper, folds open; afterwards as before."""
-    page, errors = wide
+    page, errors = behind
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert page.locator("details:not([open])").count() == 0
     widths = page.evaluate("[...document.querySelectorAll('.plot')].map((b) => b._fullLayout.width)")
@@ -194,11 +259,12 @@ def test_it_prints_whole(wide: tuple[Page, list[str]], tmp_path: Path) -> None:
     assert errors == []
 
 
-def test_a_phone_scrolls_down_only(browser: Browser, first_report: Finished, workspace: Path) -> None:
-    page, errors = opened(browser, workspace / "report" / "report.html", 390, 844)
+@pytest.mark.parametrize("name", ["report.html", "evidence.html"])
+def test_a_phone_scrolls_down_only(browser: Browser, first_report: Finished, workspace: Path, name: str) -> None:
+    page, errors = opened(browser, workspace / "report" / name, 390, 844)
     assert page.evaluate("document.documentElement.scrollWidth") == 390
     page.locator(".contents label").click()
-    page.locator(".contents a", has_text="All checks").click()
+    page.locator(".contents a", has_text="Strength").click()
     assert not page.locator(".contents .list").is_visible()
     page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
     assert page.evaluate("document.documentElement.scrollWidth") == 390
@@ -213,7 +279,7 @@ def test_wide_tables_scroll_in_their_own_frame(phone: tuple[Page, list[str]]) ->
         && !t.closest('.scroll')).map((t) => t.closest('section').id)""")
     assert out == []
     wider = page.evaluate("[...document.querySelectorAll('.scroll')].map((f) => f.scrollWidth - f.clientWidth)")
-    assert sum(more > 0 for more in wider) > 5
+    assert sum(more > 0 for more in wider) > 3
 
 
 @pytest.mark.parametrize("place", ["#scene-parts .stage", "#fe-curves"])

@@ -86,8 +86,9 @@ def test_the_page_is_whole_and_drawn_in_a_browser(
         pytest.skip("chromium is not on PATH")
     options = ("--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom")
     drawn = subprocess.run([chromium, *options, page.as_uri()], capture_output=True, text=True, check=True)
-    assert len(re.findall(r'class="axis-title"', drawn.stdout)) >= 8
-    assert len(re.findall(r'<g class="trace scatter', drawn.stdout)) == 7
+    assert len(re.findall(r'class="axis-title"', drawn.stdout)) >= 6
+    assert len(re.findall(r'<g class="trace scatter', drawn.stdout)) == 8  # six points, the study at both orientations
+    assert "initial_tangent" not in drawn.stdout.partition("<body")[2]
 
 
 def test_a_point_that_fails_does_not_lose_the_others(tmp_path: Path) -> None:

@@ -135,14 +135,16 @@ def test_other_words_compute_nothing_again(report: Finished) -> None:
 
 
 def test_the_page_holds_the_words_and_runs_none(report: Finished, folder: Path) -> None:
-    plain = _Page((folder / "report" / "report.html").read_text(encoding="utf-8"))
-    page = _Page((folder / "nasty" / "report.html").read_text(encoding="utf-8"))
+    words = ""
+    for name in ("report.html", "evidence.html"):
+        plain, page = (_Page((folder / one / name).read_text(encoding="utf-8")) for one in ("report", "nasty"))
+        assert [kind for kind, _ in page.scripts] == [kind for kind, _ in plain.scripts]
+        for kind, text in page.scripts:
+            assert "pwned" not in text or (kind == "application/json" and json.loads(text))
+        assert set(page.tags) == set(plain.tags)
+        words += page.words
     for start in ("=1+1 title", "@metal", "+metal source", "_label", "=curve source", "inferred"):
-        assert one_line(_nasty(start)) in page.words, start
-    assert [kind for kind, _ in page.scripts] == [kind for kind, _ in plain.scripts]
-    for kind, text in page.scripts:
-        assert "pwned" not in text or (kind == "application/json" and json.loads(text))
-    assert set(page.tags) == set(plain.tags)
+        assert one_line(_nasty(start)) in words, start
 
 
 def test_the_browser_runs_none_of_it(report: Finished, folder: Path) -> None:
@@ -169,7 +171,7 @@ def test_the_document_holds_the_words(report: Finished, folder: Path) -> None:
         ["pdftotext", "-raw", folder / "nasty" / "report.pdf", "-"], capture_output=True, text=True, check=True
     )
     words = _letters(run.stdout)
-    for start in ("=1+1 title", "_label", "inferred"):
+    for start in ("=1+1 title", "_label"):
         shown = _letters(one_line(_nasty(start)))
         assert shown.partition("\u8f6e")[0] in words, start  # the document's fonts have no Chinese
 

@@ -34,7 +34,7 @@ def test_benchmarks_are_solved_and_shown(first_report: Finished, workspace: Path
     assert checks["verify.ring_iterations"]["value"] <= 60
     assert checks["verify.ancf_pendulum_path"]["value"] < 1e-5
     assert checks["verify.ancf_end_moment_order"]["value"] > 2.5
-    page = html.unescape((workspace / "verified" / "report.html").read_text(encoding="utf-8"))
+    page = html.unescape((workspace / "verified" / "evidence.html").read_text(encoding="utf-8"))
     for wanted in (
         '<section id="verification">',
         '<section id="multibody">',
@@ -46,4 +46,4 @@ def test_benchmarks_are_solved_and_shown(first_report: Finished, workspace: Path
         assert wanted in page
     assert "16 x 32 of 27 nodes" in page
     assert page.count("✓ caught") == len(NAMES)
-    assert '<section id="verification">' not in (workspace / "report" / "report.html").read_text(encoding="utf-8")
+    assert '<section id="verification">' not in (workspace / "report" / "evidence.html").read_text(encoding="utf-8")

@@ -12,7 +12,7 @@ from workbench.questions.comparison import Comparison
 from workbench.questions.models.agreement import Agreement
 from workbench.questions.models.results import ComparedModels
 from workbench.questions.registry import QUESTIONS
-from workbench.report.contents import contents, section_titles
+from workbench.report.contents import EVIDENCE, REPORT, contents, page_of, section_titles
 from workbench.report.opening import check_groups, opening
 from workbench.study.reading import built_in_study, read_study
 
@@ -45,19 +45,33 @@ def _found(checks: list[Check], judged: Mapping[str, Agreement] | None = None, *
 
 
 def test_every_section_stands_in_one_group() -> None:
-    placed = [section.name for group in contents(STUDY) for section in group.sections]
-    assert len(set(placed)) == len(placed)
-    assert set(placed) == {one.name for one in QUESTIONS} | {"checks", "evidence", "chosen", "origin", "reading"}
-    assert list(section_titles(STUDY)) == placed
-    assert [s.name for s in contents(STUDY)[0].sections] == ["models", "words"]
-    assert {s.name for s in contents(STUDY)[-1].sections} == {"checks", "evidence", "chosen", "origin", "reading"}
+    own = {"checks", "evidence", "files", "chosen", "origin", "reading"}
+    placed = {page: [s.name for group in contents(STUDY, page) for s in group.sections] for page in (REPORT, EVIDENCE)}
+    assert all(len(set(names)) == len(names) for names in placed.values())
+    assert set(placed[REPORT]) == {one.name for one in QUESTIONS if one.budget}
+    assert set(placed[REPORT]) | set(placed[EVIDENCE]) == {one.name for one in QUESTIONS} | own
+    assert set(section_titles(STUDY)) == set(placed[REPORT]) | set(placed[EVIDENCE])
+    assert [s.name for s in contents(STUDY, REPORT)[0].sections] == ["models", "words"]
+    assert {s.name for s in contents(STUDY, EVIDENCE)[-1].sections} == own
+    assert {"verification", "multibody", "speed", "numerics", "contact", "hub", "mesh_study"} <= set(placed[EVIDENCE])
+
+
+def test_a_check_leads_to_the_report_where_its_question_stands_there() -> None:
+    pages = page_of(STUDY)
+    assert (pages["strength"], pages["contact"], pages["checks"]) == (REPORT, EVIDENCE, EVIDENCE)
+    assert list(pages) == list(section_titles(STUDY))
+
+
+def test_the_budgets_leave_room_for_first_page_headings_and_later_questions() -> None:
+    """15 screens of 1000 points in all, of which the first page, headings and footer take some 2500."""
+    assert sum(one.budget for one in QUESTIONS) <= 12_000
 
 
 def test_a_study_without_rover_has_no_group_of_it() -> None:
     without = STUDY.model_copy(update={"rover": None})
-    assert "Rover" in [group.title for group in contents(STUDY)]
-    assert "Rover" not in [group.title for group in contents(without)]
-    assert all(group.sections for group in contents(without))
+    assert "Rover" in [group.title for group in contents(STUDY, REPORT)]
+    assert "Rover" not in [group.title for page in (REPORT, EVIDENCE) for group in contents(without, page)]
+    assert all(group.sections for page in (REPORT, EVIDENCE) for group in contents(without, page))
 
 
 def test_checks_are_grouped_in_the_order_of_the_sections() -> None:
@@ -80,7 +94,7 @@ def test_the_first_screen_shows_all_that_did_not_pass_gates_first() -> None:
 def test_scripts_and_styles_are_there() -> None:
     """What the page includes lies beside its templates, so that it is installed with them."""
     folder = Path(__file__).parents[2] / "workbench" / "report" / "templates"
-    text = (folder / "report.html.j2").read_text(encoding="utf-8")
+    text = (folder / "page.html.j2").read_text(encoding="utf-8")
     styles, scripts = ("style.css.j2", "print.css.j2"), ("unpack", "scenes", "legend", "touch", "figures", "page")
     for name in (*styles, *(f"{script}.js" for script in scripts)):
         assert f'include "{name}"' in text

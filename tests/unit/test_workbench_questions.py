@@ -33,14 +33,18 @@ def test_every_question_has_a_folder_that_says_what_it_asks_and_its_section() ->
     for question in QUESTIONS:
         asked = (ROOT / question.name / "__init__.py").read_text(encoding="utf-8")
         assert re.fullmatch(r'"""[A-Z].*\?(.*\))?"""\n', asked), question.name
-        text = (ROOT / question.name / "section.html.j2").read_text(encoding="utf-8")
-        assert f'<section id="{question.name}">' in text
+        parts = {name: ROOT / question.name / f"{name}.html.j2" for name in ("section", "evidence")}
+        there = {name: path.read_text(encoding="utf-8") for name, path in parts.items() if path.exists()}
+        assert there, question.name
+        assert all(f'<section id="{question.name}">' in text for text in there.values()), question.name
+        assert ("section" in there) == (question.budget > 0), f"{question.name}: a section of the report has a budget"
         assert (ROOT / question.name / "statements.toml").is_file()
 
 
 def test_every_section_and_every_word_belongs_to_a_question() -> None:
-    for name in ("section.html.j2", "statements.toml"):
-        assert {path.parent.name for path in ROOT.glob(f"*/{name}")} == {question.name for question in QUESTIONS}
+    names = {question.name for question in QUESTIONS}
+    assert {path.parent.name for path in ROOT.glob("*/*.html.j2")} == names
+    assert {path.parent.name for path in ROOT.glob("*/statements.toml")} == names
 
 
 def test_questions_stand_in_the_order_of_their_groups() -> None:

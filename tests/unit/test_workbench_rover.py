@@ -105,7 +105,8 @@ def test_series_and_figures_of_the_section_exist(results: RoverResults) -> None:
     study = read_study(built_in_study())
     published = series_files(ROVER.series(study, results))
     assert set(published) == {f"{name}_brush.csv" for name in SCENARIOS}
-    text = (TEMPLATES[1] / "rover" / "section.html.j2").read_text(encoding="utf-8")
+    parts = (TEMPLATES[1] / "rover" / f"{name}.html.j2" for name in ("section", "evidence"))
+    text = "".join(part.read_text(encoding="utf-8") for part in parts)
     assert set(re.findall(r"figures\.(\w+)", text)) == set(ROVER.figures(study, results))
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import jinja2
 import numpy as np
 import pytest
 
@@ -19,7 +18,7 @@ from workbench.questions.rover.drive import Drive
 from workbench.questions.rover_ancf.question import ROVER_ANCF
 from workbench.questions.rover_closer.question import ROVER_CLOSER
 from workbench.questions.rover_closer.results import CloserLook, Resting
-from workbench.report.page import TEMPLATES
+from workbench.report.page import page_environment
 from workbench.report.series import series_links
 from workbench.study.model_parameters import ancf_preset
 from workbench.study.reading import built_in_study, read_study
@@ -134,17 +133,12 @@ def test_a_tire_of_ones_own_that_does_not_carry_the_rover_is_a_finding() -> None
 
 def test_the_section_shows_what_there_is() -> None:
     found = look()
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-    )
-    template = environment.get_template("rover_closer/section.html.j2")
+    template = page_environment().get_template("rover_closer/evidence.html.j2")
     links = series_links(list(found.series.values()))
     figures = ROVER_CLOSER.figures(STUDY, found)
     text = template.render(results=found, figures=figures, series=links)
     assert "&lt;p&gt;page&lt;/p&gt;" in text
-    assert "ended early: a tire folds" in text
+    assert "the drive on ANCF tires" in text
     assert "50 mm long; largest pressure 40.0 kPa" in text
     bare = replace(found, series={}, pressure=np.zeros((0, 5)), stopped={}, animation=None)
     text = template.render(results=bare, figures=ROVER_CLOSER.figures(STUDY, bare), series={})

@@ -166,7 +166,11 @@ def test_the_section_says_what_was_found() -> None:
         undefined=jinja2.StrictUndefined,
     )
     figures = ROVER_CROSSCHECK.figures(STUDY, found)
-    text = environment.get_template("rover_crosscheck/section.html.j2").render(results=found, figures=figures)
+    names = ("section", "evidence")
+    parts = [
+        environment.get_template(f"rover_crosscheck/{n}.html.j2").render(results=found, figures=figures) for n in names
+    ]
+    text = "".join(parts)
     assert "5 orientations are solved by the solid model; the 8 others" in " ".join(text.split())
     assert text.count("crosscheck-sweep") > 1
     assert text.count("<td>section</td>") == 16

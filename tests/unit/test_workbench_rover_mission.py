@@ -18,7 +18,7 @@ from workbench.questions.rover.tires import AncfRide
 from workbench.questions.rover_ancf.runs import FITTED_DAMPING, SETTLING_DAMPING, fitted_run
 from workbench.questions.rover_ancf.task import drive_on_fitted_tires
 from workbench.questions.rover_mission.question import ROVER_MISSION, Mission
-from workbench.questions.rover_mission.requirements import plainly
+from workbench.questions.rover_mission.requirements import plainly, tightest
 from workbench.report.page import page_environment
 from workbench.report.series import series_links
 from workbench.study.reading import built_in_study, read_study
@@ -105,6 +105,8 @@ def test_a_run_of_which_nothing_is_required_is_held_to_its_end(mission: Mission)
             "wheel rear left, which carries 396 N, gives way; lower the load",
             "stops before it sets out: a rim of the rear left wheel folds at 396 N",
         ),
+        ("motion on flexible tires stopped at t = 3 s of 9 s: no step", "stops at 3 s: no step converges there"),
+        ("explicit motion broke down at 0.34 s with a step of 3e-4 s: plates fold (x)", "stops at 0.34 s: plates fold"),
         ("no step converges; try another. No tire is near folding", "ended early: no step converges"),
     ],
 )
@@ -116,8 +118,27 @@ def test_the_section_draws_each_run_and_says_where_it_ends(mission: Mission) -> 
     environment = page_environment()
     figures, series = ROVER_MISSION.figures(STUDY, mission), series_links(list(ROVER_MISSION.series(STUDY, mission)))
     assert set(figures) == {f"mission_{n}_{what}" for n in ("slope_up", "step") for what in ("load", "place")}
-    text = environment.get_template("rover_mission/section.html.j2").render(
-        results=mission, figures=figures, series=series
+    values = {"results": mission, "figures": figures, "series": series}
+    short, text = (
+        environment.get_template(f"rover_mission/{n}.html.j2").render(values) for n in ("section", "evidence")
     )
-    for words in ("a tire folds at t = 20.3 s", "met</td><td>met", 'download="step_fitted_ancf.csv.gz"', "not met"):
+    for words in (
+        "stops at 20.3 s: a tire folds",
+        "met</td><td>met",
+        'href="evidence.html#series/step_fitted_ancf.csv"',
+        "not met",
+    ):
         assert words in text, words
+    assert "stops at 20.3 s: a tire folds" in short
+    assert short.count("<tr>") == 1 + len(mission.decided)
+    assert ("t = 20.3" in short, "t = 20.3" in text) == (False, False)
+
+
+def test_what_decides_is_what_is_not_met_or_nearest_to_its_limit() -> None:
+    def one(value: float, limit: float, *, at_least: bool = True) -> Outcome:
+        return Outcome(quantity=f"{value:g}", value=value, unit="-", limit=limit, at_least=at_least)
+
+    counted, wide, near = one(6.0, 6.0), one(0.01, 0.1, at_least=False), one(9.0, 10.0, at_least=False)
+    assert tightest([counted, wide, near]) is near
+    assert tightest([counted, wide, one(3.0, 6.0), near]).value == 3.0
+    assert tightest([counted]) is counted

@@ -134,7 +134,7 @@ def test_the_section_says_met_and_missed() -> None:
     environment = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, autoescape=True)
     environment.filters["number"] = displayed
     found = results(SOLID, replace(SOLID, model="section", solve_s=6.0))
-    text = environment.get_template("speed/section.html.j2").render(results=found)
+    text = environment.get_template("speed/evidence.html.j2").render(results=found)
     met = sum(aim.met for aim in found.aims)
     assert (text.count("✓ met"), text.count("△ missed")) == (met, len(found.aims) - met)
     assert 0 < met < len(found.aims)

@@ -21,6 +21,7 @@ from workbench.questions.sweep.figures import coordinate_axes, curves_figure, pa
 from workbench.questions.sweep.graph import SweepGraph, sweep_graph
 from workbench.questions.sweep.results import Outcome, outcomes, references
 from workbench.questions.sweep.table import SweepTable, sweep_table
+from workbench.questions.sweep.words import column_of
 from workbench.report.parquet import write_parquet
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study_table, study_of
@@ -170,7 +171,7 @@ def test_axes_are_those_every_drawn_row_has_a_number_for(made: tuple[SweepTable,
     table, found, _ = made
     axes = {axis["label"]: axis for axis in coordinate_axes(table)}
     assert axes["fe.max load [N]"]["values"] == [290.0, 310.0]
-    assert "relative l2 [-]" in axes
+    assert "relative L2 [-]" in axes
     assert [label for label in axes if not label.endswith("]")] == []
     assert axes["initial tangent [N/mm]"]["values"] == pytest.approx([9.0, 10.0])
     assert all(
@@ -181,5 +182,33 @@ def test_axes_are_those_every_drawn_row_has_a_number_for(made: tuple[SweepTable,
     drawn = figure.replace("\\u002f", "/")  # Plotly's spelling of a slash inside a page
     assert [label for label in axes if f'"label":"{label}"' not in drawn] == []
     curves = curves_figure(found, "section")
-    assert "1: fe.max_load = 290 N" in curves
-    assert "3: fe.max_load = 320 N" not in curves
+    assert "1: fe.max load 290 N" in curves
+    assert "3: fe.max load 320 N" not in curves
+    assert "the study as it is, " not in curves  # every point is a mean as the study is
+
+
+def test_columns_are_words_in_units_that_engineers_read() -> None:
+    told = {
+        "initial_tangent_N_per_m": ("initial tangent [N/mm]", 1e-3),
+        "deflection_at_40N_m": ("deflection at 40 N [mm]", 1e3),
+        "load_at_7.5mm_N": ("load at 7.5 mm [N]", 1.0),
+        "max_linearised_at_80N_Pa": ("stress in strips at 80 N [MPa]", 1e-6),
+    }
+    for name, (label, factor) in told.items():
+        assert (column_of(name).label, column_of(name).factor) == (label, factor)
+
+
+def test_a_point_at_one_orientation_is_held_against_the_study_at_that_one(tmp_path: Path) -> None:
+    """Not against the mean of two, which no wheel has; its own curve again, no difference."""
+    study, graph = _swept(orientation=["0 deg", "30 deg"], loads=["160 N", "250 N"])
+    slopes = {"phi000": 9000.0, "phi030": 7000.0}
+    entries = _results(tmp_path, graph, {t.name: slopes.get(t.name[-6:], 8000.0) for t in graph.tasks})
+    found = outcomes(graph, entries, {})
+    table = sweep_table(study, graph.keys, found, references(study, tmp_path, found))
+    points = {row[0]: dict(zip(table.names, row, strict=True)) for row in table.rows}
+    assert points[1]["held_against"] == "the study as it is, 0 deg"
+    assert points[2]["held_against"] == "the study as it is, 30 deg"
+    assert (points[1]["relative_l2"], points[2]["relative_l2"]) == (0.0, 0.0)
+    assert points[0]["held_against"] == "the study as it is"
+    curves = curves_figure(found, "section")
+    assert "the study as it is, 30 deg" in curves

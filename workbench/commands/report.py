@@ -31,7 +31,7 @@ from workbench.verdict.baseline import read_baseline
 
 __all__ = ["ReportChoices", "run_report"]
 
-_TEXTS = ("report.pdf", "report.html", "junit.xml", "summary.md", "summary.json")
+_TEXTS = ("report.pdf", "evidence.html", "report.html", "junit.xml", "summary.md", "summary.json")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,6 +64,7 @@ def run_report(
 
     from workbench.questions.comparison import compare
     from workbench.report.answers import answers
+    from workbench.report.contents import EVIDENCE, REPORT
     from workbench.report.evidence import evidence_of
     from workbench.report.opening import verdict
     from workbench.report.page import PageContent, render, rendered_sections
@@ -93,7 +94,8 @@ def run_report(
     page = rendered_sections(content)
     texts: dict[str, str | bytes] = {
         "report.pdf": document_pdf(page),
-        "report.html": render(page),
+        "evidence.html": render(page, EVIDENCE),
+        "report.html": render(page, REPORT),
         "junit.xml": junit(study.name, found.checks, gate.given_up),
         "summary.md": gate_markdown(gate),
         "summary.json": to_json(

@@ -37,18 +37,21 @@ class Question:
 
     Attributes
     ----------
-    name : identifier, and the folder beside this module that holds everything about it: ``section.html.j2``, which sees
-        the results as ``results``, and ``statements.toml``, the words of its checks
+    name : identifier, and the folder beside this module that holds everything about it: its section of the report,
+        ``section.html.j2``, and of the evidence, ``evidence.html.j2``, one of them or both, which see the results as
+        ``results``, and ``statements.toml``, the words of its checks
     title : what the page's navigation calls it
     group : heading of the contents it stands under
     read : study, result folder of every task of the report by name -> the results, a frozen record
     tasks : study -> tasks; those they need may be any question's
-    checks : study, results -> checks; the page shows them in this question's section
-    figures : study, results -> HTML of each figure by name; the section sees them as ``figures``
+    checks : study, results -> checks; they lead to this question's section
+    figures : study, results -> HTML of each figure by name; the sections see them as ``figures``
     curves : study, results -> curves to publish as CSV
     series : study, results -> time series to publish as CSV; the section links them by ``series_link(name)`` of the
         macros
     applies : False leaves the question out of this study's graph and report
+    budget : height that its section in the report may take where the window is 1440 wide [CSS points]; 0 for a question
+        that stands in the evidence alone
     """
 
     name: str
@@ -61,3 +64,4 @@ class Question:
     curves: Callable[[Study, Any], Sequence[StiffnessCurve]] = _none
     series: Callable[[Study, Any], Sequence[TimeSeries]] = _none
     applies: Callable[[Study], bool] = lambda study: True
+    budget: int = 0

@@ -42,12 +42,14 @@ _SHORT = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part:
-    """One thing asked: what it is called, the answer, the check that decides it in words, the section with more."""
+    """One thing asked: what it is called, the answer, the check that decides it in words, the section with more, and
+    the check's identifier."""
 
     name: str
     decision: Decision
     text: str
     section: str
+    check: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -114,7 +116,7 @@ def computation(checks: Sequence[Check], question_of: Mapping[str, str]) -> Answ
         question="Is the computation sound?",
         decision=together(decided(check) for check in gates) if gates else "undecided",
         sentence=sentence if gates else "The study asks for no gate.",
-        parts=[_part(c.title, [c], question_of, None) for c in bad[:_SHOWN]],
+        parts=[_part(_title(c), [c], question_of, None) for c in bad[:_SHOWN]],
     )
 
 
@@ -147,8 +149,9 @@ def _part(
     return Part(
         name=name,
         decision=together(decided(check) for check in checks),
-        text=_told(worst) + _of_what_kind(worst, reference),
+        text=_told(worst).removeprefix(f"{name} ").removeprefix(f"{name}: ") + _of_what_kind(worst, reference),
         section=question_of[worst.id],
+        check=worst.id,
     )
 
 
@@ -173,13 +176,21 @@ def _used(check: Check) -> float:
     return share if check.tolerance.startswith("at most") else 1.0 / share if check.value else 0.0
 
 
+def _title(check: Check) -> str:
+    return check.title.removeprefix("FE: ").removeprefix("Rover on fitted ANCF tires, ")
+
+
 def _told(check: Check) -> str:
-    """Its number and limit; a run that ended early has none, and its title says what happened."""
-    title = check.title.removeprefix("FE: ").removeprefix("Rover on fitted ANCF tires, ")
+    """Its number and limit; a run has none, and its title says what happened."""
+    title = _title(check)
+    if check.quantity == "run":
+        return title
     if check.value is None:
         return title if check.status == "undecided" else f"{title}: not evaluated"
     limit = check.tolerance.partition(";")[0]
-    if not limit.startswith("at "):
+    if limit == "none" or (check.unit == "-" and limit == "at most 0"):
+        limit = "none allowed"
+    elif not limit.startswith("at "):
         limit = f"{displayed_reference(check)}{'' if isinstance(check.reference, tuple) else ' ± ' + limit}"
     name = next((short for begins, short in _SHORT.items() if check.id.startswith(begins)), title)
     return f"{name} {displayed(check.value, check.unit, check.quantity)} ({limit})"

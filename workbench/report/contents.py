@@ -1,24 +1,35 @@
-"""What stands where in the report: groups and their sections. Verified by tests/unit/test_workbench_contents.py."""
+"""What stands where: the two pages, their groups and sections. Verified by tests/unit/test_workbench_contents.py."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import get_args
+from pathlib import Path
+from typing import Literal, get_args
 
+from workbench import questions
 from workbench.questions import question
+from workbench.questions.question import Question
 from workbench.questions.registry import questions_of
 from workbench.study.model import Study
 
-__all__ = ["Group", "Section", "contents", "section_titles"]
+__all__ = ["EVIDENCE", "REPORT", "Group", "Page", "Section", "contents", "page_of", "section_titles"]
+
+type Page = Literal["report", "evidence"]
+REPORT: Page = "report"
+EVIDENCE: Page = "evidence"
+_FOLDER = Path(questions.__file__).parent
+_TEMPLATES = {REPORT: "section.html.j2", EVIDENCE: "evidence.html.j2"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Section:
-    """One section: its name, and its title in the contents."""
+    """One section: its name, its title in the contents, its template; whether the other page has one of this name."""
 
     name: str
     title: str
+    template: str
+    continued: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,27 +42,48 @@ class Group:
 
 _LAST = Group(
     title="Behind the numbers",
-    sections=(
-        Section(name="checks", title="All checks"),
-        Section(name="evidence", title="Evidence"),
-        Section(name="chosen", title="Chosen and inferred"),
-        Section(name="origin", title="Timings, provenance"),
-        Section(name="reading", title="How to read this"),
+    sections=tuple(
+        Section(name=name, title=title, template=f"section_{name}.html.j2")
+        for name, title in (
+            ("checks", "All checks"),
+            ("evidence", "Evidence"),
+            ("files", "Curves and time series"),
+            ("chosen", "Chosen and inferred"),
+            ("origin", "Timings, provenance"),
+            ("reading", "How to read this"),
+        )
     ),
 )
-"""The report's own sections, ``templates/section_{name}.html.j2``."""
+"""The evidence's own sections."""
 
 
-def contents(study: Study) -> list[Group]:
-    """Groups with those of the questions that the study asks, none empty, and the report's own sections last."""
+def contents(study: Study, page: Page) -> list[Group]:
+    """Groups of a page with the sections of the questions that the study asks, none empty; the evidence's own last."""
     found = []
     for title in get_args(question.Group):
-        asked = [Section(name=one.name, title=one.title) for one in questions_of(study) if one.group == title]
+        asked = [_section(one, page) for one in questions_of(study) if one.group == title and page in _pages(one)]
         if asked:
             found.append(Group(title=title, sections=asked))
-    return [*found, _LAST]
+    return [*found, *([_LAST] if page == EVIDENCE else [])]
+
+
+def _section(one: Question, page: Page) -> Section:
+    template = f"{one.name}/{_TEMPLATES[page]}"
+    return Section(name=one.name, title=one.title, template=template, continued=len(_pages(one)) == 2)
+
+
+def _pages(one: Question) -> list[Page]:
+    """The report if the question has a budget there; the evidence if it has a template for that."""
+    stands = {REPORT: one.budget > 0, EVIDENCE: (_FOLDER / one.name / _TEMPLATES[EVIDENCE]).exists()}
+    return [page for page, does in stands.items() if does]
+
+
+def page_of(study: Study) -> Mapping[str, Page]:
+    """Section -> the page that a check of its question leads to: the report where it has a section there."""
+    pages = {section.name: page for page in (EVIDENCE, REPORT) for g in contents(study, page) for section in g.sections}
+    return {name: pages[name] for name in section_titles(study)}
 
 
 def section_titles(study: Study) -> Mapping[str, str]:
-    """Section -> its title in the contents, of every section a study's report has, in the order of the page."""
-    return {section.name: section.title for group in contents(study) for section in group.sections}
+    """Section -> its title in the contents: those of the report, then those that the evidence has beside them."""
+    return {s.name: s.title for page in (REPORT, EVIDENCE) for group in contents(study, page) for s in group.sections}

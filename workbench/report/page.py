@@ -1,4 +1,4 @@
-"""The report: one self-contained page, its verdict first. The one module that imports Jinja2.
+"""The report and its evidence: two self-contained pages. The one module that imports Jinja2.
 
 Verified by tests/unit/test_workbench_outputs.py, tests/unit/test_workbench_page_figures.py,
 tests/end_to_end/test_report.py and, in a browser, tests/end_to_end/test_report_browser.py.
@@ -22,8 +22,9 @@ from workbench.charts.packing import packed
 from workbench.charts.palette import PART_COLOURS
 from workbench.questions.comparison import Comparison
 from workbench.questions.registry import questions_of
+from workbench.questions.rover_mission.requirements import plainly
 from workbench.report.chosen import chosen_groups
-from workbench.report.contents import Section, contents, section_titles
+from workbench.report.contents import EVIDENCE, REPORT, Group, Page, Section, contents, page_of, section_titles
 from workbench.report.evidence import Evidence
 from workbench.report.opening import check_groups, opening
 from workbench.report.series import series_links
@@ -62,26 +63,25 @@ class PageContent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rendered:
-    """What the page and the PDF are made of.
+    """What the pages and the PDF are made of.
 
     Attributes
     ----------
-    sections : HTML by name
-    printed : sections that paper has instead of some of the page's, by name; empty where it has none
+    sections : HTML by page and name
+    groups : contents by page
     values : what templates are filled with
     """
 
-    sections: Mapping[str, str]
-    printed: Mapping[str, str]
+    sections: Mapping[Page, Mapping[str, str]]
+    groups: Mapping[Page, Sequence[Group]]
     values: Mapping[str, Any]
 
 
 def rendered_sections(content: PageContent) -> Rendered:
-    """Fill in every section's template."""
+    """Fill in every section's template, of both pages from the same values."""
     found, study = content.found, content.study
     figures, lacking = _page_figures(study, found, partial=bool(content.provenance["partial"]))
     values: dict[str, Any] = {
-        "groups": contents(study),
         "study": study,
         "opening": opening(study, found),
         "status": overall_status(found.checks),
@@ -94,18 +94,26 @@ def rendered_sections(content: PageContent) -> Rendered:
         "chosen": chosen_groups(study),
         "series": series_links(found.series),
         "colours": PART_COLOURS,
+        "links": {name: f"{page}.html#{name}" for name, page in page_of(study).items()},
     }
     environment = page_environment()
-    sections = [section for group in values["groups"] for section in group.sections]
-    texts = {section.name: _section_text(environment, section, found, values, lacking) for section in sections}
-    printed = {"checks": "", "evidence": environment.get_template("printed_evidence.html.j2").render(values)}
-    return Rendered(sections=texts, printed=printed, values=values)
+    groups = {page: contents(study, page) for page in (REPORT, EVIDENCE)}
+    texts = {
+        page: {s.name: _section_text(environment, s, page, found, values, lacking) for g in held for s in g.sections}
+        for page, held in groups.items()
+    }
+    return Rendered(sections=texts, groups=groups, values=values)
 
 
-def render(rendered: Rendered) -> str:
-    """The page as text: figures, pictures and scripts inside, nothing loaded from elsewhere."""
-    template = page_environment().get_template("report.html.j2")
-    return template.render(rendered.values, texts=rendered.sections, plotly=packed(plotly_source()))
+def render(rendered: Rendered, page: Page) -> str:
+    """A page as text: figures, pictures and scripts inside, nothing loaded from elsewhere.
+
+    Templates write every link with its page (``evidence.html#checks``); one to the page itself loses it here.
+    """
+    template = page_environment().get_template("page.html.j2")
+    own = {"page": page, "groups": rendered.groups[page], "texts": rendered.sections[page]}
+    text = template.render(rendered.values, **own, plotly=packed(plotly_source()))
+    return text.replace(f'href="{page}.html#', 'href="#')
 
 
 def page_environment() -> jinja2.Environment:
@@ -122,6 +130,7 @@ def page_environment() -> jinja2.Environment:
     environment.filters["power"] = power_of_ten
     environment.filters["largest_by_unit"] = largest_by_unit
     environment.filters["reference"] = displayed_reference
+    environment.filters["plainly"] = plainly
     return environment
 
 
@@ -133,22 +142,33 @@ def _finalized(value: object) -> object:
 def _section_text(
     environment: jinja2.Environment,
     section: Section,
+    page: Page,
     found: Comparison,
     values: Mapping[str, Any],
     lacking: Mapping[str, InputError],
 ) -> str:
     """One section; where a partial curve leaves it without a number or a figure, its title and what is missing."""
-    asked = section.name in found.answers
-    name = f"{section.name}/section.html.j2" if asked else f"section_{section.name}.html.j2"
     try:
         if section.name in lacking:
             raise lacking[section.name]
-        return environment.get_template(name).render(values, results=found.answers.get(section.name))
+        text = environment.get_template(section.template).render(values, results=found.answers.get(section.name))
     except (InputError, jinja2.UndefinedError) as error:
         if not values["provenance"]["partial"]:
             raise
         why = f"Not evaluated, because a curve is partial: {error}"
-        return f'<section id="{section.name}"><h2>{section.title}</h2><p>{for_html(why)}</p></section>'
+        text = f'<section id="{section.name}"><h2>{section.title}</h2><p>{for_html(why)}</p></section>'
+    return _continued(text, section, page) if section.continued else text
+
+
+def _continued(text: str, section: Section, page: Page) -> str:
+    """A section that stands on both pages, with a link to the other part: at its end, or below its title."""
+    other, words = (EVIDENCE, "More: evidence") if page == REPORT else (REPORT, "In short: report")
+    link = f'<p class="more"><a href="{other}.html#{section.name}">{words}, {section.title}</a></p>'
+    if page == REPORT:
+        body, end, _ = text.rpartition("</section>")
+        return f"{body}{link}\n{end}"
+    title, end, body = text.partition("</h2>")
+    return f"{title}{end}\n{link}{body}"
 
 
 def _page_figures(study: Study, found: Comparison, *, partial: bool) -> tuple[dict[str, str], dict[str, InputError]]:

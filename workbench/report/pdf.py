@@ -1,4 +1,4 @@
-"""The report as a document: ``report.pdf``, set by Typst from the sections of the page. The one module that imports it.
+"""The report as a document: ``report.pdf``, set from the report's sections by Typst, which no other module imports.
 
 Nothing is fetched: fonts are Typst's own and matplotlib's DejaVu. Verified by tests/end_to_end/test_report_pdf.py.
 """
@@ -20,6 +20,7 @@ from workbench.charts.printed import draw
 from workbench.charts.still_charts import font_folder
 from workbench.questions.models.agreement import Agreement
 from workbench.report.answers import Answer
+from workbench.report.contents import REPORT
 from workbench.report.document import Node, Tree, read_html
 from workbench.report.opening import Opening
 from workbench.report.page import Rendered
@@ -34,15 +35,15 @@ _DECISION_TONES = {"yes": "pass", "no": "fail", "undecided": "warn"}
 def document_pdf(rendered: Rendered) -> bytes:
     """The document; every figure as vectors, every scene as its still."""
     values = rendered.values
-    trees = {name: read_html(text) for name, text in {**rendered.sections, **rendered.printed}.items()}
+    trees = {name: read_html(text) for name, text in rendered.sections[REPORT].items()}
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
         lead = read_html(values["figures"]["models"])
         draw(lead.figures[_LEAD], folder / "lead.svg", whole_width=True)
         pictured = {name: with_pictures(tree, folder) for name, tree in trees.items()}
         groups = [
-            {"title": g.title, "nodes": [node for s in g.sections for node in pictured.get(s.name, ())]}
-            for g in values["groups"]
+            {"title": g.title, "nodes": [node for s in g.sections for node in pictured[s.name]]}
+            for g in rendered.groups[REPORT]
         ]
         content = _first_page(values["opening"]) | {
             "title": values["study"].title,

@@ -20,6 +20,7 @@ PERCENT_QUANTITIES = (
     "largest difference / load, 5 N at least",
     "grid convergence index",
     "change of load",
+    "part reached",
 )
 """Quantities shown in percent."""
 _ROUND_OFF = 1e-9

@@ -38,6 +38,7 @@ def _figure(name: str, series: TimeSeries, radius: float) -> str:
         yaxis="y2",
         hovertemplate="%{y:.1f} mm",
     )
-    right = {"title": "hub [mm]", "overlaying": "y", "side": "right", "showgrid": False, "zeroline": False}
-    figure.update_layout(yaxis2=right, margin_r=64)
+    title = {"text": "hub [mm]", "font": {"size": 13}, "standoff": 14}
+    right = {"title": title, "overlaying": "y", "side": "right", "showgrid": False, "zeroline": False}
+    figure.update_layout(yaxis2={**right, "tickmode": "auto", "ticks": "outside", "tickcolor": "#9aa0a6"}, margin_r=84)
     return figure_html(figure, f"ancf-{name}")

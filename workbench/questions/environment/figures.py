@@ -20,7 +20,7 @@ def environment_figures(study: Study, results: tuple[Series, ...]) -> dict[str, 
     """Load at each temperature, and its ratio to that at 20 C with what the modulus alone would give."""
     loads = empty_figure()
     ratios = empty_figure(y="load / load at 20 °C")
-    ratios.update_yaxes(rangemode="normal", tickformat=".3f", title_standoff=12)
+    ratios.update_yaxes(rangemode="normal", title_standoff=12)
     ratios.update_layout(margin_l=84)
     colours = iter(ORIENTATION_COLOURS * 4)
     for series in results:

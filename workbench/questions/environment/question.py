@@ -194,4 +194,5 @@ ENVIRONMENT: Question = Question(
     figures=environment_figures,
     curves=_curves,
     applies=lambda study: study.environment is not None,
+    budget=1000,
 )

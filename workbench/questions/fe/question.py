@@ -75,4 +75,5 @@ FE = Question(
     checks=_checks,
     figures=_figures,
     curves=lambda study, results: results.curves,
+    budget=1250,
 )

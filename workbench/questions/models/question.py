@@ -175,4 +175,5 @@ MODELS = Question(
     checks=_checks,
     figures=models_figures,
     curves=_curves,
+    budget=560,
 )

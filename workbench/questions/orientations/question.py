@@ -53,4 +53,5 @@ ORIENTATIONS = Question(
     checks=_checks,
     figures=orientation_figures,
     applies=lambda study: len(study.fe.orientations) >= _FEWEST,
+    budget=650,
 )

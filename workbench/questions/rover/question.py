@@ -19,7 +19,7 @@ from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from workbench.execution.task import Task
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import Drive, read_drive
-from workbench.questions.rover_mission.requirements import MISSION_SOURCE, TITLES, MissionRow, mission_checks
+from workbench.questions.rover_mission.requirements import MISSION_SOURCE, TITLES, MissionRow, mission_checks, tightest
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_brush, rover_on_brush
 from workbench.verdict.rules import Claim, at_least, at_most, near
@@ -72,6 +72,12 @@ class RoverResults:
     def requirements(self) -> list[tuple[str, Outcome]]:
         """The mission's: title of the scenario, outcome with its limit."""
         return [(title, o) for name, title in MISSION.items() for o in self[name].outcomes if o.limit is not None]
+
+    @property
+    def tightest(self) -> list[tuple[str, Sequence[Outcome], Outcome]]:
+        """Of each scenario of the mission that came to its end: title, what has limits, the one that decides."""
+        found = {title: [o for o in self[name].outcomes if o.limit is not None] for name, title in MISSION.items()}
+        return [(title, limited, tightest(limited)) for title, limited in found.items() if limited]
 
     @property
     def stated(self) -> list[tuple[str, Outcome]]:
@@ -194,4 +200,5 @@ ROVER = Question(
     figures=_figures,
     series=_series,
     applies=lambda study: study.rover is not None,
+    budget=1260,
 )

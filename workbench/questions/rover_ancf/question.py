@@ -199,4 +199,5 @@ ROVER_ANCF = Question(
     figures=rover_ancf_figures,
     series=_series,
     applies=lambda study: bool(runs_of(study)) and fits_rover(study),
+    budget=860,
 )

@@ -79,4 +79,5 @@ ROVER_MISSION = Question(
     figures=mission_figures,
     series=_series,
     applies=lambda study: bool(_runs(study)) and ROVER_CROSSCHECK.applies(study),
+    budget=620,
 )

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -16,7 +16,7 @@ from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.questions.rover.drive import Drive
 from workbench.verdict.rules import Claim, at_least, at_most, stated
 
-__all__ = ["MISSION_SOURCE", "TITLES", "MissionRow", "mission_checks", "mission_rows", "plainly"]
+__all__ = ["MISSION_SOURCE", "TITLES", "MissionRow", "mission_checks", "mission_rows", "plainly", "tightest"]
 
 TITLES = {
     "slope_up": "slope of 25 degrees, upwards",
@@ -68,24 +68,52 @@ def mission_rows(driven: Mapping[str, Drive], brush: Mapping[str, Drive]) -> lis
     return rows
 
 
+def tightest(outcomes: Sequence[Outcome]) -> Outcome:
+    """Of one scenario the number that decides: the first that is not met, else the one nearest to its limit.
+
+    A number that stands on its limit because it is counted, six wheels of six, is passed over if there is another.
+    """
+    unmet = [one for one in outcomes if not one.met]
+    open_ = [one for one in outcomes if one.margin] or list(outcomes)
+    return unmet[0] if unmet else min(open_, key=_room)
+
+
+def _room(one: Outcome) -> float:
+    """Margin over the larger of value and limit [-]."""
+    assert one.margin is not None
+    assert one.limit is not None
+    return one.margin / (max(abs(one.value), abs(one.limit)) or 1.0)
+
+
 _FOLDS = re.compile(
     r"a tire folds at t = (?P<time>[-+.\de]+) s.*?: plate \d+ \((?P<part>\w+),.*?\) of wheel (?P<wheel>[\w ]+), "
     r"which carries (?P<load>[.\d]+) N"
 )
 
 
+_STOPS = re.compile(r"(?:stopped|broke down|folds) at (?:t = )?(?P<time>[-+.\de]+) s")
+_REASONS = {"plates fold": "plates fold", "a tire folds": "a tire folds"}
+"""What a message says -> why, in words; that no step converges, else."""
+
+
 def plainly(stopped: str) -> str:
-    """Why a run stopped, for a reader who does not know the solver; its first clause where it is not a tire that folds.
+    """Why a run stopped, for a reader who does not know the solver; its first clause where that is not known.
 
     The sentence is that of `workbench.questions.rover.tire_shapes.TireShapes`. Verified by
     tests/unit/test_workbench_rover_mission.py.
     """
-    found = _FOLDS.search(stopped)
-    if found is None:
-        return f"ended early: {re.split('[;.] ', stopped)[0]}"
-    time = float(found["time"])
-    when = f"stops at {time:.3g} s" if time >= 0.0 else "stops before it sets out"
-    return f"{when}: a {found['part']} of the {found['wheel']} wheel folds at {found['load']} N"
+    folds, stops = _FOLDS.search(stopped), _STOPS.search(stopped)
+    if folds is not None:
+        part, wheel, load = folds["part"], folds["wheel"], folds["load"]
+        return f"{_when(folds['time'])}: a {part} of the {wheel} wheel folds at {load} N"
+    if stops is not None:
+        why = next((words for said, words in _REASONS.items() if said in stopped), "no step converges there")
+        return f"{_when(stops['time'])}: {why}"
+    return f"ended early: {re.split('[;.] ', stopped)[0]}"
+
+
+def _when(time: str) -> str:
+    return f"stops at {float(time):.3g} s" if float(time) >= 0.0 else "stops before it sets out"
 
 
 MISSION_SOURCE = "mission requirements, Samarini 2020, section 1, after Poulakis et al. 2015"

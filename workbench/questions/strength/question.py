@@ -123,5 +123,11 @@ def _checks(study: Study, results: StrengthResults) -> list[Check]:
 
 
 STRENGTH: Question = Question(
-    name="strength", title="Strength", group="Wheel", read=_read, checks=_checks, figures=strength_figures
+    name="strength",
+    title="Strength",
+    group="Wheel",
+    read=_read,
+    checks=_checks,
+    figures=strength_figures,
+    budget=740,
 )

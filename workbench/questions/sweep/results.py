@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -54,10 +54,19 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reference:
-    """The curve that others are held against, and what it is called."""
+    """The curve that others are held against, what it is called, and what it is the mean of, by orientation [deg]."""
 
     label: str
     curve: StiffnessCurve
+    by_orientation: Mapping[float, StiffnessCurve] = field(default_factory=dict)
+
+    def beside(self, outcome: Outcome) -> Reference:
+        """For an outcome at one orientation alone the curve at that one, not the mean, if there is such a curve."""
+        (only, *more) = outcome.by_orientation or (None,)
+        at = None if only is None or more else only.orientation_deg
+        if at is None or len(self.by_orientation) < 2 or at not in self.by_orientation:
+            return self
+        return Reference(label=f"{self.label}, {at:g} deg", curve=self.by_orientation[at])
 
 
 def outcomes(graph: SweepGraph, entries: Mapping[str, Entry], failures: Mapping[str, str]) -> list[Outcome]:
@@ -111,8 +120,17 @@ def references(study: Study, folder: Path, found: Sequence[Outcome]) -> dict[str
         own = Reference(label=section.label, curve=read_measured_curve(Path(section.file)).curve)
         return dict.fromkeys(models, own)
     label = "the study as it is"
-    base = {o.run.model: o.curve for o in found if o.run.point.number == 0}
-    return {m: Reference(label=label, curve=c) for m, c in base.items() if c is not None and not c.unloaded}
+    base = {o.run.model: o for o in found if o.run.point.number == 0}
+    return {
+        model: Reference(label=label, curve=one.curve, by_orientation=_loaded(one))
+        for model, one in base.items()
+        if one.curve is not None and not one.curve.unloaded
+    }
+
+
+def _loaded(outcome: Outcome) -> dict[float, StiffnessCurve]:
+    """Its curves that carry a load, by orientation [deg]."""
+    return {c.orientation_deg: c for c in outcome.by_orientation if c.orientation_deg is not None and not c.unloaded}
 
 
 def own_curves(study: Study) -> dict[str, StiffnessCurve]:
@@ -137,7 +155,8 @@ def measured(
     outcome : one model at one point
     section : deflections [m] and loads [N] at which the curve is read
     up_to : range of the initial tangent [m]
-    reference : what the curve is held against over the range both have, up to the largest of the section's loads
+    reference : what the curve is held against over the range both have, up to the largest of the section's loads; of a
+        mean over orientations, an outcome at one of them is held against the curve at that one
     followed : curves that some orientation may follow between the section's loads, by a name for their column
     """
     curve = outcome.curve if outcome.curve is not None and not outcome.curve.unloaded else None
@@ -158,12 +177,12 @@ def measured(
     for name, own in (followed or {}).items():
         loads = min(section.loads), max(section.loads)
         found[f"follows_{name}"] = nearest_orientation(outcome.by_orientation, own, loads)
-    metrics = None
-    if reference is not None:
-        metrics = _or_none(curve, lambda c: compare_curves(c, reference.curve, max(section.loads)))
+    metrics, beside = None, None if reference is None else reference.beside(outcome)
+    if beside is not None:
+        metrics = _or_none(curve, lambda c: compare_curves(c, beside.curve, max(section.loads)))
     found["relative_l2"] = None if metrics is None else metrics.relative_l2
     found["iso_rating"] = None if metrics is None else metrics.iso_rating
-    found["held_against"] = None if metrics is None or reference is None else reference.label
+    found["held_against"] = None if metrics is None or beside is None else beside.label
     return found
 
 

@@ -127,5 +127,12 @@ def _figures(study: Study, results: WheelMeshes) -> Mapping[str, str]:
 
 
 WHEEL = Question(
-    name="wheel", title="Wheel", group="Wheel", tasks=wheel_meshes, read=read_wheel, checks=_checks, figures=_figures
+    name="wheel",
+    title="Wheel",
+    group="Wheel",
+    tasks=wheel_meshes,
+    read=read_wheel,
+    checks=_checks,
+    figures=_figures,
+    budget=760,
 )

@@ -13,7 +13,7 @@ function drawPlot(box, Plotly) {
   delete spec.layout.height;
   if (narrow()) {
     spec.layout.font = { ...spec.layout.font, size: 11 };
-    spec.layout.margin = { ...spec.layout.margin, l: 52, r: spec.layout.yaxis2 ? 52 : 8 };
+    spec.layout.margin = { ...spec.layout.margin, l: 52, r: spec.layout.yaxis2 ? 68 : 8 };
   }
   if (byFinger) spec.layout.dragmode = false;
   spec.layout.showlegend = false;

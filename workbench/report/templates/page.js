@@ -52,9 +52,12 @@ function applyFilter(kind) {
   });
   filter.querySelector("[role=status]").textContent = words.length || classes.length ? `${shown} shown` : "";
 }
-filter.querySelector("input").addEventListener("input", () => applyFilter());
-filter.querySelectorAll("button").forEach((b) => b.addEventListener("click", () => applyFilter(b.dataset.filter)));
-document.querySelectorAll(".counts a").forEach((a) => a.addEventListener("click", () => applyFilter(a.dataset.filter)));
+if (filter) {
+  filter.querySelector("input").addEventListener("input", () => applyFilter());
+  filter.querySelectorAll("button").forEach((b) => b.addEventListener("click", () => applyFilter(b.dataset.filter)));
+  const shown = new URLSearchParams(location.search).get("show");
+  if (shown) applyFilter(shown);
+}
 function openTarget() {
   const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
   const fold = target && target.closest("details");
