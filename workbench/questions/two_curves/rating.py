@@ -14,7 +14,8 @@ def iso_18571_rating(signal: NDArray[np.float64], reference: NDArray[np.float64]
     """ISO/TS 18571 overall rating of two equally sampled signals, 1 is best [-].
 
     The standard is written for time signals; deflection takes the place of time, which changes no part of the
-    rating, because each part is relative. It can rank the worse of two models higher, so that no check rests on it. The library takes seconds to import: nothing else may import this.
+    rating, because each part is relative. It can rank the worse of two models higher, so that no check rests on it. The
+    library takes seconds to import: nothing else may import this.
 
     Parameters
     ----------
