@@ -13,11 +13,12 @@ from workbench.questions.fe.checks import (
     band_checks,
     circumferential_tangent_check,
     overlap_checks,
+    parts_overlap_check,
     reach_check,
     spread_checks,
 )
 from workbench.questions.fe.graph import fe_curve_tasks
-from workbench.questions.fe.results import ContinuumCurves, read_continuum
+from workbench.questions.fe.results import OVERLAP, ContinuumCurves, read_continuum
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.wheel.graph import MESH, MESH_WHOLE
@@ -41,7 +42,11 @@ def _tasks(study: Study) -> Sequence[Task]:
         needs=(MESH_WHOLE, MESH, curves[0].name),
         cost=10.0,
     )
-    return [*curves, pictures]
+    if not study.fe.keep_points:
+        return [*curves, pictures]
+    needs = (MESH, *(curve.name for curve in curves))
+    function = "workbench.questions.fe.overlap_task:measure"
+    return [*curves, pictures, Task(name=OVERLAP, function=function, inputs={"mesh": MESH}, needs=needs, cost=5.0)]
 
 
 def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
@@ -49,6 +54,8 @@ def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
     checks = [] if study.reference is None else band_checks(fe, study.reference, tolerances, around(study))
     checks += [reach_check(fe, tolerances)] if tolerances.asks_for_reach else []
     checks += spread_checks(fe, tolerances, study.judged_deflection)
+    if results.overlaps is not None:
+        checks.append(parts_overlap_check(results.overlaps, inner_contact=study.fe.inner_contact))
     checks += overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.judged_load)
     if study.reference is not None:
         checks.append(circumferential_tangent_check(fe, study.reference, tolerances, around(study)))
