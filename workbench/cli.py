@@ -269,11 +269,15 @@ def compare(
     out: Annotated[
         Path | None, typer.Option(help="Folder of an interactive page, a PNG, JSON and CSV.", show_default=False)
     ] = None,
+    rating: Annotated[
+        str | None,
+        typer.Option(help="iso18571: with the rating of ISO/TS 18571, some seconds more.", show_default=False),
+    ] = None,
 ) -> None:
     """Compare two curves from anywhere: metrics, tangents, energy, a verdict. Exit status 1: failed or undecided."""
     from workbench.commands.compare import CompareChoices, run_compare
 
-    choices = CompareChoices(max_load=max_load, uncertainty=uncertainty, tolerance=tolerance, out=out)
+    choices = CompareChoices(max_load=max_load, uncertainty=uncertainty, tolerance=tolerance, out=out, rating=rating)
     raise typer.Exit(run_compare(curve, reference, choices))
 
 

@@ -36,8 +36,19 @@ def test_two_curves_from_anywhere(tmp_path: Path) -> None:
     (tmp_path / "b.csv").write_text("deflection_m,load_N,note\n0,0,1\n0.03,250,2\n", encoding="utf-8")
     ended = run("compare", tmp_path / "a.csv", tmp_path / "b.csv")
     assert ended.returncode == 0, ended.stderr
-    for text in ("10.000 %", "25.000 N", "ISO/TS 18571", "0.8333 N/mm", "energy to 250 N", "-9.09 %"):
+    for text in ("10.000 %", "25.000 N", "0.8333 N/mm", "energy to 250 N", "-9.09 %"):
         assert text in ended.stdout
+    assert "ISO" not in ended.stdout
+
+
+def test_a_rating_for_who_asks(files: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    both, out = list(map(str, files)), tmp_path / "out"
+    assert _run(["compare", *both, "--rating", "iso18571", "--out", str(out)]) == 0
+    assert "ISO/TS 18571 rating" in capsys.readouterr().out
+    found = json.loads((out / "compare.json").read_text(encoding="utf-8"))
+    assert 0.5 < found["metrics"]["iso_rating"] < 1.0
+    assert _run(["compare", *both, "--rating", "iso9999"]) == 2
+    assert "rating = iso9999: must be iso18571" in capsys.readouterr().err
 
 
 def test_a_curve_of_metres_is_told(files: tuple[Path, Path], tmp_path: Path) -> None:

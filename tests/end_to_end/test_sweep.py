@@ -71,7 +71,6 @@ def test_thicker_strips_are_stiffer_and_the_base_agrees_with_itself(
         ratio = float(tangent["0.65", orientation]) / float(tangent["0.55", orientation])
         assert 2.5 < (ratio - 1.0) / (0.65 / 0.55 - 1.0) < 4.5
     assert float(rows[0]["relative_l2"]) == 0.0
-    assert float(rows[0]["iso_rating"]) == pytest.approx(1.0)
     assert all(len(key) == 64 for row in rows for key in row["task_key"].split())
 
 

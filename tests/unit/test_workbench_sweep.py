@@ -147,7 +147,7 @@ def test_csv_and_parquet_hold_the_same(made: tuple[SweepTable, list[Outcome], Sw
     assert tuple(parquet.column_names) == table.names
     assert [tuple(row.values()) for row in parquet.to_pylist()] == list(table.rows)
     assert str(parquet.schema.field("point").type) == "int64"
-    assert str(parquet.schema.field("iso_rating").type) == "double"
+    assert str(parquet.schema.field("relative_l2").type) == "double"
     header, *rows = csv.reader(io.StringIO(table.csv()))
     assert tuple(header) == table.names
     for row, cells in zip(rows, table.rows, strict=True):

@@ -25,6 +25,7 @@ from geometry.build import build_mesh
 from geometry.parts import HubRing
 from geometry.wheel import exomars_hoops
 from reference_fe.contact.inner import ContactPair, InnerContact
+from reference_fe.contact.parts_overlap import PartsOverlap
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.problem.supports import Support, Traction
@@ -183,13 +184,16 @@ def test_a_wheel_stiffens_where_it_bottoms_out_on_its_hub() -> None:
 def test_springs_and_rim_hold_each_other_off() -> None:
     """At 15 degrees the springs meet the rim at about 10 mm; without contact they pass into it (negative control)."""
     mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible")
-    curves = {}
+    curves, overlap = {}, {}
     for on in (True, False):
-        case = WheelLoadCase(orientation_deg=15.0, deflections=(10e-3, 22e-3), inner_contact=on)
-        curves[on] = solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case).curve
+        case = WheelLoadCase(orientation_deg=15.0, deflections=(10e-3, 22e-3), inner_contact=on, keep_points=True)
+        result = solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
+        curves[on], overlap[on] = result.curve, PartsOverlap(mesh).deepest(result.points[-1].displacement)
     gap = {on: curve.columns["spring_rim_gap_m"][-1] for on, curve in curves.items()}
     assert -20e-6 < gap[True] < 0.0
     assert gap[False] < -0.2e-3
+    assert overlap[True].depth < 50e-6 < 0.2e-3 < overlap[False].depth  # by the gate's search in the shape alone
+    assert "tire" in overlap[False].parts
     assert curves[True].columns["inner_penetration_m"][-1] < 20e-6
     assert curves[True].load[-1] > 1.01 * curves[False].load[-1]
     assert curves[True].columns["force_imbalance"][-1] < 1e-6

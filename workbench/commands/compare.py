@@ -24,6 +24,7 @@ __all__ = ["CompareChoices", "run_compare"]
 
 _FINEST = 1e-9
 _LEAST_LOAD = 0.01
+_RATINGS = ("iso18571",)
 _FILES = ("compare.html", "compare.png", "compare.csv", "compare.json")
 
 
@@ -37,12 +38,14 @@ class CompareChoices:
     uncertainty : of the reference's load, ``"3 %"`` or ``"5 N"``, instead of what its file states
     tolerance : largest relative L2 difference allowed, ``"5 %"``
     out : folder of the page, the picture and the numbers, or None for none
+    rating : ``"iso18571"`` for the rating of ISO/TS 18571, which takes seconds to import; None for none
     """
 
     max_load: str | None = None
     uncertainty: str | None = None
     tolerance: str | None = None
     out: Path | None = None
+    rating: str | None = None
 
 
 def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices) -> int:
@@ -57,6 +60,8 @@ def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices)
 
     max_load = None if choices.max_load is None else _max_load(choices.max_load)
     tolerance = None if choices.tolerance is None else _tolerance(choices.tolerance)
+    if choices.rating not in (None, *_RATINGS):
+        raise InputError("rating", choices.rating, f"must be {' or '.join(_RATINGS)}", "leave it out for none")
     if choices.out is not None:
         check_folder(choices.out)
         check_targets(choices.out, _FILES)
@@ -68,11 +73,20 @@ def run_compare(curve_path: Path, reference_path: Path, choices: CompareChoices)
         reference = replace(reference, uncertainty=stated)
     if max_load is not None:
         _require_in_sight(max_load, reference)
-    pair = compared(curve, reference, max_load, tolerance)
+    pair = _rated(compared(curve, reference, max_load, tolerance), choices.rating)
     _print(pair, f"{curve_path.name} against {reference_path.name}")
     if choices.out is not None:
         _write(pair, choices.out)
     return 0 if pair.judgement.outcome in ("passed", "not judged") else 1
+
+
+def _rated(pair: CurvePair, rating: str | None) -> CurvePair:
+    """The pair with the rating asked for."""
+    if rating is None:
+        return pair
+    from workbench.questions.two_curves.rating import iso_18571_rating
+
+    return replace(pair, iso_rating=iso_18571_rating(pair.samples.load, pair.samples.reference))
 
 
 def _tolerance(text: str) -> float:

@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_compared_page.py.
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from string import Template
@@ -70,18 +71,22 @@ def compared_rows(pair: CurvePair) -> list[Row]:
                 difference=_percent(energies.work - energies.reference, energies.reference),
             )
         )
-    rating = "not defined" if m.iso_rating is None else f"{m.iso_rating:.4f}"
-    return [*rows, Row(quantity="ISO/TS 18571 rating", difference=rating)]
+    if pair.iso_rating is not None:
+        rating = "not defined" if math.isnan(pair.iso_rating) else f"{pair.iso_rating:.4f}"
+        rows.append(Row(quantity="ISO/TS 18571 rating", difference=rating))
+    return rows
 
 
 def compared_values(pair: CurvePair) -> dict[str, Any]:
-    """``compare.json``, schema 1; SI throughout."""
+    """``compare.json``, schema 1; SI throughout. ``iso_rating`` is there if it was asked for, null if not defined."""
+    asked = pair.iso_rating
+    rating = {} if asked is None else {"iso_rating": None if math.isnan(asked) else asked}
     return {
         "schema": 1,
         "curve": {"name": pair.curve.curve.model, "source": pair.curve.curve.source},
         "reference": {"name": pair.reference.curve.model, "source": pair.reference.curve.source},
         "deformation": pair.reference.kind,
-        "metrics": pair.metrics.as_dict(),
+        "metrics": pair.metrics.as_dict() | rating,
         "tangents": asdict(pair.tangents),
         "energies": None if pair.energies is None else asdict(pair.energies),
         "judgement": asdict(pair.judgement),

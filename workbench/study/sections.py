@@ -211,8 +211,6 @@ class ToleranceSection(Section):
     """Planar against solid model, relative [-]."""
     model_agreement: Annotated[Number, Positive] = 0.10
     """ANCF, brush and the curves of [reference] against FE: relative L2 difference [-]."""
-    iso_rating: Annotated[Number, Positive] = 0.80
-    """ISO/TS 18571 rating, at least [-]."""
     orientation_spread: Annotated[Number, Positive] = 0.50
     """(Largest - smallest) / mean load over the orientations [-]."""
 

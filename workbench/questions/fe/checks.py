@@ -6,6 +6,7 @@ Verified by tests/unit/test_workbench_checks.py and tests/unit/test_workbench_li
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
@@ -13,12 +14,13 @@ import numpy as np
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check, Role
+from workbench.questions.fe.results import PartsDepth
 from workbench.questions.model_curves import ModelCurves
 from workbench.questions.models.metrics import largest_spread
 from workbench.study.sections import ToleranceSection
 from workbench.verdict.rules import Claim, at_least, at_most
 
-__all__ = ["overlap_checks", "reach_check", "spread_checks"]
+__all__ = ["overlap_checks", "parts_overlap_check", "reach_check", "spread_checks"]
 
 _SWEEP = "Samarini 2020, section 3.2 and Fig. 20: 160 to 250 N on a wheel; the room beyond is ours"
 _SPREAD_AT = (0.005, 0.020, 0.030)
@@ -101,6 +103,24 @@ def overlap_checks(fe: ModelCurves, *, inner_contact: bool, up_to: float = math.
         )
         for load in dict.fromkeys(min(load, up_to) for load in _LOADS)
     ]
+
+
+def parts_overlap_check(found: Mapping[str, PartsDepth], *, inner_contact: bool) -> Check:
+    """Deepest overlap of any two parts at any curve's last point, searched for in the deformed shape alone.
+
+    A gate where contact holds the parts off.
+    """
+    worst = max(found.values(), key=lambda one: one.depth, default=None)
+    where = "" if worst is None or worst.depth == 0.0 else f" ({' in '.join(worst.parts)}, {worst.load:.0f} N)"
+    claim = Claim(
+        id="fe.parts_overlap",
+        title=f"FE: deepest overlap of any two parts at any curve's last point{where}",
+        quantity="overlap",
+        unit="m",
+        role="gate" if inner_contact else "finding",
+        source="none should: what is left is the penalty's penetration; the limit is ours",
+    )
+    return at_most(claim, lambda: math.nan if worst is None else worst.depth, _OVERLAP_ALLOWED)
 
 
 def _largest_overlap(curves: list[StiffnessCurve], load: float) -> float:

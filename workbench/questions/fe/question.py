@@ -9,10 +9,10 @@ from collections.abc import Mapping, Sequence
 
 from contracts.records import Check
 from workbench.execution.task import Task
-from workbench.questions.fe.checks import overlap_checks, reach_check, spread_checks
+from workbench.questions.fe.checks import overlap_checks, parts_overlap_check, reach_check, spread_checks
 from workbench.questions.fe.graph import fe_curve_tasks
 from workbench.questions.fe.reference_checks import reference_checks
-from workbench.questions.fe.results import ContinuumCurves, read_continuum
+from workbench.questions.fe.results import OVERLAP, ContinuumCurves, read_continuum
 from workbench.questions.question import Question
 from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.wheel.graph import MESH, MESH_WHOLE
@@ -36,16 +36,22 @@ def _tasks(study: Study) -> Sequence[Task]:
         needs=(MESH_WHOLE, MESH, curves[0].name),
         cost=10.0,
     )
-    return [*curves, pictures]
+    if not study.fe.keep_points:
+        return [*curves, pictures]
+    needs = (MESH, *(curve.name for curve in curves))
+    function = "workbench.questions.fe.overlap_task:measure"
+    return [*curves, pictures, Task(name=OVERLAP, function=function, inputs={"mesh": MESH}, needs=needs, cost=5.0)]
 
 
 def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
     tolerances, fe = study.tolerances, results.fe
-    checks = []
+    checks: list[Check] = []
     if study.reference is not None:
         checks += reference_checks(fe, study.reference, tolerances, around(study), results.mesh_study)
     checks += [reach_check(fe, tolerances)] if study.asks_for_reach else []
     checks += spread_checks(fe, tolerances, study.judged_deflection, of_the_thesis=study.of_the_thesis)
+    if results.overlaps is not None:
+        checks.append(parts_overlap_check(results.overlaps, inner_contact=study.fe.inner_contact))
     checks += overlap_checks(fe, inner_contact=study.fe.inner_contact, up_to=study.judged_load)
     return checks
 

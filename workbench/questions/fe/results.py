@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
+from workbench.execution.result_files import read_result
 from workbench.questions.mesh_study.question import mesh_study_of
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves
@@ -16,7 +17,20 @@ from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
 from workbench.study.reference_file import stated_uncertainty
 
-__all__ = ["ContinuumCurves", "read_continuum", "user_curves"]
+__all__ = ["OVERLAP", "ContinuumCurves", "PartsDepth", "read_continuum", "user_curves"]
+
+
+OVERLAP = "parts_overlap"
+"""Task that measures how deep parts lie in one another."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PartsDepth:
+    """Load of a curve's last point [N], the deepest overlap of two parts there [m], and their names."""
+
+    load: float
+    depth: float
+    parts: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,6 +44,7 @@ class ContinuumCurves:
     users : the curves of the study's reference
     mesh_folder, solved : where the mesh lies, and the fields of each orientation [deg]
     picture : still of the deformed wheel; None if no orientation came to its load
+    overlaps : deepest overlap of any two parts at each curve's last point; None where its fields are not kept
     """
 
     fe: ModelCurves
@@ -38,6 +53,7 @@ class ContinuumCurves:
     mesh_folder: Path
     solved: Mapping[float, Path]
     picture: Path | None
+    overlaps: Mapping[str, PartsDepth] | None = None
 
     @property
     def curves(self) -> list[StiffnessCurve]:
@@ -56,7 +72,16 @@ def read_continuum(study: Study, folders: Mapping[str, Path]) -> ContinuumCurves
         mesh_folder=folders[MESH],
         solved={o: folders[orientation_name("fe", o)] for o in fe.by_orientation},
         picture=next(iter(sorted(folders["pictures"].glob("deformed_*N.png"))), None),
+        overlaps=_overlaps(folders[OVERLAP]) if OVERLAP in folders else None,
     )
+
+
+def _overlaps(folder: Path) -> dict[str, PartsDepth]:
+    found = read_result(folder)
+    return {
+        name: PartsDepth(load=row["load_N"], depth=row["depth"], parts=tuple(row["parts"]))
+        for name, row in found.items()
+    }
 
 
 def user_curves(study: Study, folder: Path) -> tuple[UserCurve, ...]:

@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 
-__all__ = ["CurveMetrics", "compare_curves", "iso_18571_rating", "largest_spread"]
+__all__ = ["CurveMetrics", "compare_curves", "largest_spread"]
 
 _SAMPLES = 401
 _LARGEST_LOAD = 1e12
@@ -28,8 +27,6 @@ class CurveMetrics:
     max_error_at : where it lies [m]
     tangent, tangent_reference : mean slope over the range, least squares with free intercept [N/m]
     reference_load : largest load of the reference over the range [N]
-    iso_rating : ISO/TS 18571 overall rating, 1 is best [-], or None where it is not defined; its phase part says
-        little for a nearly straight curve
 
     Verified by tests/unit/test_workbench_metrics.py.
     """
@@ -42,9 +39,8 @@ class CurveMetrics:
     tangent: float
     tangent_reference: float
     reference_load: float
-    iso_rating: float | None
 
-    def as_dict(self) -> dict[str, float | None]:
+    def as_dict(self) -> dict[str, float]:
         """The numbers by name, for JSON."""
         return asdict(self)
 
@@ -91,32 +87,7 @@ def compare_curves(curve: StiffnessCurve, reference: StiffnessCurve, max_load: f
         tangent=float(np.polyfit(d, f, 1)[0]),
         tangent_reference=float(np.polyfit(d, f_ref, 1)[0]),
         reference_load=float(f_ref.max()),
-        iso_rating=iso_18571_rating(f, f_ref),
     )
-
-
-def iso_18571_rating(signal: NDArray[np.float64], reference: NDArray[np.float64]) -> float | None:
-    """ISO/TS 18571 overall rating of two equally sampled signals.
-
-    The standard is written for time signals; deflection takes the place of time, which changes no part of the
-    rating, because each part is relative. (n,) float each, same unit. None where it is not defined: its parts divide
-    by the variation of both signals, so that a constant one has no rating.
-    """
-    if any(float(np.ptp(values)) <= 1e-9 * float(np.abs(values).max()) for values in (signal, reference)):
-        return None
-    import numba
-
-    jit_was_off = numba.config.DISABLE_JIT  # type: ignore[attr-defined]
-    numba.config.DISABLE_JIT = True  # type: ignore[attr-defined]  # compiling its loop takes longer than running it
-    try:
-        from objective_rating_metrics.rating import ISO18571  # type: ignore[import-untyped]
-    finally:
-        numba.config.DISABLE_JIT = jit_was_off  # type: ignore[attr-defined]
-    axis = np.arange(len(signal)) * 1e-4
-    pair = (np.column_stack([axis, values]) for values in (reference, signal))
-    with np.errstate(all="ignore"):
-        rating = float(ISO18571(*pair, dt=1e-4).overall_rating(ndigits=-1))
-    return rating if np.isfinite(rating) else None
 
 
 def largest_spread(curves: list[StiffnessCurve], deflection: float) -> float:

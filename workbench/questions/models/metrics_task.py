@@ -57,5 +57,5 @@ def _counterpart(fe: ModelCurves, orientation_deg: float | None) -> StiffnessCur
     return fe.by_orientation[orientation_deg]
 
 
-def _distance(pair: tuple[StiffnessCurve, StiffnessCurve], max_load: float) -> dict[str, float | None]:
+def _distance(pair: tuple[StiffnessCurve, StiffnessCurve], max_load: float) -> dict[str, float]:
     return compare_curves(*pair, max_load=max_load).as_dict()

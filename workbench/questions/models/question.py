@@ -28,7 +28,7 @@ from workbench.questions.models.results import ComparedModels
 from workbench.questions.question import Question
 from workbench.study.model import Study
 from workbench.study.sections import ToleranceSection
-from workbench.verdict.rules import Claim, at_least, at_most, near
+from workbench.verdict.rules import Claim, at_most, near
 
 __all__ = ["MODELS", "agreement_checks", "read_models", "user_checks"]
 
@@ -54,7 +54,6 @@ _UNKNOWN = CurveMetrics(
     tangent=math.nan,
     tangent_reference=0.0,
     reference_load=0.0,
-    iso_rating=None,
 )
 """Distances from an FE average that does not exist."""
 
@@ -84,11 +83,6 @@ def agreement_checks(
             ancf.tangent_reference,
             agree,
         ),
-        at_least(
-            _agreement_claim(ancf, "ancf_vs_fe.iso_18571", f"{against}: ISO/TS 18571 rating", "rating"),
-            partial(_rating, ancf),
-            tolerances.iso_rating,
-        ),
         at_most(
             _agreement_claim(
                 brush, "brush_vs_fe.relative_l2", "Brush line against FE average", "relative L2 difference"
@@ -112,12 +106,6 @@ def _agreement_claim(numbers: CurveMetrics, id: str, title: str, quantity: str, 
         title += f", {numbers.start * 1e3:.1f} to {numbers.end * 1e3:.1f} mm"
         source = f"comparison where the FE average carries up to {numbers.reference_load:.4g} N; the limit is ours"
     return Claim(id=id, title=title, quantity=quantity, unit=unit, role="finding", source=source)
-
-
-def _rating(numbers: CurveMetrics) -> float:
-    if numbers.iso_rating is None:
-        raise InputError("rating", "not defined", "needs curves that vary", "check the curves")
-    return numbers.iso_rating
 
 
 def user_checks(

@@ -181,7 +181,6 @@ def measured(
     if beside is not None:
         metrics = _or_none(curve, lambda c: compare_curves(c, beside.curve, max(section.loads)))
     found["relative_l2"] = None if metrics is None else metrics.relative_l2
-    found["iso_rating"] = None if metrics is None else metrics.iso_rating
     found["held_against"] = None if metrics is None or beside is None else beside.label
     return found
 

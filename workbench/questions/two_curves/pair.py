@@ -85,7 +85,10 @@ class Judgement:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CurvePair:
-    """Everything found about a curve and its reference; ``energies`` is None if they share no range of load."""
+    """Everything found about a curve and its reference.
+
+    ``energies`` is None if they share no range of load; ``iso_rating`` if nobody asked, NaN if it is not defined.
+    """
 
     curve: MeasuredCurve
     reference: MeasuredCurve
@@ -94,6 +97,7 @@ class CurvePair:
     tangents: TangentDifference
     energies: Energies | None
     judgement: Judgement
+    iso_rating: float | None = None
 
 
 def compared(

@@ -98,5 +98,5 @@ VALIDATION = Question(
     group="Solvers",
     read=_read,
     checks=_checks,
-    applies=lambda study: study.tolerances.reference_wheel and bool(_files(study)),
+    applies=lambda study: study.of_the_thesis and bool(_files(study)),
 )

@@ -105,10 +105,10 @@ def _ring(numbers: Numbers) -> Benchmark:
 def _hertz(numbers: Numbers) -> Benchmark:
     rules = Rules(name="hertz", title="Hertz line contact", source="Johnson 1985, eqs. 4.43 and 4.45")
     lines = [
-        rules.near("half_width", "half width of the contact", "m", numbers["half_width_m"], 0.03),
-        rules.near("peak_pressure", "peak pressure", "Pa", numbers["peak_pressure_Pa"], 0.03),
+        rules.near("half_width", "half width of the contact, worst of 4 meshes", "m", numbers["half_width_m"], 0.01),
+        rules.near("peak_pressure", "peak pressure, worst of 4 meshes", "Pa", numbers["peak_pressure_Pa"], 0.01),
     ]
-    return rules.benchmark(numbers, lines, rules.caught("radius 20 % larger: half width", numbers, 0.05))
+    return rules.benchmark(numbers, lines, rules.caught("radius 20 % larger: half width", numbers, 0.085))
 
 
 def _sliding_block(numbers: Numbers) -> Benchmark:

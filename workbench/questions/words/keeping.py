@@ -32,7 +32,7 @@ __all__ = ["keep", "kept_record"]
 
 NEAREST = 10
 """Wheels that are kept where none satisfies every aim."""
-_DROPPED = ("model", "wall_time_s", "task_key", "held_against", "relative_l2", "iso_rating")
+_DROPPED = ("model", "wall_time_s", "task_key", "held_against", "relative_l2")
 _DIGITS = 6
 SPREAD = "spread_at_20mm"
 ANNEALED, AGED = 880e6, 1100e6
