@@ -79,7 +79,7 @@ def test_without_a_fit_there_is_no_motion_and_it_says_why(tmp_path: Path) -> Non
 def test_what_is_met_and_what_is_not(mission: Mission) -> None:
     checks = ROVER_MISSION.checks(STUDY, mission)
     assert [check.status for check in checks] == ["pass", "undecided"]
-    assert checks[1].title.endswith("step of 0.25 m: ended early: a tire folds at t = 20.3 s")
+    assert checks[1].title.endswith("step of 0.25 m: stops at 20.3 s: a tire folds")
     assert [check.id for check in checks] == ["rover_mission.slope_up", "rover_mission.step"]
     assert {check.role for check in checks} == {"finding"}
 
