@@ -130,5 +130,6 @@ INPUT_UNCERTAINTY: Question = Question(
     checks=_checks,
     figures=_figures,
     curves=_curves,
+    budget=1000,
     applies=lambda study: study.input_uncertainty is not None and without_planar_model(study) is None,
 )
