@@ -1,8 +1,8 @@
 """Claim: CalculiX finds our load on our mesh, and the comparison sees a wrong modulus.
 
 Source: CalculiX 2.20, C3D20R on the hexahedra of the built-in study's own mesh, half a wheel between two grousers.
-Tolerance 1 %, that of the report's finding: theirs has 20 nodes an element where ours has 27. Negative control: a
-modulus 3 % off. At 10 mm no spring touches the rim; contact of springs and rim is left out to keep it short.
+Tolerance 1 %, that of the report's finding: theirs has 20 nodes an element where ours has 27. Negative control: modulus
+3 % off. At 10 mm no spring touches the rim; contact of springs and rim is left out to keep it short.
 """
 
 from __future__ import annotations
