@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,11 +15,9 @@ from geometry.measures import MeshQuality
 from workbench.questions.ancf.preset_table import preset_table
 from workbench.questions.ancf.question import ancf_checks, preset_error
 from workbench.questions.fe.checks import band_checks, reach_check, spread_checks
-from workbench.questions.mesh_study.results import MeshRun
 from workbench.questions.model_curves import ModelCurves, RunNumbers, UserCurve
 from workbench.questions.models.metrics import CurveMetrics
 from workbench.questions.models.question import agreement_checks, user_checks
-from workbench.questions.numerics.question import solver_checks
 from workbench.questions.strength.question import yield_check
 from workbench.questions.wheel.question import MeshNumbers, mesh_checks
 from workbench.study.model import thesis_band
@@ -78,30 +75,6 @@ def test_the_slope_may_be_that_of_some_orientations() -> None:
     assert two.value == pytest.approx(8300.0, rel=0.01)
     assert (two.status, every.status) == ("pass", "fail")
     assert "of 0, 1 degrees alone" in two.title
-
-
-def _fine(residual: float, imbalance: float) -> MeshRun:
-    record = IncrementRecord(target=0.02, step=0.01, converged=True, residuals=(1.0, residual))
-    curve = _fe_curve(0.0, 8700.0, force_imbalance=imbalance)
-    return MeshRun(factor=2.0, curve=curve, numbers=RunNumbers(increments=(record,)))
-
-
-@pytest.mark.parametrize(
-    ("damage", "failing"),
-    [
-        ({}, set()),
-        ({"residual": 2e-8}, {"fe.residual"}),
-        ({"force_imbalance": 2e-6}, {"fe.balance"}),
-        ({"moment_imbalance": 2e-6}, {"fe.moment_balance"}),
-        ({"fine_residual": 2e-8}, {"fe.residual"}),
-        ({"fine_imbalance": 2e-6}, {"fe.balance"}),
-    ],
-)
-def test_solver_checks_catch_each_damage(damage: dict[str, Any], failing: set[str]) -> None:
-    fine = _fine(damage.pop("fine_residual", 1e-9), damage.pop("fine_imbalance", 1e-9))
-    checks = _by_id(solver_checks(_fe(**damage), [fine], TOLERANCES))
-    assert {c.id for c in checks.values() if c.status == "fail"} == failing
-    assert {c.role for c in checks.values()} == {"gate"}
 
 
 def test_reach_fails_for_a_run_that_stopped_early() -> None:
