@@ -36,7 +36,7 @@ MADE_BY = {
 
 def _evidence(study: Study, made_by: dict[str, str]) -> dict[str, Evidence]:
     def check(id: str) -> Any:
-        claim = Claim(id=id, title="Mesh, 15 deg: mass", quantity="run", unit="-", role="gate", source="s")
+        claim = Claim(id=id, title="Mesh, 15 deg: mass", quantity="run", unit="-", role="finding", source="s")
         return at_most(claim, lambda: 1.0, 2.0)
 
     found = SimpleNamespace(checks=[check(id) for id in made_by], question_of=made_by)

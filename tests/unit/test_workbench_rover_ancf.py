@@ -67,7 +67,7 @@ def _account() -> dict[str, Any]:
     time = np.linspace(0.0, 2.0, 41)
     table = np.zeros((41, 9))
     table[:, 0], table[:, 1], table[:, 6], table[:, 8] = time, 20.0 * time, 30.0 * time, 50.0 * time
-    return {"account": table, "closures": {"energy": 5e-5, "momentum": 2e-5}}
+    return {"account": table, "closures": {"energy": 1e-4, "momentum": 2e-5}}
 
 
 @pytest.fixture(scope="module")
