@@ -23,8 +23,9 @@ __all__ = ["document", "main", "rows_of", "written_list"]
 _HEAD = """# Evidence
 
 What each check of the shipped report claims, which tests hold the rule or the model behind it, its last value, and of a
-gate the test in which a damaged model or number was seen to fail; made by `make evidence` from a report's `summary.json`. The words are data, `workbench/questions/*/statements.toml`. Why each
-tolerance is what it is, and the tasks and files behind each value, are in the report's section "Evidence".
+gate the test in which a damaged model or number was seen to fail; made by `make evidence` from a report's
+`summary.json`. The words are data, `workbench/questions/*/statements.toml`. Why each tolerance is what it is, and the
+tasks and files behind each value, are in the report's section "Evidence".
 """
 
 
