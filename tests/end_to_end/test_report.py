@@ -59,7 +59,7 @@ def test_summary_holds_the_agreed_fields(first_report: Finished, workspace: Path
     assert (summary["schema"], summary["study"], summary["status"]) == (2, "exomars", "pass")
     ids = [c["id"] for c in summary["checks"]]
     assert len(ids) == len(set(ids))
-    for wanted in ("words.band", "fe.residual", "fe.balance",
+    for wanted in ("words.band", "fe.energy", "fe.parts_overlap",
                    "fe.reach", "fe.mesh_uncertainty", "fe.yield",
                    "fe.spread_20mm", "mesh.mass", "ancf.preset_phi000",
                    "ancf.preset_phi045", "ancf.flexible_mass", "ancf.surfaces",

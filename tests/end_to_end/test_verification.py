@@ -31,7 +31,6 @@ def test_benchmarks_are_solved_and_shown(first_report: Finished, workspace: Path
     checks = {c["id"]: c for c in summary["checks"] if c["id"].startswith("verify.")}
     assert {c["status"] for c in checks.values()} == {"pass"}
     assert {f"verify.{name}_control" for name in NAMES} <= set(checks)
-    assert checks["verify.ring_iterations"]["value"] <= 60
     assert checks["verify.ancf_pendulum_path"]["value"] < 1e-5
     assert checks["verify.ancf_end_moment_order"]["value"] > 2.5
     page = html.unescape((workspace / "verified" / "evidence.html").read_text(encoding="utf-8"))

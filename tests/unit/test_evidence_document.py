@@ -45,6 +45,9 @@ def test_values_outside_and_not_evaluated_are_said() -> None:
     text = document({"created": "2026-11-22", "commit": None}, [row, other])
     assert "| No part yields. | `fe.yield`, finding | `test_a` | **1.2, outside** | at most 1 |" in text
     assert "| No part yields. | `mesh.mass`, finding | `test_a` | not evaluated | 1 to 2 |" in text
+    gate = {"id": "fe.energy", "role": "gate", "quantity": "difference", "title": "FE: energy"}
+    assert "`test_lost_energy_fails` |" in document({"created": "2026-11-22", "commit": None}, [row | gate])
+    assert "test_lost" not in document({"created": "2026-11-22", "commit": None}, [row | gate | {"role": "finding"}])
     assert [line for line in text.splitlines() if line.startswith("## ")] == ["## `fe`", "## `mesh`"]
 
 

@@ -40,9 +40,9 @@ def test_files_are_written_and_read_back(tmp_path: Path) -> None:
 
 
 def test_the_check_passes_and_fails() -> None:
-    assert surfaces_check(lambda: 2e-10, ToleranceSection()).status == "pass"
-    failed = surfaces_check(lambda: 2e-9, ToleranceSection())
-    assert (failed.status, failed.role, failed.value) == ("fail", "gate", 2e-9)
+    assert surfaces_check(lambda: 2e-13, ToleranceSection()).status == "pass"
+    failed = surfaces_check(lambda: 2e-12, ToleranceSection())
+    assert (failed.status, failed.role, failed.value) == ("fail", "gate", 2e-12)
 
 
 def test_deflections_are_lengths_in_order() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,11 +14,9 @@ from geometry.measures import MeshQuality
 from workbench.questions.ancf.preset_table import preset_table
 from workbench.questions.ancf.question import ancf_checks, preset_error
 from workbench.questions.fe.checks import reach_check, spread_checks
-from workbench.questions.mesh_study.results import MeshRun
 from workbench.questions.model_curves import ModelCurves, RunNumbers, UserCurve
 from workbench.questions.models.metrics import CurveMetrics
 from workbench.questions.models.question import agreement_checks, user_checks
-from workbench.questions.numerics.question import solver_checks
 from workbench.questions.strength.question import yield_check
 from workbench.questions.wheel.question import MeshNumbers, mesh_checks
 from workbench.study.sections import ToleranceSection
@@ -52,30 +49,6 @@ def _fe(slopes: tuple[float, ...] = (8600.0, 8000.0), residual: float = 1e-9, **
 def _by_id(checks: list[Check]) -> dict[str, Check]:
     assert len({c.id for c in checks}) == len(checks)
     return {c.id: c for c in checks}
-
-
-def _fine(residual: float, imbalance: float) -> MeshRun:
-    record = IncrementRecord(target=0.02, step=0.01, converged=True, residuals=(1.0, residual))
-    curve = _fe_curve(0.0, 8700.0, force_imbalance=imbalance)
-    return MeshRun(factor=2.0, curve=curve, numbers=RunNumbers(increments=(record,)))
-
-
-@pytest.mark.parametrize(
-    ("damage", "failing"),
-    [
-        ({}, set()),
-        ({"residual": 2e-8}, {"fe.residual"}),
-        ({"force_imbalance": 2e-6}, {"fe.balance"}),
-        ({"moment_imbalance": 2e-6}, {"fe.moment_balance"}),
-        ({"fine_residual": 2e-8}, {"fe.residual"}),
-        ({"fine_imbalance": 2e-6}, {"fe.balance"}),
-    ],
-)
-def test_solver_checks_catch_each_damage(damage: dict[str, Any], failing: set[str]) -> None:
-    fine = _fine(damage.pop("fine_residual", 1e-9), damage.pop("fine_imbalance", 1e-9))
-    checks = _by_id(solver_checks(_fe(**damage), [fine], TOLERANCES))
-    assert {c.id for c in checks.values() if c.status == "fail"} == failing
-    assert {c.role for c in checks.values()} == {"gate"}
 
 
 def test_reach_fails_for_a_run_that_stopped_early() -> None:

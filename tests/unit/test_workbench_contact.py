@@ -96,7 +96,5 @@ def test_the_check_holds_the_loads_against_the_augmented_lagrangian(
         )
         runs.append(ContactRun(name=name, stiffness=1e11, curve=curve))
     found = PenaltyStudy(orientation_deg=15.0, deflection=0.01, runs=tuple(runs))
-    check, deepest = CONTACT.checks(study, found)
+    (check,) = CONTACT.checks(study, found)
     assert (check.id, check.role, check.status) == ("fe.penalty_study", "gate", status)
-    assert (deepest.id, deepest.role, deepest.value) == ("fe.penetration", "gate", depth)
-    assert deepest.status == ("pass" if depth < 1e-6 else "fail")

@@ -18,7 +18,7 @@ KEYS = task_keys(report_tasks(STUDY))
 FILES = ["curves/fe_-40C_phi015.csv", "curves/fe_AISI_301_20C_phi015.csv", "series/step_fitted_ancf.csv"]
 FILES += ["curves/fe_phi000.csv", "curves/fe_average.csv", "curves/section_phi015.csv", "series/drop_brush.csv"]
 MADE_BY = {
-    "fe.balance": "numerics",
+    "fe.energy": "numerics",
     "mesh.mass": "wheel",
     "fe.mesh_uncertainty": "mesh_study",
     "section.vs_solid_phi015": "section",
@@ -36,7 +36,7 @@ MADE_BY = {
 
 def _evidence(study: Study, made_by: dict[str, str]) -> dict[str, Evidence]:
     def check(id: str) -> Any:
-        claim = Claim(id=id, title="Mesh, 15 deg: mass", quantity="run", unit="-", role="gate", source="s")
+        claim = Claim(id=id, title="Mesh, 15 deg: mass", quantity="run", unit="-", role="finding", source="s")
         return at_most(claim, lambda: 1.0, 2.0)
 
     found = SimpleNamespace(checks=[check(id) for id in made_by], question_of=made_by)
@@ -47,7 +47,7 @@ def test_tasks_come_with_the_keys_of_their_results() -> None:
     found = _evidence(STUDY, MADE_BY)
     assert found["rover.drop"].tasks == {"rover_drop": KEYS["rover_drop"]}
     assert list(found["mesh.mass"].tasks) == ["mesh_whole"]
-    assert {"fe_phi000", "fe_phi015", "fe_x2_phi015"} <= set(found["fe.balance"].tasks)
+    assert {"fe_phi000", "fe_phi015"} <= set(found["fe.energy"].tasks)
     assert list(found["section.vs_solid_phi015"].tasks) == ["fe_phi015", "section_phi015"]
 
 
@@ -74,8 +74,8 @@ def test_every_check_leads_to_a_task_a_section_and_its_files() -> None:
     found = _evidence(STUDY, MADE_BY)
     assert all(one.tasks for one in found.values())
     assert found["rover.drop"].files == ("series/drop_brush.csv",)
-    assert found["fe.balance"].files == ("curves/fe_phi000.csv",)
-    assert (found["fe.balance"].section, found["mesh.mass"].section, found["rover.drop"].section) == (
+    assert found["fe.energy"].files == ("curves/fe_phi000.csv",)
+    assert (found["fe.energy"].section, found["mesh.mass"].section, found["rover.drop"].section) == (
         "numerics",
         "wheel",
         "rover",

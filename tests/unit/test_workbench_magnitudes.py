@@ -68,7 +68,6 @@ ABSURD: dict[str, tuple[str, Any]] = {
     "brush that is none": ("brush.radial_stiffness", 1e-297),
     "gate of 1e9": ("tolerances.mesh_uncertainty", 1e9),
     "gate of 100 %": ("tolerances.fe_energy", 1.0),
-    "residual that cannot fail": ("tolerances.fe_residual", 1e9),
     "phase in percent": ("wheel.springs[1].phase", "60 %"),
     "phase in counts": ("wheel.springs[1].phase", "60 count"),
     "orientation in ppm": ("mesh_study.orientation", "15 ppm"),

@@ -155,7 +155,7 @@ def test_gates_hold_and_a_fold_is_a_finding(study: Study, results: AncfRover) ->
 def test_another_period_or_load_fails_the_gates(study: Study, results: AncfRover) -> None:
     """Negative control: spins of three spokes instead of four, a load of the wrong mass."""
     three = replace(results["straight"], spins=(0.75 * SPIN,) * 6)
-    lossy = replace(results["traction"], closures={"energy": 0.02, "momentum": 0.0})
+    lossy = replace(results["traction"], closures={"energy": 0.002, "momentum": 0.0})
     light = replace(results["static"], outcomes=(replace(results["static"].outcomes[0], value=190.0),))
     damaged = replace(results, runs={**results.runs, "straight": three, "static": light, "traction": lossy})
     checks = _checks(study, damaged)

@@ -100,8 +100,6 @@ def test_checks_hold() -> None:
 @pytest.mark.parametrize(
     ("damaged", "failed"),
     [
-        (replace(look(), pressure=look().pressure[1:]), "pressure_standing"),
-        (replace(look(), pressure=look().pressure[:-1]), "pressure_rolling"),
         (replace(look(), resting=replace(resting(), stiffness=np.full(12, 8000.0))), "bounce"),
         (replace(look(), resting=replace(resting(), strain_alike=0.205)), "strain_standing"),
         (replace(look(), resting=replace(resting(), strain=np.full(12, 0.3))), "strain_rolling"),
@@ -128,7 +126,7 @@ def test_a_tire_of_ones_own_that_does_not_carry_the_rover_is_a_finding() -> None
     roles = {check.role for check in ROVER_CLOSER.checks(STUDY, fallen)}
     assert roles == {"finding"}
     gates = [c.id for c in ROVER_CLOSER.checks(STUDY, replace(look(), of_thesis=False)) if c.role == "gate"]
-    assert gates == ["rover_closer.pressure_standing", "rover_closer.pressure_rolling", "rover_closer.strain_standing"]
+    assert gates == ["rover_closer.strain_standing"]
 
 
 def test_the_section_shows_what_there_is() -> None:

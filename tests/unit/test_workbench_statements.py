@@ -6,15 +6,18 @@ Source: the words of workbench/data/statements. The shipped report's checks stan
 
 from __future__ import annotations
 
+import ast
 import csv
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeGuard
 
 import pytest
 
 from contracts.errors import InputError
 from workbench.study.sections import ToleranceSection
+from workbench.verdict import rules
 from workbench.verdict.rules import Claim, at_most
 from workbench.verdict.statements import Family, Statement, families, statement_of
 
@@ -48,6 +51,29 @@ def test_tests_theory_and_settings_named_exist() -> None:
         assert words.tests, words.claim
 
 
+def test_what_breaks_a_gate_is_a_test_that_exists() -> None:
+    named = {name for family in families() for name in family.statement.broken_by}
+    assert len(named) > 30
+    for name in named:
+        path, _, function = name.partition("::")
+        found = {node.name for node in ast.parse((ROOT / path).read_text(encoding="utf-8")).body if _is_test(node)}
+        assert function in found, name
+
+
+def _is_test(node: ast.stmt) -> TypeGuard[ast.FunctionDef]:
+    return isinstance(node, ast.FunctionDef) and node.name.startswith("test_")
+
+
+def test_a_gate_that_nothing_breaks_cannot_be_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    words = Statement(claim="It holds.", why="ours", tests=("tests/unit/test_workbench_statements.py",))
+    monkeypatch.setattr(rules, "statement_of", lambda *of: words)
+    with pytest.raises(InputError, match="must have been seen to fail"):
+        at_most(_claim("a.gate"), lambda: 1.0, 2.0)
+    assert at_most(replace(_claim("a.gate"), role="finding"), lambda: 1.0, 2.0).status == "pass"
+    monkeypatch.setattr(rules, "statement_of", lambda *of: replace(words, broken_by=("here::test_it",)))
+    assert at_most(_claim("a.gate"), lambda: 1.0, 2.0).role == "gate"
+
+
 def test_every_family_is_of_a_check_that_the_report_makes() -> None:
     """But for those that other studies make: mirrored orientations, own references, runs that do not end so."""
     elsewhere = {
@@ -64,12 +90,12 @@ def test_a_check_without_words_cannot_be_made() -> None:
         at_most(_claim("fe.unheard_of"), lambda: 1.0, 2.0)
     with pytest.raises(InputError, match="is to 2"):
         statement_of("a.b_x", "q", "t", [FAMILY, FAMILY])
-    made = at_most(_claim("fe.balance"), lambda: 1.0, 2.0)
+    made = at_most(_claim("fe.energy"), lambda: 1.0, 2.0)
     for name in ("claim", "why", "source", "id"):
         with pytest.raises(InputError, match=f"no {name}"):
             replace(made, **{name: " "})
     with pytest.raises(InputError, match="must be a sentence"):
-        replace(made, claim="balance of forces")
+        replace(made, claim="energy is kept")
 
 
 @pytest.mark.parametrize(

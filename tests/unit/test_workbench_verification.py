@@ -49,7 +49,7 @@ MEASURED: Results = {
         "damaged": 3e-3,
     },
     "ring": {"compression": [0.1, 0.6], "load": [1.214, 8.98], "elastica": [1.213, 8.97], "damaged": 0.031},
-    "hertz": {"half_width_m": [6.22e-3, 6.21e-3], "peak_pressure_Pa": [0.9e9, 0.896e9], "damaged": 0.095},
+    "hertz": {"half_width_m": [6.22e-3, 6.21e-3], "peak_pressure_Pa": [0.897e9, 0.896e9], "damaged": 0.095},
     "sliding_block": {"slide_N": [300.0, 300.0], "stick_N_per_m": [9.9999e6, 1e7], "damaged": 0.01},
 }
 
@@ -105,9 +105,9 @@ def _order(results: Results) -> None:
 @pytest.mark.parametrize(
     ("damage", "check"),
     [
-        (_scaled("patch", "linear_field_m", 1e8), "verify.patch_linear_field"),
-        (_scaled("patch", "stress_error", 1e6), "verify.patch_uniform_stress"),
-        (_scaled("patch", "rotation_force", 1e3), "verify.patch_rigid_rotation"),
+        (_scaled("patch", "linear_field_m", 1e2), "verify.patch_linear_field"),
+        (_scaled("patch", "stress_error", 1e3), "verify.patch_uniform_stress"),
+        (_scaled("patch", "rotation_force", 1e2), "verify.patch_rigid_rotation"),
         (_scaled("patch", "modes", 2.0), "verify.patch_modes"),
         (_order, "verify.manufactured_l2_degree2"),
         (_scaled("end_shear", "full", 1.03), "verify.end_shear_full_load"),
@@ -115,7 +115,6 @@ def _order(results: Results) -> None:
         (_scaled("half_cylinder", "calculix_N", 1.00002), "verify.half_cylinder_calculix"),
         (_scaled("half_cylinder", "felupe_N", 1.000001), "verify.half_cylinder_felupe"),
         (_scaled("ring", "load", 1.02), "verify.ring_load"),
-        (_scaled("ring", "iterations", 7.0), "verify.ring_iterations"),
         (_scaled("hertz", "half_width_m", 1.012), "verify.hertz_half_width"),
         (_scaled("hertz", "peak_pressure_Pa", 1.012), "verify.hertz_peak_pressure"),
         (_scaled("sliding_block", "slide_N", 1.00001), "verify.sliding_block_slide"),

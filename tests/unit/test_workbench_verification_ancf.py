@@ -93,8 +93,8 @@ def _ring(results: Results) -> None:
 @pytest.mark.parametrize(
     ("damage", "check"),
     [
-        (_times("ancf_plate", "gravity", 1e6), "verify.ancf_plate_gravity"),
-        (_times("ancf_plate", "elastic_force", 1e3), "verify.ancf_plate_elastic_force"),
+        (_times("ancf_plate", "gravity", 1e4), "verify.ancf_plate_gravity"),
+        (_times("ancf_plate", "elastic_force", 1e2), "verify.ancf_plate_elastic_force"),
         (_times("ancf_pendulum", "error_m", 20.0), "verify.ancf_pendulum_path"),
         (_times("ancf_pendulum", "energy_spread", 3.0), "verify.ancf_pendulum_energy"),
         (_times("ancf_pendulum", "energy_order", 0.5), "verify.ancf_pendulum_energy_order"),

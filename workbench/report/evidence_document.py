@@ -16,15 +16,20 @@ from typing import Any
 from contracts.errors import InputError
 from contracts.text import for_markdown
 from workbench.verdict.number_format import displayed
+from workbench.verdict.statements import statement_of
 
 __all__ = ["document", "main", "rows_of", "written_list"]
 
 _HEAD = """# Evidence
 
-What each check of the shipped report claims, which tests hold the rule or the model behind it, and its last value; made
-by `make evidence` from a report's `summary.json`. The words are data, `workbench/questions/*/statements.toml`. Why each
-tolerance is what it is, and the tasks and files behind each value, are in the report's section "Evidence".
+What each check of the shipped report claims, which tests hold the rule or the model behind it, its last value, and of a
+gate the test in which a damaged model or number was seen to fail; made by `make evidence` from a report's
+`summary.json`. The words are data, `workbench/questions/*/statements.toml`. Why each tolerance is what it is, and the
+tasks and files behind each value, are in the report's section "Evidence".
 """
+
+
+_COLUMNS = ("claim", "check", "tests", "last value", "limit", "seen to fail in")
 
 
 def rows_of(summary: Path) -> tuple[Mapping[str, Any], list[Mapping[str, Any]]]:
@@ -42,7 +47,7 @@ def document(provenance: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -
     blocks = [_HEAD, f"Values of {str(provenance['created'])[:10]}, commit {commit}; {len(rows)} checks."]
     for name in dict.fromkeys(row["id"].split(".")[0] for row in rows):
         lines = [_line(row) for row in rows if row["id"].split(".")[0] == name]
-        table = ["| claim | check | tests | last value | limit |", "|---|---|---|---|---|", *lines]
+        table = [f"| {' | '.join(_COLUMNS)} |", "|" + "---|" * len(_COLUMNS), *lines]
         blocks.append("\n".join([f"## `{name}`", "", *table]))
     return "\n\n".join(block.strip("\n") for block in blocks) + "\n"
 
@@ -58,7 +63,16 @@ def _line(row: Mapping[str, Any]) -> str:
         "error": "not evaluated",
     }[row["status"]]
     cells = (for_markdown(row["claim"]), f"`{row['id']}`, {row['role']}", tests, status, for_markdown(_limit(row)))
-    return "| " + " | ".join(cells) + " |"
+    return "| " + " | ".join((*cells, _broken_by(row) if row["role"] == "gate" else "")) + " |"
+
+
+def _broken_by(row: Mapping[str, Any]) -> str:
+    """Functions of the tests that break the check; empty for one that the code no longer makes."""
+    try:
+        named = statement_of(row["id"], row["quantity"], row["title"]).broken_by
+    except InputError:
+        return ""
+    return ", ".join(f"`{name.partition('::')[2]}`" for name in named)
 
 
 def _limit(row: Mapping[str, Any]) -> str:

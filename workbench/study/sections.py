@@ -193,10 +193,6 @@ class ToleranceSection(Section):
     """Each orientation is to come so far [m], or to ``reach_load``."""
     reach_load: Annotated[Force, Positive] = 300.0
     """Each orientation is to carry so much [N], or to come to ``reach_deflection``."""
-    fe_residual: Annotated[Number, Positive] = 1e-8
-    """Of any increment, relative [-]."""
-    fe_balance: Annotated[Number, Positive] = 1e-6
-    """Of forces and moments, relative [-]."""
     fe_energy: Annotated[Number, Positive] = 0.01
     """Work against stored energy, relative [-]."""
     mesh_uncertainty: Annotated[Number, Positive] = 0.05
@@ -205,7 +201,7 @@ class ToleranceSection(Section):
     """Grid convergence index of the stress that decides first yield [-]."""
     hub_compliance: Annotated[Number, Positive] = 0.01
     """What elastic hubs change of the load, relative [-]."""
-    surface_distance: Annotated[Length, Positive] = 1e-9
+    surface_distance: Annotated[Length, Positive] = 1e-12
     """STEP surfaces of the ANCF tire against its plates [m]."""
     section_agreement: Annotated[Number, Positive] = 0.05
     """Planar against solid model, relative [-]."""

@@ -99,8 +99,11 @@ def stated(
     tolerance: str,
     status: Status,
 ) -> Check:
-    """The check with the words of its family; InputError if it has none."""
+    """The check with the words of its family; InputError if it has none, or if nothing is known to break a gate."""
     words = statement_of(claim.id, claim.quantity, claim.title)
+    if claim.role == "gate" and not words.broken_by:
+        rule = "must have been seen to fail to be a gate"
+        raise InputError("check", claim.id, rule, "name in its family's broken_by a test that damages what it guards")
     return Check(
         id=claim.id,
         title=claim.title,

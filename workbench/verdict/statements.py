@@ -34,6 +34,7 @@ class Statement:
     paper : thesis or paper the claim goes back to, with figure, equation or section; may be empty
     theory : section of docs/theory.md; may be empty
     tests : files of tests that verify the rule or the model behind it
+    broken_by : tests, ``"file::function"``, in which a damaged model or number makes the check fail; no gate without
     setting : key of ``[tolerances]`` in the study file that moves the limit; may be empty
     tasks : patterns of the tasks whose results it rests on; without any, those of its question
     files : patterns of the published curves and series it rests on
@@ -44,6 +45,7 @@ class Statement:
     paper: str = ""
     theory: str = ""
     tests: tuple[str, ...] = ()
+    broken_by: tuple[str, ...] = ()
     setting: str = ""
     tasks: tuple[str, ...] = ()
     files: tuple[str, ...] = ()
@@ -100,6 +102,7 @@ class Family:
             paper=filled(own.paper),
             theory=own.theory,
             tests=each(own.tests),
+            broken_by=own.broken_by,
             setting=own.setting,
             tasks=each(own.tasks),
             files=each(own.files),
@@ -153,6 +156,7 @@ def _family(row: Mapping[str, object]) -> Family:
         paper=text("paper"),
         theory=text("theory"),
         tests=texts("tests"),
+        broken_by=texts("broken_by"),
         setting=text("setting"),
         tasks=texts("tasks"),
         files=texts("files"),

@@ -19,11 +19,10 @@ from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees
 from workbench.verdict.rules import Claim, at_most
 
-__all__ = ["AUGMENTED", "CONTACT", "ContactRun", "PenaltyStudy", "largest_change", "penalty_check", "penetration_check"]
+__all__ = ["AUGMENTED", "CONTACT", "ContactRun", "PenaltyStudy", "largest_change", "penalty_check"]
 
 AUGMENTED = "augmented_lagrangian"
 _LIMIT = 0.005
-_DEEPEST = 1e-6
 
 
 def largest_change(loads: Mapping[str, float]) -> float:
@@ -42,19 +41,6 @@ def penalty_check(loads: Callable[[], Mapping[str, float]], where: str) -> Check
         source="augmented Lagrangian, Simo & Laursen 1992, Comput. Struct. 42, 97-116; the limit is ours",
     )
     return at_most(claim, lambda: largest_change(loads()), _LIMIT)
-
-
-def penetration_check(depth: Callable[[], float], where: str) -> Check:
-    """``depth`` gives the largest penetration [m] that the augmented Lagrangian leaves anywhere on the faces."""
-    claim = Claim(
-        id="fe.penetration",
-        title=f"FE: largest penetration anywhere on the faces with the augmented Lagrangian, up to {where}",
-        quantity="penetration",
-        unit="m",
-        role="gate",
-        source="Signorini's condition (Wriggers 2006): no point below the ground; the limit is ours",
-    )
-    return at_most(claim, depth, _DEEPEST)
 
 
 _FACTORS = ("0.1", "1", "10")
@@ -143,10 +129,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> PenaltyStudy:
 
 def _checks(study: Study, results: PenaltyStudy) -> Sequence[Check]:
     where = f"{results.deflection * 1e3:g} mm, {results.orientation_deg:g} deg"
-    return [
-        penalty_check(results.loads, where),
-        penetration_check(lambda: results.runs[-1].largest("penetration_m"), where),
-    ]
+    return [penalty_check(results.loads, where)]
 
 
 def _curves(study: Study, results: PenaltyStudy) -> list[StiffnessCurve]:

@@ -67,7 +67,7 @@ def _claim(name: str, title: str, quantity: str, unit: str, role: Role = "gate")
 def _checks(study: Study, results: MultibodyResults) -> Sequence[Check]:
     checks = []
     for problem, allowed, limit in (
-        ("pendulum", 1e-10, 1e-7),
+        ("pendulum", 1e-10, 1e-8),
         ("four_bar_2", 1e-8, 1e-5),
         ("four_bar_40", 1e-6, 1e-2),
         ("andrews", 1e-10, 1e-6),

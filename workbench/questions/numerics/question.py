@@ -6,16 +6,11 @@ tests/end_to_end/test_partial_curve.py.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
-import numpy as np
-
 from contracts.curves import StiffnessCurve
-from contracts.errors import InputError
 from contracts.records import Check
 from workbench.execution.result_files import early_ends
 from workbench.questions.mesh_study.question import mesh_study_of
@@ -26,8 +21,7 @@ from workbench.questions.question import Question
 from workbench.questions.wheel.question import WheelMeshes, read_wheel
 from workbench.study.full import around
 from workbench.study.model import Study
-from workbench.study.sections import ToleranceSection
-from workbench.verdict.rules import Claim, at_most, stated
+from workbench.verdict.rules import Claim, stated
 from workbench.verdict.status import COMPLETE
 
 __all__ = [
@@ -35,9 +29,7 @@ __all__ = [
     "Numerics",
     "SolverRow",
     "completeness_check",
-    "largest_residual",
     "read_numerics",
-    "solver_checks",
 ]
 
 
@@ -91,44 +83,6 @@ def read_numerics(study: Study, folders: Mapping[str, Path]) -> Numerics:
     )
 
 
-_EQUILIBRIUM = "equilibrium of the discrete weak form, Bonet & Wood 2008, ch. 8; the limit is the solver's own"
-_SUMS = "Euler's laws of motion at rest; the limit is ours"
-
-
-def solver_checks(fe: ModelCurves, others: Sequence[MeshRun], tol: ToleranceSection) -> list[Check]:
-    """Residual and balance of every run, those of the mesh study included."""
-    curves = [*fe.by_orientation.values(), *(run.curve for run in others)]
-    numbers = [*fe.runs.values(), *(run.numbers for run in others)]
-    residual = "FE: largest residual of any converged increment, relative to the nodal support and contact forces"
-    forces = "FE: largest imbalance of forces over contact force"
-    moments = "FE: largest imbalance of moments about the hub's centre over contact force times radius"
-    solved = _gate("fe.residual", residual, "residual", _EQUILIBRIUM)
-    checks = [at_most(solved, lambda: largest_residual(numbers), tol.fe_residual)]
-    for id, title, column in (
-        ("fe.balance", forces, "force_imbalance"),
-        ("fe.moment_balance", moments, "moment_imbalance"),
-    ):
-        checks.append(at_most(_gate(id, title, "imbalance", _SUMS), partial(_largest, curves, column), tol.fe_balance))
-    return checks
-
-
-def _largest(curves: Sequence[StiffnessCurve], column: str) -> float:
-    """Largest absolute value of a column on any curve that carries load; NaN without any."""
-    return max((float(np.abs(c.columns[column]).max()) for c in curves if not c.unloaded), default=math.nan)
-
-
-def largest_residual(runs: Sequence[RunNumbers]) -> float:
-    """Largest relative residual at the end of any converged increment of any run [-]."""
-    found = [one.residuals[-1] for run in runs for one in run.converged]
-    if not found:
-        raise InputError("increments", 0, "converged", "see the runs' messages")
-    return max(found)
-
-
-def _gate(id: str, title: str, quantity: str, source: str) -> Claim:
-    return Claim(id=id, title=title, quantity=quantity, unit="-", role="gate", source=source)
-
-
 def completeness_check(early_ends: Mapping[str, str]) -> Check:
     """A gate: no finite element run ended before its target. ``early_ends``: task name -> reason."""
     named = f": {', '.join(early_ends)}; what rests on them is partial" if early_ends else ""
@@ -147,7 +101,6 @@ def _checks(study: Study, results: Numerics) -> Sequence[Check]:
     tolerances, curves = study.tolerances, list(results.fe.by_orientation.values())
     return [
         completeness_check(results.early_ends),
-        *solver_checks(results.fe, results.others, tolerances),
         energy_check(curves, tolerances.fe_energy),
     ]
 

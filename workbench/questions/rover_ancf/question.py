@@ -126,6 +126,10 @@ def _carries(results: AncfRover, name: str) -> bool:
     return results.of_thesis or results[name].stopped is None
 
 
+_CLOSED = {"energy": 1e-3, "momentum": 3e-4}
+"""What may be missing of either."""
+
+
 def _account_checks(results: AncfRover) -> list[Check]:
     """Energy and momentum of whole motions; what contact damping takes of the drives' work."""
     checks = []
@@ -134,7 +138,7 @@ def _account_checks(results: AncfRover) -> list[Check]:
             title = f"{words}: {what} is accounted for"
             gate = _carries(results, name)
             claim = _claim(f"{name}_{what}", title, "what is missing", "-", "laws of conservation", gate=gate)
-            checks.append(at_most(claim, partial(results[name].closure, what), 0.01))
+            checks.append(at_most(claim, partial(results[name].closure, what), _CLOSED[what]))
     return checks
 
 

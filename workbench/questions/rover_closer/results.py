@@ -164,19 +164,3 @@ class CloserLook:
                 }
             )
         return found
-
-    def pressed(self, standing: bool) -> float:
-        """Pressure times area over the patch of the observed wheel, standing or rolling, over its load [-].
-
-        The load is a sixth of the weight of the standing rover; of the rolling one what its series says at that time.
-        """
-        from rover_dynamics.rover.scenarios.level_ground import OBSERVED
-
-        found = [one for one in self.footprints if (one["time"] == 0.0) == standing]
-        if not found:
-            raise InputError("pressure", "none", "was recorded", self.straight.stopped or "drive on")
-        if standing:
-            return found[0]["load"] / self.load
-        load, series = self.straight.column(f"{OBSERVED}_load_N"), self.straight.series
-        assert series is not None
-        return found[-1]["load"] / float(np.interp(found[-1]["time"], series.time, load))

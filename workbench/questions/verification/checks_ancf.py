@@ -19,7 +19,7 @@ def _plate(numbers: Numbers) -> Benchmark:
         source="exact quadrature; agrees with Project Chrono's published 3443 shell to 1e-11",
     )
     lines = [
-        rules.at_most(key, f"{key.replace('_', ' ')}, error over largest entry", "-", numbers[key], 1e-10)
+        rules.at_most(key, f"{key.replace('_', ' ')}, error over largest entry", "-", numbers[key], 5e-12)
         for key in ("mass", "gravity", "elastic_force")
     ]
     damage = "one sign of thesis eq. 2.13 misread: smallest error"
