@@ -19,7 +19,6 @@ _WORDS = {
     "max_von_mises": "largest stress",
     "max_linearised": "stress in strips",
     "relative_l2": "relative L2",
-    "iso_rating": "ISO rating",
 }
 """How a name begins -> in words."""
 _TOLD = ("initial_tangent", "load_at_", "max_linearised_", "spread_", "relative_l2", "largest_miss", "cost")
