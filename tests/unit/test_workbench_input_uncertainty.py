@@ -346,7 +346,7 @@ def test_the_report_says_whether_its_record_is_there_and_of_this_study(tmp_path:
     assert current.state == "current"
     assert current.sampled.outputs[1].nominal == pytest.approx(110.0)
     assert current.sampled.stress_factor == pytest.approx(1.0)
-    assert set(INPUT_UNCERTAINTY.figures(study, current)) == {"band", "ranks"}
+    assert set(INPUT_UNCERTAINTY.figures(study, current)) == {"input_band", "input_ranks"}
     (curve,) = INPUT_UNCERTAINTY.curves(study, current)
     assert {"load_p5_N", "load_p50_N", "load_p95_N"} == set(curve.columns)
     other = _study(max_deflection="60 mm", points=6, seed=9).kept_in(tmp_path / "own.kept")

@@ -25,8 +25,8 @@ _LEFT, _RIGHT, _APART, _BAR = -2.9, 1.05, 0.2, 9.0
 def inputs_figures(study: Study, found: Sampled) -> dict[str, str]:
     """Band and bars."""
     return {
-        "band": figure_html(_band(found), "inputs-band"),
-        "ranks": figure_html(_ranks(study, found), "inputs-ranks"),
+        "input_band": figure_html(_band(found), "inputs-band"),
+        "input_ranks": figure_html(_ranks(study, found), "inputs-ranks"),
     }
 
 
