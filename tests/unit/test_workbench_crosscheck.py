@@ -51,7 +51,7 @@ def stale(study: Study) -> Study:
 
 
 def page(study: Study, results: PeerCheck) -> str:
-    template = page_environment().get_template("crosscheck/section.html.j2")
+    template = page_environment().get_template("crosscheck/evidence.html.j2")
     return str(template.render(results=results, study=study, figures={}))
 
 

@@ -115,7 +115,7 @@ def test_tasks_are_one_for_each_curve_the_study_does_not_have() -> None:
     tasks = {task.name: task.inputs for task in environment_tasks(study)}
     names = ["-143C", "-40C", "35C", "AISI_301_20C", "AISI_301_-143C"]
     assert list(tasks) == [f"environment_{name}" for name in names]
-    assert tasks["environment_-143C"]["deflections"] == [0.006, 0.012, 0.018, 0.024, 0.030, 0.036]
+    assert tasks["environment_-143C"]["deflections"] == [0.0075, 0.0125, 0.0175, 0.025, 0.030, 0.035]
     cold = tasks["environment_-143C"]["materials"]["tire"]
     words = {"name": "Ti-6Al-4V", "source": TI_6AL_4V_AGED.source, "temperature_data": "Ti-6Al-4V"}
     assert Material(**words, **cold) == replace(TI_6AL_4V_AGED.at(COLD), name="Ti-6Al-4V")

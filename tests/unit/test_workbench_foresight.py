@@ -42,19 +42,19 @@ def test_the_law_of_time_is_what_was_measured() -> None:
 
 
 def test_unknowns_are_those_that_are_solved() -> None:
-    """30 060 on the mesh of the hoops' curves; the whole graph has an expectation for each mesh and solve."""
+    """53 028 on the mesh of the hoops' curves; the whole graph has an expectation for each mesh and solve."""
     tasks = report_tasks(STUDY)
     curve = next(task for task in _solves(tasks) if task.name == "fe_phi000")
-    assert curve.unknowns == pytest.approx(30060, rel=0.05)
+    assert curve.unknowns == pytest.approx(53028, rel=0.05)
     assert all(task.memory > 2.8e8 and task.unknowns > 10_000 for task in _solves(tasks))
     assert all(task.memory > 0.0 for task in tasks if task.function == "workbench.questions.wheel.mesh_task:build")
 
 
-def test_a_mesh_ten_times_finer_needs_9_gb() -> None:
+def test_a_mesh_ten_times_finer_needs_8_gb() -> None:
     """And more than its share of the time."""
     (solve,), (own,) = (_solves(stiffness_tasks(study, "fe", (0.0,))) for study in (_finer(10.0), STUDY))
-    assert solve.memory == pytest.approx(8.6e9, rel=0.1)
-    assert solve.cost / own.cost > solve.unknowns / own.unknowns > 40.0
+    assert solve.memory == pytest.approx(8.3e9, rel=0.05)
+    assert solve.cost / own.cost > solve.unknowns / own.unknowns > 20.0
 
 
 @pytest.mark.parametrize("times", [100.0, 1e6])

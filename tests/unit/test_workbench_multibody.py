@@ -103,6 +103,6 @@ def test_a_row_that_is_missing_is_an_error(results: MultibodyResults) -> None:
 
 def test_figures_of_the_section_exist(results: MultibodyResults) -> None:
     figures = MULTIBODY.figures(read_study(built_in_study()), results)
-    text = (TEMPLATES[1] / "multibody" / "section.html.j2").read_text(encoding="utf-8")
+    text = (TEMPLATES[1] / "multibody" / "evidence.html.j2").read_text(encoding="utf-8")
     assert set(re.findall(r"figures\.(\w+)", text)) == set(figures)
     assert "A02 four-bar, N = 40, implicit" in figures["seconds"]

@@ -26,8 +26,9 @@ from workbench.study.reading import built_in_study, study_of
 from workbench.study.sweep_points import sweep_points
 
 ENOUGH = {"name", "title", "wheel", "materials", "mesh", "fe"}
-ALWAYS = {"models", "wheel", "fe", "orientations", "strength", "section", "numerics"}
-OTHERS = {"mesh", "mesh_whole", "metrics", "pictures"}
+ALWAYS = {"models", "wheel", "fe", "orientations", "strength", "section", "numerics", "crosscheck"}
+"""The last one because of the record beside the built-in study's file."""
+OTHERS = {"mesh", "mesh_whole", "metrics", "pictures", "parts_overlap"}
 ADDED = {
     "ancf": {"ancf", "ancf_mesh", "ancf_dynamics"},
     "brush": set(),
@@ -39,7 +40,7 @@ ADDED = {
     "environment": {"environment"},
     "rover": {"rover", "rover_ancf"},
     "full": set(),
-    "reference": set(),
+    "reference": {"validation"},
     "tolerances": set(),
     "inferred": set(),
 }

@@ -28,7 +28,7 @@ def placed(table: str, folder: Path) -> list[tuple[int, str, float, float]]:
     blank_figure(1.0, 1.0).savefig(folder / "lead.svg")
     content: Mapping[str, object] = {
         **dict.fromkeys(("study", "created", "word", "verdict"), ""),
-        **{name: [] for name in ("counts", "ratings", "band", "outside", "warnings")},
+        **{name: [] for name in ("answers", "counts", "ratings", "band", "outside", "warnings")},
         "title": "T",
         "tone": "pass",
         "lead": "lead.svg",
@@ -37,7 +37,7 @@ def placed(table: str, folder: Path) -> list[tuple[int, str, float, float]]:
     (folder / "one.pdf").write_bytes(set_document(content, folder))
     run = subprocess.run(["pdftotext", "-bbox", folder / "one.pdf", "-"], capture_output=True, text=True, check=True)
     found = []
-    for number, page in enumerate(run.stdout.split("<page ")[3:]):
+    for number, page in enumerate(run.stdout.split("<page ")[2:]):
         for left, top, word in re.findall(r'<word xMin="([\d.]+)" yMin="([\d.]+)"[^>]*>([^<]*)<', page):
             found.append((number, word, float(left), float(top)))
     return found

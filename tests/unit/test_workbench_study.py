@@ -211,8 +211,8 @@ BAD: dict[str, tuple[str, str, list[str]]] = {
         'max_deflection = "92.5 mm"\npoints = 36',
         ["ancf.max_deflection = 92.5 mm", "gap between rim and hub, 92.5 mm"],
     ),
-    "too many points": (r"points = 20", "points = 501", ["fe.points = 501", "less than or equal to 500"]),
-    "one point": (r"points = 20", "points = 1", ["fe.points = 1", "greater than or equal to 2"]),
+    "too many points": (r"points = 16", "points = 501", ["fe.points = 501", "less than or equal to 500"]),
+    "one point": (r"points = 16", "points = 1", ["fe.points = 1", "greater than or equal to 2"]),
     "quadrature": ("spokes = 4", "spokes = 4\nquadrature = [5, 11, 3]", ["ancf.quadrature[1] = 11", "equal to 10"]),
     "modulus in GPa without unit": (
         r'young_modulus = "113.8 GPa"',

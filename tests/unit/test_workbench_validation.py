@@ -124,7 +124,7 @@ def test_a_record_of_another_study_decides_nothing(studies: Path) -> None:
 
 def test_the_page_says_it_in_words(studies: Path) -> None:
     study = study_with(studies, E3, found(E3))
-    template = page_environment().get_template("validation/section.html.j2")
+    template = page_environment().get_template("validation/evidence.html.j2")
     text = template.render(results=answered(study), study=study, figures={})
     for words in (
         "cannot be told apart",
