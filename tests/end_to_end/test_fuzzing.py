@@ -123,7 +123,7 @@ def fuzz(
     return found
 
 
-@pytest.mark.parametrize(("model", "count"), [("fe", 130), ("section", 100), ("ancf", 130), ("brush", 40)])
+@pytest.mark.parametrize(("model", "count"), [("fe", 130), ("section", 190), ("ancf", 130), ("brush", 40)])
 def test_studies(tmp_path: Path, capsys: pytest.CaptureFixture[str], model: str, count: int, share: int) -> None:
     text, path = small_study_text(), tmp_path / f"{model}.toml"
     arguments = ["stiffness", str(path), "--model", model, "--out", str(tmp_path / "o"), "--store", str(tmp_path / "s")]

@@ -35,6 +35,7 @@ TASKS = {
         "brush",
         "ancf_surfaces",
         "metrics",
+        "parts_overlap",
         "pictures",
     ),
     "environment_-40C",

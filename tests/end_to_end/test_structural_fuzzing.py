@@ -40,6 +40,7 @@ STUDIES = {
 ROVER = tomllib.loads(EXOMARS_ROVER.read_text(encoding="utf-8"))
 FREE = {
     "sweep.seed": "any whole number will do",
+    "input_uncertainty": "its samples are tried by `workbench check` and `sample`, not by reading",
     "pivots.*.axis": "a direction; only its own length is arbitrary",
 }
 """Numbers that may be scaled without a word, and why."""

@@ -56,7 +56,7 @@ def test_nothing_is_overwritten_and_nothing_unusable_is_written(tmp_path: Path) 
 
 
 def test_what_is_unusual_is_told(tmp_path: Path) -> None:
-    text = SHIPPED[1].read_text(encoding="utf-8").replace("poisson_ratio = 0.342", "poisson_ratio = -0.342")
+    text = built_in_study().read_text(encoding="utf-8").replace("poisson_ratio = 0.342", "poisson_ratio = -0.342")
     (tmp_path / "a.toml").write_text(text, encoding="utf-8")
     ended = run("check", "a.toml", folder=tmp_path)
     assert ended.returncode == 0

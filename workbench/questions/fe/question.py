@@ -81,5 +81,5 @@ FE = Question(
     checks=_checks,
     figures=_figures,
     curves=lambda study, results: results.curves,
-    budget=1250,
+    budget=1300,
 )

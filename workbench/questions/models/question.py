@@ -163,5 +163,5 @@ MODELS = Question(
     checks=_checks,
     figures=models_figures,
     curves=_curves,
-    budget=560,
+    budget=900,
 )
