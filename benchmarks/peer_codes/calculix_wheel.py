@@ -4,7 +4,7 @@ Nodes and elements are those of `geometry.inp`. The block is one 8-node hexahedr
 first touch; every node of it is moved along the plane's normal, one step a deflection. Contact is CalculiX's face to
 face penalty (CalculiX CrunchiX user's manual 2.20, *CONTACT PAIR and *SURFACE BEHAVIOR): K times the overlap at the
 integration points of the slave faces, which is our law but for its ramp around touch. Verified by
-tests/unit/test_calculix_wheel.py and tests/verification/test_calculix_wheel.py.
+tests/unit/test_calculix_wheel.py and tests/verification/test_calculix_same_wheel.py.
 """
 
 from __future__ import annotations
