@@ -17,7 +17,7 @@ _WELD = 12.0e-3
 
 
 def _tire() -> Tire:
-    return Tire(outer_radius=142.5e-3, width=120.0e-3, thickness=0.9221e-3, material=TI_6AL_4V_AGED)
+    return Tire(outer_radius=142.5e-3, width=120.0e-3, thickness=0.9235e-3, material=TI_6AL_4V_AGED)
 
 
 def _grousers() -> Grousers:
@@ -30,7 +30,7 @@ def _spring_sets() -> tuple[SpringSet, ...]:
         name="springs_outer",
         count=6,
         bands=((-60.0e-3, -25.65e-3), (25.65e-3, 60.0e-3)),
-        thickness=0.5894e-3,
+        thickness=0.5903e-3,
         shape="spline",
         points=((0.33, math.radians(26.82)), (0.67, math.radians(35.51))),
         weld_length=_WELD,
@@ -41,7 +41,7 @@ def _spring_sets() -> tuple[SpringSet, ...]:
         count=3,
         phase=math.radians(50.14),
         bands=((-22.08e-3, 22.08e-3),),
-        thickness=0.4192e-3,
+        thickness=0.4198e-3,
         shape="spline",
         direction=-1,
         points=((0.33, math.radians(22.46)), (0.67, math.radians(40.0))),

@@ -258,7 +258,7 @@ def test_what_cannot_be_drawn_is_refused(inputs: dict[str, Any], message: str) -
 @pytest.mark.parametrize(
     ("inputs", "message"),
     [
-        ({THICKNESS: {"low": "1 mm", "high": "2 mm", "source": "s"}}, "misses the study's value.*0.9221 mm"),
+        ({THICKNESS: {"low": "1 mm", "high": "2 mm", "source": "s"}}, "misses the study's value.*0.9235 mm"),
         ({THICKNESS: {"deviation": "0.1 cm", "source": "s"}}, "must be in the unit of the value"),
         ({"wheel.tyre.thickness": {"low": "1 mm", "high": "2 mm", "source": "s"}}, "wheel.tyre.*is not a known key"),
     ],

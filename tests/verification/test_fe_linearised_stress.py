@@ -3,7 +3,7 @@
 Source: the elastica ring (tests/data, see tests/verification/test_fe_ring.py); refinement of the wheel's planar model;
 docs/theory.md 2.2 has the solid wheel's. Tolerance: 3 % of the ring's fibre stress, as for the largest stress there;
 1.5 % from one refinement to the next, 1 % between one and two cells. Closed form of a cantilever, 1 %;
-its other distances are the negative control.
+its other distances are the negative control. Closed form of an uneven strain across a strip, 0.1 %.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.problem.supports import Support, Traction
 from reference_fe.solver.newton import NewtonSettings, NewtonSolver
+from reference_fe.verification.structured_hexahedra import block_mesh
 from reference_fe.wheel.case import WheelLoadCase
 from reference_fe.wheel.pressed import solve_wheel
 from reference_fe.wheel.problem import wheel_problem
@@ -103,3 +104,31 @@ def test_parts_with_one_and_with_more_cells_through_the_thickness() -> None:
     assert {name for name in columns if "linearised" in name} == {f"max_linearised_{part}_Pa" for part in strips}
     for part in strips:
         assert 0.0 < columns[f"max_linearised_{part}_Pa"][-1] < 1.5 * columns[f"max_von_mises_{part}_Pa"][-1]
+
+
+@pytest.mark.parametrize("edge_distance", [0.0, 1.0, 3.0, 40.0])
+@pytest.mark.parametrize("symmetric", [False, True])
+def test_free_edges_are_left_out_up_to_the_distance(edge_distance: float, symmetric: bool) -> None:
+    """A strip 1 mm thick and 40 mm wide, its strain growing with y^2: no Poisson effect, exact in 27 nodes.
+
+    u_x = e x (y / b)^2 has sigma = E e (y / b)^2 and tau = E e x y / b^2; both are largest at the last of three Gauss
+    stations and as far out as counts. Half way to the middle is the end of the distance; what is half a strip has its
+    edge at y = b alone.
+    """
+    thickness, b, length, strain = 1e-3, 20e-3, 60e-3, 1e-6
+    low, wide = (0.0, b) if symmetric else (-b, 2.0 * b)
+    mesh = block_mesh((6, 5, 1), lambda X: X * [length, wide, thickness] + [0.0, low, 0.0])
+    if symmetric:
+        mesh = replace(mesh, faces={("symmetry" if name == "y0" else name): tag for name, tag in mesh.faces.items()})
+    material = replace(TI_6AL_4V, poisson_ratio=0.0)
+    problem = StaticProblem(
+        Domain.from_tagged(mesh), {"body": material}, [Support(faces=("x0",), components=(0, 1, 2))]
+    )
+    problem.u.interpolate(lambda x: np.stack([strain * x[0] * (x[1] / b) ** 2, 0.0 * x[0], 0.0 * x[0]]))
+    y = b - min(edge_distance * thickness, 0.5 * b)
+    stations = 0.5 + 0.5 * np.polynomial.legendre.leggauss(problem.discretisation.gauss_points[0])[0]
+    x = length - (1.0 - stations.max()) * length / 6.0
+    modulus = material.young_modulus * strain
+    expected = modulus * np.sqrt((y / b) ** 4 + 3.0 * (x * y / b**2) ** 2)
+    found = LinearisedStress(problem, ["body"], edge_distance=edge_distance).largest_by_part()["body"]
+    assert found == pytest.approx(expected, rel=1e-3)
