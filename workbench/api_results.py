@@ -58,7 +58,7 @@ class Curve(StiffnessCurve):
 
         Returns
         -------
-        table : ``part``; ``stress_Pa``, of strips linearised through the thickness, one thickness from every joint;
+        table : ``part``; ``stress_Pa``, of strips linearised through the thickness (`LinearisedStress`);
             ``max_von_mises_Pa``, the largest anywhere; ``yield_strength_Pa``; ``utilisation``, of the first over the
             third [-]; without a row for a model that has no stress, and for an average
 

@@ -5,6 +5,7 @@ A check that is undecided or was not evaluated never counts as passed. Verified 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -21,23 +22,29 @@ __all__ = ["Answer", "Answers", "Part", "answers", "computation", "wheel"]
 
 _SHOWN = 3
 """Parts of an answer on the first page where there are many."""
+_SUFFIX = re.compile(r"(\d)(mm|C)\b")
 _JOB = {
     "stiffness": ("fe.initial_tangent", "fe.deflection_at_", "fe.band", "user_", "words.band"),
     "reach": ("fe.reach",),
     "evenness": ("fe.spread_",),
-    "strength": ("fe.first_yield_load",),
+    "strength": ("fe.first_yield_load", "fe.yield"),
     "heat and cold": ("environment.first_yield_",),
     "mission": ("rover_mission.",),
 }
 """Part of the wheel's job -> how the identifiers of its checks begin; those a study does not ask for are not there."""
 _SHORT = {
     "fe.initial_tangent": "slope",
-    "fe.spread_": "largest spread around the wheel",
+    "fe.spread_": "largest spread around the wheel, at {},",
     "fe.reach": "share of the way that every orientation comes",
-    "fe.first_yield_load": "begins to yield at",
+    "fe.first_yield_load": "no part yields below",
+    "fe.yield": "stress over yield strength",
+    "environment.first_yield_": "no part yields, at {}, below",
     "words.band": "distance from the band of the plausible set",
 }
-"""How an identifier begins -> what its number is called on the first page; the title of the check else."""
+"""How an identifier begins -> what its number is called on the first page, with the rest of it; else the check's title.
+A load at first yield is one below which nothing yields even where the curve ends before.
+"""
+_NO_YIELD = "the alloy's strength is inferred, and the wheel chosen not to pass it"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -156,9 +163,11 @@ def _part(
 
 
 def _of_what_kind(check: Check, reference: ReferenceSection | None) -> str:
-    """Kind of the reference in words, for what is held against ``[reference]``."""
+    """Kind of the reference in words, for what is held against ``[reference]`` or was chosen by it."""
     if check.id == "words.band":
         return f"; the reference is {THESIS_KIND}, {THESIS_WORDS}, and {NO_EVIDENCE}"
+    if reference is not None and reference.thesis_words and check.id in ("fe.first_yield_load", "fe.yield"):
+        return f"; {_NO_YIELD}"
     kind = kind_of(reference, check.id)
     return "" if kind is None else f"; the reference is {kind}"
 
@@ -177,7 +186,7 @@ def _used(check: Check) -> float:
 
 
 def _title(check: Check) -> str:
-    return check.title.removeprefix("FE: ").removeprefix("Rover on fitted ANCF tires, ")
+    return check.title.removeprefix("FE: ").replace("Rover on fitted ANCF tires,", "on the fitted ANCF tire,")
 
 
 def _told(check: Check) -> str:
@@ -192,5 +201,6 @@ def _told(check: Check) -> str:
         limit = "none allowed"
     elif not limit.startswith("at "):
         limit = f"{displayed_reference(check)}{'' if isinstance(check.reference, tuple) else ' ± ' + limit}"
-    name = next((short for begins, short in _SHORT.items() if check.id.startswith(begins)), title)
+    begins = next((begins for begins in _SHORT if check.id.startswith(begins)), None)
+    name = title if begins is None else _SHORT[begins].format(_SUFFIX.sub(r"\1 \2", check.id.removeprefix(begins)))
     return f"{name} {displayed(check.value, check.unit, check.quantity)} ({limit})"

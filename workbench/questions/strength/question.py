@@ -30,7 +30,9 @@ from workbench.verdict.rules import Claim, at_least, at_most
 
 __all__ = ["STRENGTH", "yield_check"]
 
-_MEASURE = "strips by their stress linearised through the thickness, one thickness from every joint"
+_MEASURE = (
+    "strips by their stress linearised through the thickness, one thickness from every joint and four from free edges"
+)
 
 
 def yield_check(

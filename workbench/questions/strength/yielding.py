@@ -1,7 +1,8 @@
 """Stress against yield along a curve: utilisation of each part, peak stress at a load, load at first yield.
 
-Strips are judged by their stress linearised through the thickness, one thickness from every joint: the elastic stress
-at a weld's end has no limit under refinement. What is no strip (grousers, hubs) has its largest von Mises stress.
+Strips are judged by their stress linearised through the thickness, one thickness from every joint and four from free
+edges: the elastic stress at a weld's end has no limit under refinement. What is no strip (grousers, hubs) has its
+largest von Mises stress.
 
 Verified by tests/unit/test_workbench_yielding.py.
 """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
+from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.questions.words.results import AVERAGE, FOLLOWS, LOADS, SMALL, SPREAD_AT, Words, follows, spread
 from workbench.verdict.rules import Claim, Doubt, at_least, at_most, near
@@ -28,12 +29,14 @@ def words_checks(words: Words) -> list[Check]:
             lambda: words.average.initial_tangent(SMALL),
             slope,
             SLOPE,
+            _doubt(words.mesh, slope),
         ),
         near(
             _claim("small.end", f"load of the average where the brush line carries {low:g} N", "load", "N"),
             lambda: float(words.average.load_at(low / slope)),
             low,
             END,
+            _doubt(words.mesh, low),
         ),
         at_least(
             _claim("brush_fails", f"distance of average and brush line where that carries {high:g} N", "difference"),
@@ -44,14 +47,15 @@ def words_checks(words: Words) -> list[Check]:
     for deflection, limit in AVERAGE.items():
         text = f"average over that of the thesis' tire ({reading}), at {1e3 * deflection:g} mm"
         claim = _claim(f"average_{1e3 * deflection:g}mm", text, "load / load")
-        checks.append(near(claim, partial(words.average_over, words.tire, deflection), 1.0, limit))
+        checks.append(near(claim, partial(words.average_over, words.tire, deflection), 1.0, limit, _doubt(words.mesh)))
     for orientation, curve in words.tire.by_orientation.items():
         text = (
             f"the thesis' tire ({reading}) at {orientation:g} deg, {low:g} to {high:g} N, "
             "and the nearest orientation of the wheel"
         )
         claim = _claim(f"follows_{orientation:g}deg", text, "largest relative difference")
-        checks.append(at_most(claim, lambda curve=curve: follows(words.fe, curve)[1], FOLLOWS))  # type: ignore[misc]
+        distance = partial(_follows, words, curve)
+        checks.append(at_most(claim, distance, FOLLOWS, _doubt(words.mesh)))
     own, twin = partial(spread, words.section, SPREAD_AT), partial(spread, words.twin, SPREAD_AT)
     of_all = f"over that of the wheel as it is, at {1e3 * SPREAD_AT:g} mm (section model)"
     checks += [
@@ -82,11 +86,15 @@ def words_checks(words: Words) -> list[Check]:
     return checks
 
 
-def _doubt(mesh: float | None) -> Doubt:
-    """What the mesh leaves open of a distance from the band; the band's own uncertainty is the limit."""
+def _follows(words: Words, curve: StiffnessCurve) -> float:
+    return follows(words.fe, curve)[1]
+
+
+def _doubt(mesh: float | None, of: float = 1.0) -> Doubt:
+    """What the mesh leaves open ``of`` a number; of the band's distance, its own uncertainty is the limit."""
     if mesh is None:
         return Doubt(width=0.0, words="numerical uncertainty not known")
-    return Doubt(width=mesh, words=f"numerical uncertainty ±{100.0 * mesh:.2g} %")
+    return Doubt(width=mesh * of, words=f"numerical uncertainty ±{100.0 * mesh:.2g} %")
 
 
 def _claim(name: str, title: str, quantity: str, unit: str = "-") -> Claim:
@@ -107,7 +115,8 @@ _STATEMENTS = {
 
 
 def verdicts(words: Words) -> dict[str, str]:
-    """By statement: "holds", "does not hold", or "not decided" where a finding that it needs could not be evaluated.
+    """By statement: "holds", "does not hold", or "not decided" where a finding that it needs was not evaluated, or the
+    mesh of the curves does not know it well enough.
 
     Of the two readings of the first one is enough.
     """
@@ -116,6 +125,6 @@ def verdicts(words: Words) -> dict[str, str]:
     for statement, names in _STATEMENTS.items():
         statuses = [status for name, status in found.items() if name.startswith(names)]
         holds = any(s == "pass" for s in statuses) if statement == "small" else all(s == "pass" for s in statuses)
-        undecided = "error" in statuses and (statement == "small" or "fail" not in statuses)
+        undecided = bool({"error", "undecided"} & set(statuses)) and (statement == "small" or "fail" not in statuses)
         told[statement] = "holds" if holds else "not decided" if undecided else "does not hold"
     return told
