@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from workbench.questions.crosscheck.question import CROSSCHECK
 from workbench.questions.crosscheck.results import COMMAND, NAME, PeerCheck, crosscheck_tasks, peer_check, points_of
 from workbench.questions.kept import Kept, keep, kept
@@ -111,3 +113,28 @@ def test_the_record_of_the_built_in_study_is_whole() -> None:
     assert json.dumps(record.found["deflections_m"]) == json.dumps(list(points_of(built_in)[1]))
     assert [run["orientation_deg"] for run in record.found["runs"]] == list(points_of(built_in)[0])
     assert all(len(run["peer_N"]) == len(run["ours_N"]) == 3 for run in record.found["runs"])
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"runs": []},
+        {"peer": None},
+        {"deflections_m": []},
+        {"deflections_m": [-0.01, 0.02]},
+        {"runs": [RUNS[0] | {"ours_N": [80.0]}]},
+        {"runs": [RUNS[0] | {"ours_N": [0.0, 150.0]}]},
+        {"runs": [RUNS[0] | {"peer_N": [80.0, 1e308]}]},
+        {"runs": [RUNS[0] | {"peer_N": [80.0, "a"]}]},
+        {"runs": [RUNS[0] | {"orientation_deg": "x"}]},
+        {"runs": [{k: v for k, v in RUNS[0].items() if k != "iterations"}]},
+    ],
+)
+def test_numbers_that_no_run_can_have_are_refused_before_anything_is_computed(
+    study: Study, damage: dict[str, Any]
+) -> None:
+    keep(study, NAME, COMMAND, crosscheck_tasks(study, (0.0, 15.0)), 100.0, FOUND)
+    assert CROSSCHECK.applies(study)
+    keep(study, NAME, COMMAND, crosscheck_tasks(study, (0.0, 15.0)), 100.0, FOUND | damage)
+    with pytest.raises(InputError, match=r"kept record.*cannot be read"):
+        CROSSCHECK.applies(study)

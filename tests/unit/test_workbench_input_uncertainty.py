@@ -259,6 +259,9 @@ def test_what_cannot_be_drawn_is_refused(inputs: dict[str, Any], message: str) -
     ("inputs", "message"),
     [
         ({THICKNESS: {"low": "1 mm", "high": "2 mm", "source": "s"}}, "misses the study's value.*0.9235 mm"),
+        ({THICKNESS: {"low": "0.095 cm", "high": "0.1 cm", "source": "s"}}, "misses the study's value.*0.9235 mm"),
+        ({THICKNESS: {"low": 0.00095, "high": 0.001, "source": "s"}}, "misses the study's value.*0.9235 mm"),
+        ({THICKNESS: {"deviation": "1e-30 mm", "source": "s"}}, "is too small beside the value"),
         ({THICKNESS: {"deviation": "0.1 cm", "source": "s"}}, "must be in the unit of the value"),
         ({"wheel.tyre.thickness": {"low": "1 mm", "high": "2 mm", "source": "s"}}, "wheel.tyre.*is not a known key"),
     ],
@@ -288,6 +291,25 @@ def _found(study: Study) -> dict[str, Any]:
     factors = (1.1, 0.9, None, 0.5)
     sampled = [_outcome(i + 1, study, v, f) for i, (v, f) in enumerate(zip(values, factors, strict=True))]
     return found_of(study, study.input_uncertainty, [_outcome(0, study, {}, 1.0), *sampled])
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"samples": []},
+        {"inputs": {}},
+        {"inputs": {THICKNESS: [1.0]}},
+        {"deflection_m": []},
+        {"deflection_m": [0.01 * k for k in range(7)][::-1]},
+        {"early": -3},
+        {"early": "x"},
+        {"units": None},
+        {"nominal": {"load_N": [1e308] * 7, "stress_Pa": 1.0, "used": 0.5}},
+    ],
+)
+def test_a_record_that_cannot_be_one_is_refused(damage: dict[str, Any]) -> None:
+    with pytest.raises((ValueError, TypeError, LookupError)):
+        samples_of(_found(_study(max_deflection="60 mm", points=6)) | damage)
 
 
 def test_a_record_comes_back_as_it_was_found() -> None:

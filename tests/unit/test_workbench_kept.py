@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -53,7 +56,7 @@ def test_names_and_costs_are_no_part_of_the_key() -> None:
     assert keys_of([replace(t, name=f"p/{t.name}", cost=9.0) for t in TASKS]) == keys_of(TASKS)
 
 
-@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"command": 1, "odd": 2}'])
+@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"command": 1, "odd": 2}', "[" * 100_000])
 def test_a_file_that_is_no_record_is_told(study: Study, text: str) -> None:
     path = keep(study, "sample", "make sample", TASKS, 1.0, {})
     path.write_text(text, encoding="utf-8")
@@ -64,3 +67,29 @@ def test_a_file_that_is_no_record_is_told(study: Study, text: str) -> None:
 def test_a_copy_of_a_study_keeps_its_folder(study: Study) -> None:
     changed = study.model_copy(update={"title": "another"})
     assert changed.kept == study.kept is not None
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"date": 5},
+        {"found": None},
+        {"wall_s": "x"},
+        {"wall_s": -1},
+        {"found": {"load_N": {}}},
+        {"found": {"load_N": []}},
+        {"found": {}},
+    ],
+)
+def test_a_record_that_its_question_cannot_read_is_told(study: Study, damage: dict[str, Any]) -> None:
+    """Negative control: the record as it was kept is read."""
+    path = keep(study, "sample", "make sample", TASKS, 1.0, {"load_N": [2.0]})
+    whole = json.loads(path.read_text(encoding="utf-8"))
+
+    def understand(found: Mapping[str, Any]) -> float:
+        return 1.0 / float(found["load_N"][0])
+
+    assert kept(study, "sample", understand) is not None
+    path.write_text(json.dumps(whole | damage), encoding="utf-8")
+    with pytest.raises(InputError, match=r"kept record.*sample.json.*cannot be read"):
+        kept(study, "sample", understand)

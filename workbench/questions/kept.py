@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import datetime
 import json
+import math
 import os
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -24,7 +25,7 @@ from workbench.study.model import Study
 __all__ = ["Kept", "State", "keep", "kept", "keys_of"]
 
 State = Literal["current", "older sources", "stale"]
-_DIGITS = 16
+_DIGITS, _WORDS = 16, 200
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,8 +63,8 @@ def keys_of(tasks: Sequence[Task]) -> tuple[str, str]:
     return text_sha256("\n".join(given))[:_DIGITS], text_sha256("\n".join(sources))[:_DIGITS]
 
 
-def kept(study: Study, name: str) -> Kept | None:
-    """The record of this name; None where there is none.
+def kept(study: Study, name: str, understand: Callable[[Mapping[str, Any]], object] = len) -> Kept | None:
+    """The record of this name; None where there is none. ``understand`` reads its ``found`` and raises what it likes.
 
     Raises
     ------
@@ -73,9 +74,21 @@ def kept(study: Study, name: str) -> Kept | None:
     if study.kept is None or not (path := study.kept / f"{name}.json").is_file():
         return None
     try:
-        return Kept(**json.loads(path.read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError) as error:
-        raise InputError("kept record", str(path), f"cannot be read ({error})", "remove it, or make it anew") from error
+        record = Kept(**json.loads(path.read_text(encoding="utf-8")))
+        _whole(record)
+        understand(record.found)
+    except (OSError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError, RecursionError) as error:
+        rule = f"cannot be read ({type(error).__name__}: {str(error)[:_WORDS]})"
+        raise InputError("kept record", str(path), rule, "remove it, or make it anew") from error
+    return record
+
+
+def _whole(record: Kept) -> None:
+    words = record.command, record.inputs, record.sources, record.date, record.machine
+    if not (
+        all(isinstance(w, str) for w in words) and isinstance(record.found, dict) and 0.0 <= record.wall_s < math.inf
+    ):
+        raise ValueError("command, inputs, sources, date and machine are texts, found a table, wall_s seconds")
 
 
 def keep(study: Study, name: str, command: str, tasks: Sequence[Task], wall_s: float, found: Mapping[str, Any]) -> Path:

@@ -6,6 +6,7 @@ Verified by tests/unit/test_workbench_input_uncertainty.py.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ from scipy.special import ndtr, ndtri
 from contracts.errors import StudyError
 from workbench.study.input_uncertainty import CUT, InputUncertaintySection, UncertainInput
 from workbench.study.model import Study
-from workbench.study.quantities import number_and_unit
+from workbench.study.quantities import number_and_unit, to_si
 from workbench.study.sweep import SweepSection, Value
 from workbench.study.sweep_points import (
     Point,
@@ -30,6 +31,7 @@ from workbench.study.sweep_points import (
 __all__ = ["as_sampled", "as_sweep", "input_points", "input_values", "normal_places", "require_inputs"]
 
 _SECTION = "input_uncertainty"
+_SI = ("m", "rad", "Pa", "N", "kg/m**3", "N/m**3", "K")
 _NEEDED = ("name", "title", "wheel", "materials", "mesh", "fe")
 """Sections of a study file that the section model computes with; a whole file takes ten times as long to read."""
 
@@ -53,7 +55,7 @@ def _ends(path: Path, key: str, one: UncertainInput, base: Mapping[str, Any]) ->
     if one.deviation is None:
         ends = [number_and_unit(end) for end in (one.low, one.high)]
         low, high = (end or (0.0, "") for end in ends)
-        if found is not None and found[1] == low[1] and not low[0] <= found[0] <= high[0]:
+        if found is not None and not _within(found, low, high):
             hint = f"widen it so that it holds {written_at(key, base)}"
             raise StudyError(path, f"{_SECTION}.{key}", f"{one.low} to {one.high}", "misses the study's value", hint)
         return {"low": one.low, "high": one.high}
@@ -69,7 +71,21 @@ def _ends(path: Path, key: str, one: UncertainInput, base: Mapping[str, Any]) ->
         raise StudyError(path, f"{_SECTION}.{key}.deviation", one.deviation, rule, hint)
     ends_of = [found[0] + sign * CUT * deviation for sign in (-1.0, 1.0)]
     low_end, high_end = (f"{end:.9g} {unit}" if unit else end for end in ends_of)
+    if low_end == high_end:
+        rule, hint = "is too small beside the value it is about", f"the study has {written_at(key, base)}; leave it out"
+        raise StudyError(path, f"{_SECTION}.{key}.deviation", one.deviation, rule, hint)
     return {"low": low_end, "high": high_end}
+
+
+def _within(found: tuple[float, str], low: tuple[float, str], high: tuple[float, str]) -> bool:
+    """Whether the study's value lies between both ends, whatever their units; yes for ends of another kind."""
+    if found[1] == low[1] == high[1]:
+        return low[0] <= found[0] <= high[0]
+    for unit in _SI:
+        with suppress(ValueError):
+            value, least, most = (to_si(f"{n!r} {text}" if text else n, unit) for n, text in (found, low, high))
+            return least <= value <= most
+    return True
 
 
 def normal_places(u: NDArray[np.float64]) -> NDArray[np.float64]:

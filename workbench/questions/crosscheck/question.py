@@ -13,7 +13,7 @@ from pathlib import Path
 
 from contracts.errors import InputError
 from contracts.records import Check
-from workbench.questions.crosscheck.results import COMMAND, NAME, PeerCheck, peer_check
+from workbench.questions.crosscheck.results import COMMAND, NAME, PeerCheck, peer_check, whole
 from workbench.questions.kept import kept
 from workbench.questions.model_curves import model_curves
 from workbench.questions.question import Question
@@ -28,7 +28,7 @@ LIMIT = 0.01
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> PeerCheck:
-    record = kept(study, NAME)
+    record = kept(study, NAME, whole)
     if record is None:
         raise InputError(f"record {NAME}", "none", "is needed", COMMAND)
     return peer_check(study, record, model_curves("fe", folders, around(study)).loaded)
@@ -62,5 +62,5 @@ CROSSCHECK = Question(
     group="Solvers",
     read=_read,
     checks=_checks,
-    applies=lambda study: kept(study, NAME) is not None,
+    applies=lambda study: kept(study, NAME, whole) is not None,
 )

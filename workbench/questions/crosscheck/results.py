@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -19,10 +20,11 @@ from workbench.questions.wheel.graph import wheel_meshes
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
 
-__all__ = ["COMMAND", "NAME", "LoadRow", "PeerCheck", "crosscheck_tasks", "peer_check", "points_of"]
+__all__ = ["COMMAND", "NAME", "LoadRow", "PeerCheck", "crosscheck_tasks", "peer_check", "points_of", "whole"]
 
 NAME, COMMAND = "crosscheck", "make bench NAME=crosscheck"
 _ORIENTATIONS = 5
+_LARGEST_LOAD = 1e9
 _SHARES = (0.25, 0.5, 0.75)
 """Deflections over the study's largest [-]."""
 
@@ -39,6 +41,20 @@ def points_of(study: Study) -> tuple[tuple[float, ...], tuple[float, ...]]:
 def crosscheck_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
     """Mesh and curves that a record is about."""
     return [wheel_meshes(study)[0], *fe_curve_tasks(study, orientations_deg)]
+
+
+def whole(found: Mapping[str, Any]) -> None:
+    """Raises for what a record cannot hold: loads and deflections are positive and finite, as many of each."""
+    deflections = np.array(found["deflections_m"], dtype=np.float64)
+    loads = np.array([[run["ours_N"], run["peer_N"]] for run in found["runs"]], dtype=np.float64)
+    if loads.ndim != 3 or loads.shape[2] != len(deflections) or deflections.ndim != 1:
+        raise ValueError("each run has one load of ours and one of the other code at each deflection")
+    positive = (loads > 0.0) & (loads < _LARGEST_LOAD)
+    if not (positive.all() and (deflections > 0.0).all() and (deflections < 1.0).all()):
+        raise ValueError(f"loads lie between 0 and {_LARGEST_LOAD:g} N, deflections between 0 and 1 m")
+    numbers = [value for run in found["runs"] for value in (run["orientation_deg"], run["iterations"])]
+    if not (np.isfinite(np.array(numbers, dtype=np.float64)).all() and isinstance(found["peer"], str)):
+        raise ValueError("a run has an orientation and iterations, the record the name of the other code")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -60,7 +60,7 @@ class InputUncertainty:
 
 def _read(study: Study, folders: Mapping[str, Path]) -> InputUncertainty:
     section = stated(study.input_uncertainty, "input_uncertainty")
-    record = kept(study, RECORD)
+    record = kept(study, RECORD, samples_of)
     state = "missing" if record is None else record.state([record_task(study, section)])
     sampled = None
     if record is not None and state != "stale":
@@ -108,6 +108,14 @@ def inputs_checks(found: Sampled, limit: float) -> list[Check]:
     return [at_most(claim, lambda: found.half_width(d), limit)]
 
 
+def _asked(study: Study) -> bool:
+    """A record that cannot be read is told here, before anything is computed."""
+    if study.input_uncertainty is None or without_planar_model(study) is not None:
+        return False
+    kept(study, RECORD, samples_of)
+    return True
+
+
 def _checks(study: Study, results: InputUncertainty) -> Sequence[Check]:
     return [] if results.sampled is None else inputs_checks(results.sampled, study.tolerances.model_agreement)
 
@@ -131,5 +139,5 @@ INPUT_UNCERTAINTY: Question = Question(
     figures=_figures,
     curves=_curves,
     budget=1000,
-    applies=lambda study: study.input_uncertainty is not None and without_planar_model(study) is None,
+    applies=_asked,
 )

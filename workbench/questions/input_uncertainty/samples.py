@@ -24,6 +24,7 @@ RECORD = "input_uncertainty"
 """Name of the record, see `workbench.questions.kept`."""
 
 Array = NDArray[np.float64]
+_LARGEST = 1e15
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,9 +75,15 @@ def record_task(study: Study, section: InputUncertaintySection) -> Task:
 
 
 def samples_of(found: Mapping[str, Any]) -> Samples:
-    """The samples of a record."""
+    """The samples of a record.
+
+    Raises
+    ------
+    ValueError, TypeError, LookupError
+        For what is no such record: shapes that do not belong together, infinite loads, deflections that do not rise.
+    """
     nominal, sampled = found["nominal"], found["samples"]
-    return Samples(
+    samples = Samples(
         keys=tuple(found["inputs"]),
         units=tuple(found["units"]),
         values=np.array(list(found["inputs"].values()), dtype=np.float64).T,
@@ -87,6 +94,24 @@ def samples_of(found: Mapping[str, Any]) -> Samples:
         stress=np.array([one["stress_Pa"] for one in sampled], dtype=np.float64),
         nominal_used=float(np.array(nominal["used"], dtype=np.float64)),
         used=np.array([one["used"] for one in sampled], dtype=np.float64),
-        early=found["early"],
+        early=int(found["early"]),
         notes=found["notes"],
     )
+    n, m = len(sampled), len(samples.deflection)
+    shapes = (
+        samples.values.shape,
+        samples.load.shape,
+        samples.nominal_load.shape,
+        samples.stress.shape,
+        samples.used.shape,
+    )
+    if not n or m < 2 or shapes != ((n, len(samples.keys)), (n, m), (m,), (n,), (n,)) or not samples.keys:
+        raise ValueError("every sample has a value of each input, a load at each deflection and a stress")
+    numbers = np.concatenate([samples.load.ravel(), samples.nominal_load, samples.stress, samples.used])
+    if (
+        not (np.diff(samples.deflection) > 0.0).all()
+        or (np.abs(numbers) > _LARGEST).any()
+        or not 0 <= samples.early <= n
+    ):
+        raise ValueError(f"deflections rise from 0, and no number lies beyond {_LARGEST:g}")
+    return samples
