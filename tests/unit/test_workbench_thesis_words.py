@@ -194,3 +194,11 @@ def test_the_band_is_what_the_set_spans() -> None:
         found.outside(replace(curve, deflection=1e-4 * DEFLECTION / 0.04, columns={}))
     assert found.outside(replace(curve, load=1.1 * curve.load)) == pytest.approx(1.1 / 1.04 - 1.0)
     assert found.outside(replace(curve, load=0.9 * curve.load)) == pytest.approx(1.0 - 0.9 / 0.96)
+
+
+def test_what_the_mesh_does_not_know_well_enough_is_not_decided() -> None:
+    """Where the mesh's uncertainty reaches across a limit; negative control: a mesh that is sure decides."""
+    near, sure = (replace(_words(), mesh=mesh) for mesh in (0.2, 1e-9))
+    assert {s for n, s in _status(near).items() if n.startswith(("average_", "follows_", "small."))} == {"undecided"}
+    assert (verdicts(near)["averages"], verdicts(near)["follows"]) == ("not decided", "not decided")
+    assert (verdicts(sure)["averages"], verdicts(sure)["follows"]) == ("holds", "holds")
