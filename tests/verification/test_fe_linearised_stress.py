@@ -132,3 +132,35 @@ def test_free_edges_are_left_out_up_to_the_distance(edge_distance: float, symmet
     expected = modulus * np.sqrt((y / b) ** 4 + 3.0 * (x * y / b**2) ** 2)
     found = LinearisedStress(problem, ["body"], edge_distance=edge_distance).largest_by_part()["body"]
     assert found == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_narrow_strip_beside_a_wide_one_of_the_same_part_counts() -> None:
+    """Strips 40 and 6 mm wide, both 1 mm thick, apart from each other; only the narrow one is strained.
+
+    Four thicknesses from its edges there is nothing of it left: half way to its own middle is what counts. The strain
+    grows with y from one edge to the other, so both sides of its one cell are looked at.
+    """
+    wide = block_mesh((6, 5, 1), lambda X: X * [60e-3, 40e-3, 1e-3])
+    narrow = block_mesh((6, 1, 1), lambda X: X * [60e-3, 6e-3, 1e-3] + [0.0, 0.1, 0.0])
+    mesh = replace(
+        wide,
+        points=np.concatenate([wide.points, narrow.points]),
+        cells=np.concatenate([wide.cells, narrow.cells + len(wide.points)]),
+        cell_tags=np.concatenate([wide.cell_tags, narrow.cell_tags]),
+        facets=np.concatenate([wide.facets, narrow.facets + len(wide.points)]),
+        facet_tags=np.concatenate([wide.facet_tags, narrow.facet_tags]),
+    )
+    material = replace(TI_6AL_4V, poisson_ratio=0.0)
+    supports = [Support(faces=("x0",), components=(0, 1, 2))]
+    for sign in (1.0, -1.0):
+        problem = StaticProblem(Domain.from_tagged(mesh), {"body": material}, supports)
+        problem.u.interpolate(
+            lambda x, s=sign: np.stack(
+                [1e-6 * x[0] * (1.0 + s * (x[1] - 0.103) / 3e-3) * (x[1] > 0.05), 0 * x[0], 0 * x[0]]
+            )
+        )
+        found = LinearisedStress(problem, ["body"]).largest_by_part()["body"]
+        stations = 0.5 + 0.5 * np.polynomial.legendre.leggauss(problem.discretisation.gauss_points[0])[0]
+        x = 60e-3 - (1.0 - stations.max()) * 10e-3
+        expected = material.young_modulus * 1e-6 * np.sqrt(1.5**2 + 3.0 * (x / 3e-3 / 2) ** 2)
+        assert found == pytest.approx(expected, rel=1e-3)
