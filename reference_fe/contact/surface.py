@@ -12,7 +12,7 @@ from scipy.sparse import csr_array
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from reference_fe import dolfinx_api as api
-from reference_fe.contact.inner_kernels import surface_frames
+from reference_fe.contact.facet_kernels import surface_frames
 from reference_fe.contact.patch import facet_widths
 from reference_fe.contact.whole_body import WholeBody, global_nodes
 from reference_fe.problem.domain import Domain

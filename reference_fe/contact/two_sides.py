@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts, shape_values
+from reference_fe.contact.facet_kernels import shape_values
+from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.surface import ContactSurface
 from reference_fe.contact.surface_term import SurfaceForces, joined
 

@@ -27,7 +27,7 @@ CHANGES = {
     r'max_deflection = "36 mm"\npoints = \d+': 'max_deflection = "6 mm"\npoints = 2',
     r"temperatures = \[[^\]]*\]": 'temperatures = ["-40 degC", "20 degC"]',
     r"factors = \[1, 2, 3\]": "factors = [1, 1.5, 2]",
-    r'\["10 mm", "20 mm", "30 mm"\]': '["6 mm"]',
+    r'\["10 mm", "30 mm"\]': '["6 mm"]',
     r"\[hub_study\][^\[]*\[[^\[]*\n(?=\[)": "",
     r'\[penalty_study\][^\[]*deflection = "[^"]*"\n': "",
     r'\norientation = "(?!0)[^"]*"': '\norientation = "0 deg"',

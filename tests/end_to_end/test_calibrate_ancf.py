@@ -44,7 +44,7 @@ def test_the_fitted_tire_lands_in_a_study(workspace: Path, tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("arguments", "old", "new", "text"),
     [
-        (("--tire", "nine_spokes"), "", "", "none of the study's (four_spokes, six_spokes, three_spokes)"),
+        (("--tire", "nine_spokes"), "", "", "none of the study's (four_spokes, six_spokes)"),
         ((), "[ancf_fit]", "[ancf_fits]", "not a known key"),
         ((), 'load_range = ["20 N"', 'load_range = ["240 N"', "beyond the end of the FE average"),
     ],

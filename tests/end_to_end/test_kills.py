@@ -35,7 +35,7 @@ CHANGES = {
     r"points = 9": "points = 2",
     r"points = 17": "points = 3",
     r'snapshot_loads = \["200 N"\]': 'snapshot_loads = ["20 N"]',
-    r'deflections = \["10 mm", "20 mm", "30 mm"\]': 'deflections = ["6 mm"]',
+    r'deflections = \["10 mm", "30 mm"\]': 'deflections = ["6 mm"]',
 }
 USERS = {
     "notes.txt": "mine",

@@ -39,7 +39,7 @@ TASKS = {
         "pictures",
     ),
     "environment_-40C",
-    *("ancf_as_it_is", "ancf_fit_four_spokes", "ancf_fit_six_spokes", "ancf_fit_three_spokes"),
+    *("ancf_as_it_is", "ancf_fit_four_spokes", "ancf_fit_six_spokes"),
     *("ancf_plates_x1", "ancf_plates_x2", "ancf_plates_x4", "ancf_plates_x8"),
     *("ancf_drop", "ancf_drop_share", "ancf_ride"),
     *(f"rover_{name}" for name in SCENARIOS),
@@ -88,11 +88,7 @@ def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished
     names = {"fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
              "brush_average.csv", "section_phi000.csv", "section_average.csv", "words_band_average.csv",
              "fe_-40C_phi000.csv", "fe_x1.5_phi000.csv", "fe_x2_phi000.csv"}  # fmt: skip
-    names |= {
-        f"ancf_{fit}_{place}.csv"
-        for fit in ("four_spokes", "six_spokes", "three_spokes")
-        for place in ("phi000", "average")
-    }
+    names |= {f"ancf_{fit}_{place}.csv" for fit in ("four_spokes", "six_spokes") for place in ("phi000", "average")}
     assert {p.name for p in folder.iterdir()} == names
     for path in folder.iterdir():
         lines = path.read_text(encoding="utf-8").splitlines()

@@ -14,6 +14,7 @@ from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
 from geometry.wheel import exomars_hoops
+from reference_fe.contact.facet_kernels import closest_point, surface_frames
 from reference_fe.contact.inner import ContactPair, InnerContact, InnerContactTerm
 from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.inner_pairs import wheel_contact_pairs
@@ -330,3 +331,35 @@ def test_pairs_of_a_wheel() -> None:
     whole = {(pair.slave, pair.master) for pair in wheel_contact_pairs(build_mesh(design, element_size=14e-3))}
     assert names < whole
     assert {("impact_springs_front", "outer_hub_bore"), ("outer_hub_bore", "inner_hub_outer")} <= whole - names
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.2])
+def test_the_quick_refusals_refuse_nothing_that_touches(margin: float) -> None:
+    """1000 points around a bowed facet, 1 m wide: what is found is what the closest point of each says by itself.
+
+    The gap goes from 0.1 m behind to 0.3 m above; bows up to 0.25 m make the facet reach far above its middle's plane.
+    """
+    random, found = np.random.default_rng(3), 0
+    for _ in range(10):
+        a, b = np.meshgrid([-0.5, 0.0, 0.5], [-0.5, 0.0, 0.5], indexing="ij")
+        x = np.stack([a, b, random.uniform(-0.5, 0.5) * a**2 + random.uniform(-0.5, 0.5) * a * b], axis=-1).reshape(
+            -1, 3
+        )
+        facet, lattice, above, below = np.arange(9)[None], (3, 3), 0.3, 0.1
+        points = np.column_stack([random.uniform(-0.7, 0.7, (100, 2)), random.uniform(-0.4, 0.6, 100)])
+        towards = np.broadcast_to([0.0, 0.0, -1.0], (1, 100, 3)).copy()
+        outward = surface_frames(x, facet, np.ones(1), lattice, np.zeros((1, 2)))[1][:, 0]
+        middle = x.mean(axis=0)[None]
+        balls = middle, np.linalg.norm(x - middle, axis=-1).max(keepdims=True), outward
+        one = np.array([0, 1]), np.array([0])
+        master, margins = (facet, np.ones(1), lattice), np.full((1, 4), margin)
+        touches = nearest_contacts(x, points[None], towards, one, master, balls, (above, below), margins)[0][0] == 0
+        for point, touching in zip(points, touches, strict=True):
+            xi, shapes, place = np.empty(2), np.empty((6, 9)), np.empty((6, 3))
+            closest_point(x, point, facet[0], lattice, xi, shapes, place)
+            normal = np.cross(place[1], place[2])
+            normal /= np.linalg.norm(normal)
+            within = np.abs(xi).max() <= 1.0 + margin
+            assert touching == (within and -below < (point - place[0]) @ normal < above and normal[2] > 0.0)
+        found += touches.sum()
+    assert 100 < found < 900

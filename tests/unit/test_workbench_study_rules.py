@@ -176,13 +176,13 @@ def test_a_direction_that_says_what_is_so_anyway_is_read(tmp_path: Path) -> None
     [
         ('["-60 deg", "60 deg"]', '["60 deg", "-60 deg"]', "ancf_fit.bounds.phase = 60 deg, -60 deg: must increase"),
         (
-            'phase = "10 deg"',
-            'phase = "70 deg"',
-            "ancf_fit.tires[2].start.phase = 70 deg: must begin within its bounds",
+            'contact_stiffness = "0.7 N/mm"',
+            'phase = "70 deg", contact_stiffness = "0.7 N/mm"',
+            "ancf_fit.tires[1].start.phase = 70 deg: must begin within its bounds",
         ),
         ('"20 kPa", "50 MPa"', '"2 MPa", "50 MPa"', "ancf_fit.tires[0].start.young_modulus = 1.5 MPa: must begin"),
         ('thickness = ["2 mm"', 'thickness = ["6.5 mm"', "ancf_fit.tires[0].start.rim_thickness = 6 mm: must begin"),
-        ('["10 mm", "20 mm", "30 mm"]', '["20 mm", "10 mm"]', "mesh_study.deflections = 20 mm, 10 mm: must increase"),
+        ('["10 mm", "30 mm"]', '["20 mm", "10 mm"]', "mesh_study.deflections = 20 mm, 10 mm: must increase"),
         (
             "[tolerances]",
             "[[reference.curves]]\nfile='a'\nlabel='a'\nsource='b'\nkind='measured'\norientation='7 deg'\n[tolerances]",

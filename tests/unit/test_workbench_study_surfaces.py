@@ -95,7 +95,7 @@ def test_every_task_of_the_study_s_own_tire_has_its_plates(exported: Path, tmp_p
     assert not [name for name in tasks if name.startswith("ancf_plates_x")]
     presets = [n for n, t in tasks.items() if "preset" in t.inputs and "plates" not in t.inputs]
     presets = [name for name in presets if not name.startswith("words_")]  # tires that the thesis' text allows
-    assert sorted(presets) == ["ancf_fit_four_spokes", "ancf_fit_six_spokes", "ancf_fit_three_spokes"]
+    assert sorted(presets) == ["ancf_fit_four_spokes", "ancf_fit_six_spokes"]
 
 
 def test_a_tire_survives_as_inputs() -> None:
