@@ -24,7 +24,7 @@ from contracts.errors import InputError, StudyError
 from workbench.questions.input_uncertainty.keeping import found_of
 from workbench.questions.input_uncertainty.question import INPUT_UNCERTAINTY, inputs_checks
 from workbench.questions.input_uncertainty.results import Sampled, solid_over_section
-from workbench.questions.input_uncertainty.samples import RECORD, Samples, record_task, samples_of
+from workbench.questions.input_uncertainty.samples import RECORD, Samples, record_task, require_inputs, samples_of
 from workbench.questions.input_uncertainty.statistics import (
     at_most_of_all,
     percentiles,
@@ -34,7 +34,7 @@ from workbench.questions.input_uncertainty.statistics import (
 from workbench.questions.kept import keep
 from workbench.questions.sweep.graph import SweepRun
 from workbench.questions.sweep.results import Outcome
-from workbench.study.input_points import as_sampled, input_points, input_values, normal_places, require_inputs
+from workbench.study.input_points import as_sampled, input_points, input_values, normal_places
 from workbench.study.input_uncertainty import CUT
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, study_of
@@ -248,6 +248,9 @@ def test_points_are_whole_studies_with_the_runs_of_the_section() -> None:
         ({THICKNESS: {"deviation": "0.1 mm"}}, "source.*is missing"),
         ({"ancf.young_modulus": {"low": 1, "high": 2, "source": "s"}}, "nothing that the section model computes with"),
         ({"orientation": {"low": "0 deg", "high": "1 deg", "source": "s"}}, "nothing that the section model"),
+        (TWO | {f"{THICKNESS} = wheel.springs[0].thickness": TWO[THICKNESS]}, "draws wheel.tire.thickness, as"),
+        (TWO | {"deflections": ["10 mm", "50 mm"]}, "50 mm.* lies beyond max_deflection = 40 mm"),
+        (TWO | {"loads": ["400 N"]}, "400 N.* lies beyond max_load = 300 N"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused(inputs: dict[str, Any], message: str) -> None:
@@ -264,6 +267,12 @@ def test_what_cannot_be_drawn_is_refused(inputs: dict[str, Any], message: str) -
         ({THICKNESS: {"deviation": "1e-30 mm", "source": "s"}}, "is too small beside the value"),
         ({THICKNESS: {"deviation": "0.1 cm", "source": "s"}}, "must be in the unit of the value"),
         ({"wheel.tyre.thickness": {"low": "1 mm", "high": "2 mm", "source": "s"}}, "wheel.tyre.*is not a known key"),
+        ({"fe.friction": {"low": -0.5, "high": 0.6, "source": "s"}}, "fe.friction.*-0.5.*cannot be: .*narrow what is"),
+        ({"materials.Ti-6Al-4V.poisson_ratio": {"low": 0.3, "high": 0.6, "source": "s"}}, "poisson_ratio.*cannot be"),
+        ({THICKNESS: {"deviation": "0.4 mm", "source": "s"}}, "tire.thickness.*cannot be: .*narrow"),
+        ({"fe.points": {"low": 10, "high": 30, "source": "s"}}, "fe.points.*changes nothing that the section model"),
+        ({"fe.max_deflection": {"low": "30 mm", "high": "50 mm", "source": "s"}}, "max_deflection.*changes nothing"),
+        ({"materials.AISI 301.young_modulus": {"low": "180 GPa", "high": "200 GPa", "source": "s"}}, "changes nothing"),
     ],
 )
 def test_what_does_not_fit_the_study_is_refused_by_its_key(inputs: dict[str, Any], message: str) -> None:

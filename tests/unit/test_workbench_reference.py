@@ -92,6 +92,34 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
         {"band": SAID | {"points": [{"load": "160 N", "low": "21 mm", "high": "19 mm"}]}},
         r"reference\.band\.points\[0\]\.low = 21 mm: must not exceed high = 19 mm",
     ),
+    "slope beyond the curves": (
+        {"slope": SLOPE | {"up_to": "70 mm"}},
+        r"slope\.up_to = 70 mm: must not exceed fe.max_deflection = 34 mm",
+    ),
+    "a load beyond the curves": (
+        {"band": SAID | {"points": [{"load": "900 N", "low": "19 mm", "high": "21 mm"}]}},
+        r"points\[0\]\.load = 900 N: lies beyond fe.max_load = 300 N",
+    ),
+    "a deflection beyond the curves": (
+        {"band": SAID | {"points": [{"load": "160 N", "low": "50 mm", "high": "60 mm"}]}},
+        r"points\[0\]\.low = 50 mm: lies beyond fe.max_deflection = 34 mm",
+    ),
+    "a band that turns back": (
+        {
+            "band": SAID
+            | {
+                "points": [
+                    {"load": "250 N", "low": "10 mm", "high": "12 mm"},
+                    {"load": "160 N", "low": "19 mm", "high": "21 mm"},
+                ]
+            }
+        },
+        r"points\[0\] = 10 to 12 mm: contradicts 19 to 21 mm at 160 N",
+    ),
+    "one load twice": (
+        {"band": SAID | {"points": [{"load": "160 N", "low": "19 mm", "high": "21 mm"}] * 2}},
+        r"points\[1\] = 19 to 21 mm: contradicts",
+    ),
     "no band in it": ({"band": SAID | {"file": "mine.csv"}}, r"reference\.band\.file = mine.csv: "),
     "no file": ({"curves": [CURVE | {"file": "none.csv"}]}, r"reference\.curves\[0\]\.file = none.csv: "),
     "no half width": ({"curves": [NO_UNCERTAINTY]}, r"curves\[0\]\.uncertainty: is missing: neither the study nor the"),
@@ -149,3 +177,24 @@ def test_words_that_cannot_be_asked_are_told(tmp_path: Path) -> None:
     assert not [line for line in warnings_of(read_study(built_in_study())) if "thesis_words" in line]
     (line,) = (line for line in warnings_of(_study(tmp_path, thesis_words=True)) if "thesis_words" in line)
     assert line.startswith("reference.thesis_words judges no stiffness: the thesis' words need [ancf] with")
+
+
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        ("0,0,0,0\n10,80,78,82\n20,160,155,165\n", "deflection_m holds 20, beyond any wheel's 1"),
+        ("0,0,0,0\n0.01,80,78,inf\n", "load_high_N holds inf"),
+        ("0,0,0,0\n0.01,80,78,1e99\n", r"load_high_N holds 1e\+99"),
+        ("0,0,0,0\n0.3,80,78,82\n", "has no row between first contact and fe.max_deflection = 34 mm"),
+    ],
+)
+def test_a_band_file_in_other_units_or_out_of_reach_is_refused(tmp_path: Path, rows: str, message: str) -> None:
+    (tmp_path / "other.csv").write_text(f"deflection_m,load_N,load_low_N,load_high_N\n{rows}", encoding="utf-8")
+    with pytest.raises(StudyError, match=message):
+        _study(tmp_path, band=SAID | {"file": "other.csv"})
+
+
+def test_a_curve_without_load_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "zeros.csv").write_text("deflection_m,load_N\n0,0\n0.01,0\n0.02,0\n", encoding="utf-8")
+    with pytest.raises(StudyError, match="holds no load above zero"):
+        _study(tmp_path, curves=[CURVE | {"file": "zeros.csv", "uncertainty": "3 %"}])

@@ -15,7 +15,7 @@ from workbench.execution.progress import RunDisplay
 from workbench.execution.runner import Computing, run_all
 from workbench.execution.store import Store
 from workbench.questions.input_uncertainty.keeping import found_of
-from workbench.questions.input_uncertainty.samples import RECORD, record_task
+from workbench.questions.input_uncertainty.samples import RECORD, record_task, require_inputs
 from workbench.questions.kept import keep
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.sweep.graph import sweep_graph
@@ -36,6 +36,7 @@ def run_sample(study_path: Path | None, store: Path, computing: Computing) -> in
     study = study_of(path, content)
     warn(path, of_the_file(study))
     section = _stated(path, study)
+    require_inputs(path, content, section)
     console.print(f"reading {section.samples} samples, each as a whole study")
     points = input_points(path, content, section)
     graph = sweep_graph(points, ("section",))

@@ -16,11 +16,11 @@ from contracts.errors import InputError
 from contracts.input_file import input_text
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.disk import STUDY, naming_the_disk
+from workbench.questions.input_uncertainty.samples import require_inputs
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.sweep.graph import sweep_graph
 from workbench.report.placing import moved
 from workbench.study.full import full_study
-from workbench.study.input_points import require_inputs
 from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.study.rewrite import rewritten_study
 from workbench.study.sweep_points import beyond_reach, end_points

@@ -28,7 +28,7 @@ from workbench.study.sweep_points import (
     written_at,
 )
 
-__all__ = ["as_sampled", "as_sweep", "input_points", "input_values", "normal_places", "require_inputs"]
+__all__ = ["as_sampled", "as_sweep", "input_ends", "input_points", "input_values", "normal_places"]
 
 _SECTION = "input_uncertainty"
 _SI = ("m", "rad", "Pa", "N", "kg/m**3", "N/m**3", "K")
@@ -130,12 +130,29 @@ def _point(path: Path, base: Mapping[str, Any], number: int, values: Mapping[str
         raise StudyError(path, key, error.value, error.rule, error.hint) from error
 
 
-def require_inputs(path: Path, table: Mapping[str, Any], section: InputUncertaintySection) -> None:
-    """Refuse an input that is no key of the study, or whose range does not fit its value; StudyError names it."""
+def input_ends(
+    path: Path, table: Mapping[str, Any], section: InputUncertaintySection
+) -> dict[str, tuple[Study, Study]]:
+    """The study at both ends of every input, each alone, with the runs of the section.
+
+    Raises
+    ------
+    StudyError
+        As `as_sweep`, and where an end makes a study that cannot be used: names input, value and rule.
+    """
     base = _needed(table)
     sweep = as_sweep(path, section, base)
-    (middle,) = drawn_values(sweep, np.full((1, len(sweep.parameters)), 0.5))
-    _point(path, base, 0, middle)
+    all_low, all_high = drawn_values(sweep, np.array([[0.0], [np.nextafter(1.0, 0.0)]]).repeat(len(section.inputs), 1))
+    ends = {}
+    for key in section.inputs:
+        try:
+            points = [study_point(path, base, 0, {key: values[key]}) for values in (all_low, all_high)]
+        except StudyError as error:
+            hint = f"narrow what is drawn of {key}: {error.hint}"
+            raise StudyError(path, f"[{_SECTION}] {key}", error.value, f"cannot be: {error.rule}", hint) from error
+        low, high = (as_sampled(point.study, section) for point in points)
+        ends[key] = low, high
+    return ends
 
 
 def _needed(table: Mapping[str, Any]) -> dict[str, Any]:

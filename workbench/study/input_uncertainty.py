@@ -14,7 +14,7 @@ from pydantic import Field, StrictInt, model_validator
 from workbench.study.quantities import Force, number_and_unit
 from workbench.study.section import Positive, Section, in_key
 from workbench.study.sections import Drop, Orientations
-from workbench.study.sweep import MOST_PARAMETERS, MOST_POINTS, checked_range, flattened
+from workbench.study.sweep import MOST_PARAMETERS, MOST_POINTS, checked_range, flattened, tied_keys
 
 __all__ = ["CUT", "InputUncertaintySection", "UncertainInput"]
 
@@ -89,10 +89,33 @@ class InputUncertaintySection(Section):
             )
         for key, value in found.items():
             _check(key, value)
+        _each_once(found)
         return {key: value for key, value in section.items() if key in own} | {"inputs": found}
+
+    @model_validator(mode="after")
+    def _read_within_the_curves(self) -> InputUncertaintySection:
+        for name, numbers, end, unit in (
+            ("deflections", self.deflections, ("max_deflection", self.max_deflection), "mm"),
+            ("loads", self.loads, ("max_load", self.max_load), "N"),
+        ):
+            scale = 1e3 if unit == "mm" else 1.0
+            if max(numbers) > end[1]:
+                rule = f"lies beyond {end[0]} = {scale * end[1]:g} {unit}, where sampled curves end"
+                raise in_key(name, f"{scale * max(numbers):g} {unit}", rule, f"read it within, or raise {end[0]}")
+        return self
 
 
 _EXAMPLE = 'e.g. { deviation = "0.03 mm", source = "..." } or { low = "0.5 mm", high = "0.6 mm", source = "..." }'
+
+
+def _each_once(inputs: Mapping[str, Any]) -> None:
+    """Refuse a key of the study that two inputs draw."""
+    seen = dict[str, str]()
+    for key in inputs:
+        for _, one in tied_keys(key):
+            if one in seen:
+                raise in_key(key, "", f"draws {one}, as {seen[one]!r} does already", "draw each key once")
+            seen[one] = key
 
 
 def _check(key: str, value: Any) -> None:

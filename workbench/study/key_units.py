@@ -26,7 +26,6 @@ __all__ = [
     "nameless",
     "nearest_key",
     "parts_of",
-    "tied_keys",
     "unit_of",
     "words_of",
 ]
@@ -39,12 +38,6 @@ _PART = re.compile(r"\[(\d{1,9})\]|([^.\[\]]+)")
 def parts_of(key: str) -> list[str | int]:
     """``"wheel.springs[0].count"`` -> ``["wheel", "springs", 0, "count"]``."""
     return [int(number) if number else name for number, name in _PART.findall(key)]
-
-
-def tied_keys(key: str) -> list[tuple[float, str]]:
-    """``"a.b = -c.d"``, two keys that are varied together, as ``[(1.0, "a.b"), (-1.0, "c.d")]``."""
-    names = [part.strip() for part in key.split("=")]
-    return [(-1.0, name[1:].strip()) if name.startswith("-") else (1.0, name) for name in names]
 
 
 def unit_of(key: str) -> str | None:

@@ -19,7 +19,7 @@ from contracts.errors import InputError, StudyError
 from contracts.input_file import input_table
 from contracts.ranges import Key, dotted
 from contracts.text import one_line
-from workbench.study.curve_file import in_si
+from workbench.study.curve_file import in_si, read_measured_curve
 from workbench.study.key_units import nearest_key, parts_of, words_of
 from workbench.study.magnitudes import impossible, numbers_of
 from workbench.study.model import Study
@@ -272,10 +272,18 @@ def _check_curves(path: Path, study: Study, table: Mapping[str, Any]) -> None:
     try:
         if reference.band is not None and reference.band.file is not None:
             key = "reference.band.file"
-            read_band(Path(reference.band.file))
+            band, end = read_band(Path(reference.band.file)), study.fe.max_deflection
+            if not ((band.deflection > 0.0) & (band.deflection <= end)).any():
+                rule = f"has no row between first contact and fe.max_deflection = {1e3 * end:g} mm"
+                raise InputError(
+                    "band file", reference.band.file, rule, "compute the curves further, or give more rows"
+                )
         for i, section in enumerate(reference.curves):
             key = f"reference.curves[{i}].file"
             in_si(Path(section.file))
+            if not read_measured_curve(Path(section.file)).curve.load.max() > 0.0:
+                rule, hint = "holds no load above zero", "give the load of the ground on the wheel, positive"
+                raise InputError("curve file", section.file, rule, hint)
             key = f"reference.curves[{i}].uncertainty"
             stated_uncertainty(section)
     except InputError as error:

@@ -50,9 +50,18 @@ def read_band(path: Path) -> LoadBand:
     Raises
     ------
     InputError
-        As `read_curve`, and as `load_band`.
+        As `read_curve`, as `load_band`, and for numbers that no wheel has: infinite ones, or those of another unit.
     """
-    return load_band(read_curve(path))
+    band = load_band(read_curve(path))
+    for numbers, name, most in (
+        (band.deflection, "deflection_m", 1.0),
+        (band.low, _ENDS[0], 1e7),
+        (band.high, _ENDS[1], 1e7),
+    ):
+        if not np.abs(numbers).max() <= most:
+            rule = f"{name} holds {numbers[np.abs(numbers).argmax()]:g}, beyond any wheel's {most:g}"
+            raise InputError("band file", path, rule, "give deflections in metres and loads in newtons, all finite")
+    return band
 
 
 def stated_uncertainty(section: CurveReference) -> Array:

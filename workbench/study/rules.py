@@ -8,27 +8,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
 
 from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
-from workbench.study.key_units import absent, as_written, is_table, parts_of, tied_keys
+from workbench.study.broken_rule import BrokenRule
+from workbench.study.key_units import absent, as_written, is_table, parts_of
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, fit_start
+from workbench.study.reference_rules import broken_reference
+from workbench.study.sweep import tied_keys
 from workbench.study.wheel_design import SectionInputError, materials, wheel_design
 
-__all__ = ["BrokenRule", "broken_rules", "broken_springs"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BrokenRule:
-    """A key of the study file, its value, the rule it breaks and what to try."""
-
-    key: str
-    value: str
-    rule: str
-    hint: str
+__all__ = ["broken_rules", "broken_springs"]
 
 
 def broken_springs(study: Study) -> Iterator[BrokenRule]:
@@ -70,6 +62,7 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
                 hint=f"use {', '.join(parts)}",
             )
     yield from _of_the_curves(study)
+    yield from broken_reference(study)
     design = wheel_design(study)
     yield from _lonely(study)
     yield from _of_the_sweep(study)
@@ -181,16 +174,6 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
             key, value = "mesh_study.orientations", f"{math.degrees(angle):g} deg"
             hint = "add it there or choose one of them"
             yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint=hint)
-    reference = study.reference
-    slope = None if reference is None else reference.slope
-    for angle in () if slope is None else slope.orientations or ():
-        if not any(abs(angle - o) < 1e-9 for o in fe.orientations):
-            key, value = "reference.slope.orientations", f"{math.degrees(angle):g} deg"
-            yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
-    for k, curve in enumerate(study.reference_curves):
-        if curve.orientation is not None and not any(abs(curve.orientation - o) < 1e-9 for o in fe.orientations):
-            key, value = f"reference.curves[{k}].orientation", f"{math.degrees(curve.orientation):g} deg"
-            yield BrokenRule(key=key, value=value, rule="must be one of fe.orientations", hint="add it there")
     penalty, environment = study.penalty_study, study.environment
     for key, drop in (
         ("penalty_study.deflection", penalty.deflection if penalty else None),

@@ -25,6 +25,7 @@ __all__ = [
     "Value",
     "checked_range",
     "flattened",
+    "tied_keys",
 ]
 
 type Value = str | int | float | bool
@@ -244,3 +245,9 @@ def checked_range(key: str, values: Mapping[str, object]) -> SweepRange:
     if not ends[0][0] < ends[1][0] or math.isinf(ends[1][0] - ends[0][0]):
         raise in_key(key, f"{low} to {high}", "must have finite ends, low less than high", example)
     return SweepRange.model_validate({"low": low, "high": high})
+
+
+def tied_keys(key: str) -> list[tuple[float, str]]:
+    """``"a.b = -c.d"``, two keys that are varied together, as ``[(1.0, "a.b"), (-1.0, "c.d")]``."""
+    names = [part.strip() for part in key.split("=")]
+    return [(-1.0, name[1:].strip()) if name.startswith("-") else (1.0, name) for name in names]

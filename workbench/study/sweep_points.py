@@ -20,11 +20,11 @@ from scipy.stats import qmc
 
 from contracts.errors import InputError, StudyError
 from workbench.study.full import steps_around
-from workbench.study.key_units import is_whole_number, parts_of, tied_keys
+from workbench.study.key_units import is_whole_number, parts_of
 from workbench.study.model import Study
 from workbench.study.quantities import number_and_unit, to_si
 from workbench.study.reading import study_of
-from workbench.study.sweep import SweepRange, SweepSection, Value
+from workbench.study.sweep import SweepRange, SweepSection, Value, tied_keys
 from workbench.study.wheel_design import wheel_design
 
 __all__ = [

@@ -10,7 +10,8 @@ from contracts.errors import InputError
 from workbench.charts.curves import add_area, add_line, add_plain
 from workbench.charts.interactive import Figure, empty_figure, figure_html
 from workbench.charts.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
-from workbench.study.key_units import parts_of, tied_keys
+from workbench.study.key_units import parts_of
+from workbench.study.sweep import tied_keys
 
 if TYPE_CHECKING:
     from workbench.questions.input_uncertainty.results import Output, Sampled

@@ -18,9 +18,10 @@ from workbench.questions.strength.yielding import largest_utilisation, peak_stre
 from workbench.questions.sweep.results import Outcome
 from workbench.study.input_points import as_sampled
 from workbench.study.input_uncertainty import InputUncertaintySection
-from workbench.study.key_units import tied_keys, unit_of
+from workbench.study.key_units import unit_of
 from workbench.study.model import Study
 from workbench.study.quantities import number_and_unit
+from workbench.study.sweep import tied_keys
 
 __all__ = ["found_of"]
 

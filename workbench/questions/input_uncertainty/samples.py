@@ -7,18 +7,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.errors import StudyError
 from workbench.execution.task import Task
 from workbench.questions.section.graph import section_tasks
-from workbench.study.input_points import as_sampled
+from workbench.questions.strength.yielding import yield_strengths
+from workbench.study.input_points import as_sampled, input_ends
 from workbench.study.input_uncertainty import InputUncertaintySection
 from workbench.study.model import Study
 
-__all__ = ["RECORD", "Samples", "record_task", "samples_of"]
+__all__ = ["RECORD", "Samples", "record_task", "require_inputs", "samples_of"]
 
 RECORD = "input_uncertainty"
 """Name of the record, see `workbench.questions.kept`."""
@@ -72,6 +75,21 @@ def record_task(study: Study, section: InputUncertaintySection) -> Task:
     )
     inputs = {"nominal": [task.inputs for task in nominal], "drawn": drawn, "judged_load": study.judged_load}
     return Task(name=RECORD, function=nominal[0].function, inputs=inputs)
+
+
+def require_inputs(path: Path, table: Mapping[str, Any], section: InputUncertaintySection) -> None:
+    """Refuse an input that is no key of the study, that cannot have one of its ends, or that changes no result.
+
+    Raises
+    ------
+    StudyError
+        As `input_ends`, and for an input at whose ends the section model is given the same; names it.
+    """
+    for key, ends in input_ends(path, table, section).items():
+        low, high = ([[task.inputs for task in section_tasks(end)], yield_strengths(end)] for end in ends)
+        if low == high:
+            rule = "changes nothing that the section model computes with"
+            raise StudyError(path, f"{RECORD}.{key}", section.inputs[key].words, rule, "leave it out, or name another")
 
 
 def samples_of(found: Mapping[str, Any]) -> Samples:

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from contracts.text import for_cell
 from workbench.questions.sweep.results import Outcome, Reference, measured, own_curves
 from workbench.questions.sweep.search import Judged, pareto
-from workbench.study.key_units import tied_keys, unit_of
+from workbench.study.key_units import unit_of
 from workbench.study.model import Study
 from workbench.study.quantities import number_and_unit
-from workbench.study.sweep import SweepRange, SweepSection, Value
+from workbench.study.sweep import SweepRange, SweepSection, Value, tied_keys
 
 __all__ = ["Cell", "SweepTable", "sweep_table"]
 
