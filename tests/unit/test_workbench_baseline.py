@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -120,6 +121,16 @@ def test_a_baseline_that_is_none_is_refused(tmp_path: Path) -> None:
         path.write_text(broken, encoding="utf-8")
         with pytest.raises(InputError, match=r"is no summary of a report|JSON"):
             read_baseline(tmp_path, "s")
+    (row,) = content["checks"]
+    damaged = [
+        content | {"schema": 99},
+        *(content | {"checks": [row | change]} for change in ({"role": "gaet"}, {"status": "passed"}, {"value": nan})),
+        content | {"checks": [row, row]},
+    ]
+    for one in damaged:
+        path.write_text(json.dumps(one), encoding="utf-8")
+        with pytest.raises(InputError, match=r"^report .*(is no summary of a report|not finite|NaN)"):
+            read_baseline(tmp_path, "s", "report")
 
 
 def test_a_summary_of_earlier_versions_has_titles_for_claims(tmp_path: Path) -> None:

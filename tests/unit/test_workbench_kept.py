@@ -93,3 +93,19 @@ def test_a_record_that_its_question_cannot_read_is_told(study: Study, damage: di
     path.write_text(json.dumps(whole | damage), encoding="utf-8")
     with pytest.raises(InputError, match=r"kept record.*sample.json.*cannot be read"):
         kept(study, "sample", understand)
+
+
+@pytest.mark.parametrize("place", ["own.kept", "own.kept/sample.json"])
+def test_what_lies_in_a_records_place_and_is_none_is_told(study: Study, tmp_path: Path, place: str) -> None:
+    """A broken link; as the folder and as the file in it."""
+    if "/" in place:
+        (tmp_path / "own.kept").mkdir()
+    (tmp_path / place).symlink_to(tmp_path / "nowhere")
+    with pytest.raises(InputError, match="is not what it should be"):
+        kept(study, "sample")
+
+
+def test_a_folder_in_a_records_place_is_told(study: Study, tmp_path: Path) -> None:
+    (tmp_path / "own.kept" / "sample.json").mkdir(parents=True)
+    with pytest.raises(InputError, match="is not what it should be"):
+        kept(study, "sample")

@@ -27,7 +27,7 @@ def run_accept(report: Path, baseline: Path) -> int:
     """
     source, target = report / SUMMARY, baseline / SUMMARY
     study, status = _study_and_status(source)
-    checks = read_baseline(report, study).checks.values()
+    checks = read_baseline(report, study, "report").checks.values()
     if not checks:
         raise InputError("report", source, "holds no checks", "give the folder that workbench report wrote")
     broken = [check.id for check in checks if check.role == "gate" and check.status != "pass"]

@@ -69,9 +69,15 @@ def kept(study: Study, name: str, understand: Callable[[Mapping[str, Any]], obje
     Raises
     ------
     InputError
-        For a file that is no such record.
+        For a file that is no such record, and for a folder or link in its place.
     """
-    if study.kept is None or not (path := study.kept / f"{name}.json").is_file():
+    if study.kept is None:
+        return None
+    path = study.kept / f"{name}.json"
+    for place, wanted in ((study.kept, Path.is_dir), (path, Path.is_file)):
+        if os.path.lexists(place) and not wanted(place):
+            raise InputError("kept record", place, "is not what it should be", "remove it, or make the record anew")
+    if not path.exists():
         return None
     try:
         record = Kept(**json.loads(path.read_text(encoding="utf-8")))

@@ -10,21 +10,25 @@ Verified by tests/unit/test_workbench_baseline.py and tests/end_to_end/test_ci_g
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from contracts.errors import InputError
 from contracts.foreign_folder import read_json
-from contracts.records import Check
+from contracts.records import Check, Role, Status
 
 __all__ = ["NOISE", "SUMMARY", "Baseline", "Change", "Kept", "Kind", "changes_since", "read_baseline"]
 
 SUMMARY = "summary.json"
 NOISE = 0.01
 """Share of the room between reference and limit by which a value may move unnoticed [-]."""
+_SCHEMAS = (1, 2)
+_WORDS = 100
+"""Of an error's, shown."""
 _LOOSER = 0.05
 """Share by which a limit may grow: some follow from the numerical uncertainty, which moves a little [-]."""
 
@@ -111,12 +115,18 @@ class Change:
         return was_gate and self.kind not in ("status", "moved", "new")
 
 
-def read_baseline(folder: Path, study: str) -> Baseline:
-    """The accepted report in a folder; InputError if there is none, or one of another study."""
+def read_baseline(folder: Path, study: str, what: str = "baseline") -> Baseline:
+    """The accepted report in a folder; InputError, about ``what``, if there is none, or one of another study."""
     path, hint = folder / SUMMARY, "accept a report first: workbench accept DIR"
+    if what != "baseline":
+        hint = "give the folder that workbench report wrote"
     try:
-        content = read_json(path, "baseline", hint)
+        content = read_json(path, what, hint)
+        if content.get("schema", 1) not in _SCHEMAS:
+            raise ValueError("schema of another version")
         checks = [_kept(row) for row in content["checks"]]
+        if len({check.id for check in checks}) < len(checks):
+            raise ValueError("one identifier twice")
         origin = content["provenance"]
         found = Baseline(
             study=str(content["study"]),
@@ -125,11 +135,12 @@ def read_baseline(folder: Path, study: str) -> Baseline:
             checks={check.id: check for check in checks},
         )
     except InputError as error:
-        raise InputError("baseline", path, error.rule, hint) from None
+        raise InputError(what, path, error.rule, hint) from None
     except (ValueError, KeyError, TypeError, AttributeError, IndexError, OverflowError) as error:
-        raise InputError("baseline", path, f"is no summary of a report ({type(error).__name__})", hint) from None
+        why = f"{type(error).__name__}: {str(error)[:_WORDS]}"
+        raise InputError(what, path, f"is no summary of a report ({why})", hint) from None
     if found.study != study:
-        raise InputError("baseline", path, f"is of study {found.study!r}, not {study!r}", "give that of this study")
+        raise InputError(what, path, f"is of study {found.study!r}, not {study!r}", "give that of this study")
     return found
 
 
@@ -139,6 +150,8 @@ def _kept(row: Mapping[str, Any]) -> Kept:
     reference, value = row["reference"], row["value"]
     if not all(isinstance(row[name], str) for name in names):
         raise TypeError("a name that is no text")
+    if row["role"] not in get_args(Role) or row["status"] not in get_args(Status):
+        raise ValueError(f"role {row['role']!r}, status {row['status']!r}")
     return Kept(
         claim=str(row.get("claim") or row["title"]),
         reference=(float(reference[0]), float(reference[1])) if isinstance(reference, list) else _number(reference),
@@ -148,9 +161,9 @@ def _kept(row: Mapping[str, Any]) -> Kept:
 
 
 def _number(value: object) -> float | None:
-    if value is None or (isinstance(value, int | float) and not isinstance(value, bool)):
+    if value is None or (isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)):
         return value
-    raise TypeError("a value that is no number")
+    raise TypeError("a value that is no finite number")
 
 
 def changes_since(baseline: Baseline, checks: Sequence[Check]) -> tuple[Change, ...]:
