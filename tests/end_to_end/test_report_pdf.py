@@ -30,7 +30,7 @@ def test_it_says_what_the_page_says(first_report: subprocess.CompletedProcess[st
     for text in (
         "gates passed",
         "Is the computation sound?",
-        "Which model may stand in for the wheel?",
+        "May a reduced model stand in for the wheel?",
         "Contents",
         "Continuum finite elements",
         "1/",

@@ -163,7 +163,8 @@ def _found(brush: Any, uncertainty: float | None = 0.01) -> Comparison:
         limit=0.10,
     )
     return cast(
-        Comparison, SimpleNamespace(checks=(), question_of={}, answers={"models": models}, agreements=models.agreements)
+        Comparison,
+        SimpleNamespace(curves=(), checks=(), question_of={}, answers={"models": models}, agreements=models.agreements),
     )
 
 
@@ -218,3 +219,25 @@ def test_a_curve_without_common_range_is_left_out() -> None:
     far = replace(models, brush=_curve(LINE, None, AT + 1.0))
     cast(Any, found).answers["models"] = far
     assert stand_ins(found) == []
+
+
+@pytest.mark.parametrize(
+    ("end", "words"),
+    [
+        (0.040, "8 N/mm over the first 5 mm, 31.2 mm at 250 N; "),
+        (0.020, "8 N/mm over the first 5 mm; "),
+        (0.004, ""),
+    ],
+)
+def test_the_line_on_stiffness_begins_with_the_average_as_far_as_it_goes(end: float, words: str) -> None:
+    at = np.linspace(0.0, end, 9)
+    average = StiffnessCurve(model="fe", orientation_deg=None, deflection=at, load=8000.0 * at)
+    checks = [_check("words.band")]
+    plain, told = (wheel(STUDY, checks, _sections(checks), one).parts[0].text for one in (None, average))
+    assert told == f"{words}{plain}"
+
+
+def test_the_first_answer_names_what_the_mesh_may_move() -> None:
+    checks = [_check("fe.mesh_uncertainty", role="gate", value=0.009), _check("fe.stress_uncertainty", value=0.042)]
+    sentence = computation(checks, _sections(checks)).sentence
+    assert sentence == "All 1 gates hold; the mesh may move the load by 0.9 % and the stress by 4.2 %."

@@ -7,14 +7,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.questions.comparison import Comparison
 from workbench.report.stand_ins import StandIn, stand_ins
 from workbench.study.model import Study
-from workbench.study.reference import NO_EVIDENCE, NO_REFERENCE, THESIS_KIND, THESIS_WORDS, ReferenceSection, kind_of
+from workbench.study.reference import (
+    INITIAL,
+    NO_EVIDENCE,
+    NO_REFERENCE,
+    THESIS_KIND,
+    THESIS_WORDS,
+    ReferenceSection,
+    kind_of,
+)
 from workbench.verdict.decision import Decision, decided, together
 from workbench.verdict.number_format import displayed, displayed_reference
 
@@ -35,7 +44,7 @@ _JOB = {
 _SHORT = {
     "fe.initial_tangent": "slope",
     "fe.spread_": "largest spread around the wheel, at {},",
-    "fe.reach": "share of the way that every orientation comes",
+    "fe.reach": "share of the way that the shortest curve comes",
     "fe.first_yield_load": "no part yields below",
     "fe.yield": "stress over yield strength",
     "environment.first_yield_": "no part yields, at {}, below",
@@ -90,7 +99,7 @@ class Answers:
         ]
         sentence = "; ".join(told) or "none of those compared"
         decision: Decision = "yes" if may else "undecided" if open_ else "no"
-        question = "Which model may stand in for it?"
+        question = "May a reduced model stand in for it?"
         return Answer(question=question, decision=decision, sentence=f"{sentence[0].upper()}{sentence[1:]}.")
 
     @property
@@ -107,7 +116,7 @@ def answers(study: Study, found: Comparison) -> Answers:
     """Of a comparison."""
     return Answers(
         computation=computation(found.checks, found.question_of),
-        wheel=wheel(study, found.checks, found.question_of),
+        wheel=wheel(study, found.checks, found.question_of, _average(found.curves)),
         models=stand_ins(found),
     )
 
@@ -116,7 +125,7 @@ def computation(checks: Sequence[Check], question_of: Mapping[str, str]) -> Answ
     """Whether every gate holds."""
     gates = [check for check in checks if check.role == "gate"]
     bad = [check for check in gates if check.status != "pass"]
-    sentence = f"All {len(gates)} gates hold."
+    sentence = f"All {len(gates)} gates hold{_by_three_meshes(checks)}."
     if bad:
         sentence = f"{len(bad)} of {len(gates)} gates {'does' if len(bad) == 1 else 'do'} not hold."
     return Answer(
@@ -127,15 +136,39 @@ def computation(checks: Sequence[Check], question_of: Mapping[str, str]) -> Answ
     )
 
 
-def wheel(study: Study, checks: Sequence[Check], question_of: Mapping[str, str]) -> Answer:
-    """Whether the wheel does what the study asks of it: each part of its job that has checks."""
+def _by_three_meshes(checks: Sequence[Check]) -> str:
+    """Numerical uncertainty of load and stress in words, as far as it is known."""
+    named = {"fe.mesh_uncertainty": "load", "fe.stress_uncertainty": "stress"}
+    known = [f"the {named[c.id]} by {100.0 * c.value:.2g} %" for c in checks if c.id in named and c.value is not None]
+    return f"; the mesh may move {' and '.join(known)}" if known else ""
+
+
+def _average(curves: Sequence[StiffnessCurve]) -> StiffnessCurve | None:
+    """The average of the finite elements, if it holds more than first contact."""
+    found = [c for c in curves if c.model == "fe" and c.orientation_deg is None and not c.unloaded]
+    return found[0] if found else None
+
+
+def wheel(
+    study: Study,
+    checks: Sequence[Check],
+    question_of: Mapping[str, str],
+    average: StiffnessCurve | None = None,
+) -> Answer:
+    """Whether the wheel does what the study asks of it: each part of its job that has checks.
+
+    ``average``: of the finite elements; its slope and its deflection at the judged load lead the line on stiffness.
+    """
     asked = {name: found for name, begins in _JOB.items() if (found := [c for c in checks if c.id.startswith(begins)])}
     if "orientation_spread" not in study.tolerances.model_fields_set:
         asked.pop("evenness", None)
     parts = [_part(name, found, question_of, study.reference) for name, found in asked.items()]
+    if average is not None:
+        numbers = _stiffness(average, study.judged_load)
+        parts = [replace(p, text=f"{numbers}{p.text}") if p.name == "stiffness" else p for p in parts]
     decision = together(part.decision for part in parts)
     named = {d: [part.name for part in parts if part.decision == d] for d in ("yes", "no", "undecided")}
-    words = {"yes": "as asked", "no": "not as asked", "undecided": "not decided"}
+    words = {"yes": "meets", "no": "fails", "undecided": "not decided"}
     told = [f"{words[d]}: {', '.join(names)}" for d, names in named.items() if names]
     sentence = f"{'; '.join(told)}." if told else "The study asks nothing of it."
     sentence += "" if study.reference is not None else f" {NO_REFERENCE}."
@@ -145,6 +178,17 @@ def wheel(study: Study, checks: Sequence[Check], question_of: Mapping[str, str])
         sentence=sentence[0].upper() + sentence[1:],
         parts=parts,
     )
+
+
+def _stiffness(average: StiffnessCurve, load: float) -> str:
+    """``"8.17 N/mm over the first 5 mm, 34.4 mm at 250 N; "``: as far as the average goes."""
+    told = []
+    if average.deflection[0] <= 0.0 and average.deflection[-1] >= INITIAL:
+        slope = float(average.load_at(INITIAL)) / INITIAL / 1e3
+        told.append(f"{slope:.3g} N/mm over the first {1e3 * INITIAL:g} mm")
+    if average.load[0] < load <= average.load[-1]:
+        told.append(f"{1e3 * float(average.deflection_at(load)):.3g} mm at {load:g} N")
+    return f"{', '.join(told)}; " if told else ""
 
 
 def _part(
@@ -192,7 +236,7 @@ def _title(check: Check) -> str:
 def _told(check: Check) -> str:
     """Its number and limit; a run has none, and its title says what happened."""
     title = _title(check)
-    if check.quantity == "run":
+    if check.quantity == "run" or (check.id == "fe.reach" and check.status == "pass"):
         return title
     if check.value is None:
         return title if check.status == "undecided" else f"{title}: not evaluated"
