@@ -49,6 +49,7 @@ def test_the_fitted_tire_lands_in_a_study(workspace: Path, tmp_path: Path) -> No
         ((), 'load_range = ["20 N"', 'load_range = ["240 N"', "beyond the end of the FE average"),
     ],
 )
+@pytest.mark.usefixtures("first_report")
 def test_bad_input_ends_with_status_2(
     workspace: Path, tmp_path: Path, arguments: tuple[str, ...], old: str, new: str, text: str
 ) -> None:
