@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -35,6 +36,7 @@ __all__ = [
     "rover_brush",
     "rover_on_ancf",
     "rover_on_brush",
+    "rover_radius",
 ]
 
 
@@ -126,11 +128,17 @@ def rover_on_brush(study: Study) -> dict[str, Any]:
 
 def fits_rover(study: Study) -> bool:
     """Whether the ANCF tire has the radius of the rover's wheels, so that the rover can stand on it."""
+    return (study.ancf is not None or _of_thesis_size(study)) and bool(
+        np.isclose(rover_ancf(study).zero_radius, rover_radius())
+    )
+
+
+@cache
+def rover_radius() -> float:
+    """Of the shipped rover's wheels [m]."""
     from rover_dynamics.rover.rover_file import read_rover
 
-    return (study.ancf is not None or _of_thesis_size(study)) and bool(
-        np.isclose(rover_ancf(study).zero_radius, read_rover().wheel_radius)
-    )
+    return read_rover().wheel_radius
 
 
 def rover_on_ancf(study: Study) -> dict[str, Any]:

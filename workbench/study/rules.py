@@ -8,14 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cache
 
 from contracts.errors import InputError
-from rover_dynamics.rover.rover_file import read_rover
 from workbench.study.broken_rule import BrokenRule
 from workbench.study.key_units import absent, as_written, is_table, parts_of
 from workbench.study.model import Study
-from workbench.study.model_parameters import ancf_preset, fit_start
+from workbench.study.model_parameters import ancf_preset, fit_start, rover_radius
 from workbench.study.reference_rules import broken_reference
 from workbench.study.sweep import tied_keys
 from workbench.study.wheel_design import SectionInputError, materials, wheel_design
@@ -95,15 +93,9 @@ def _of_the_sweep(study: Study) -> Iterator[BrokenRule]:
             yield BrokenRule(key=f"sweep.{key}", value="", rule=f"needs [{missing}]", hint=hint)
 
 
-@cache
-def _rover_radius() -> float:
-    """Of the shipped rover's wheels [m]."""
-    return read_rover().wheel_radius
-
-
 def _lonely(study: Study) -> Iterator[BrokenRule]:
     """A section that asks for what another has: the fit for tire and uncertainty, the rover for a wheel of its size."""
-    radius, wanted = wheel_design(study).tire.outer_radius, _rover_radius()
+    radius, wanted = wheel_design(study).tire.outer_radius, rover_radius()
     if study.rover is not None and abs(radius - wanted) > 1e-9:
         rule = f"is for a wheel of radius {1e3 * wanted:g} mm, the study's has {1e3 * radius:g} mm"
         yield BrokenRule(key="rover", value="a table", rule=rule, hint="remove [rover]: the rover cannot stand on it")
