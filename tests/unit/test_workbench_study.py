@@ -13,6 +13,7 @@ import pytest
 from contracts.errors import StudyError
 from geometry.wheel import exomars
 from workbench.study.model_parameters import ancf_preset, brush_parameters
+from workbench.study.planned_wheel import planned_wheel
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.wheel_design import wheel_design
 
@@ -365,3 +366,15 @@ def test_a_limit_of_zero_is_shown_once(tmp_path: Path, old: str, new: str, rule:
     with pytest.raises(StudyError) as caught:
         read_study(tmp_path / "a.toml")
     assert caught.value.rule == rule
+
+
+def test_the_planned_wheel_is_that_of_its_own_study() -> None:
+    """Kept for the same sections only: a study with another wheel, or other metal, has another."""
+    study = read_study(built_in_study())
+    assert planned_wheel(study) is planned_wheel(study.model_copy(update={"title": "again"})) == wheel_design(study)
+    tire = study.wheel.tire.model_copy(update={"thickness": 0.002})
+    thick = study.model_copy(update={"wheel": study.wheel.model_copy(update={"tire": tire})})
+    assert planned_wheel(thick) == wheel_design(thick) != planned_wheel(study)
+    metal = {name: one.model_copy(update={"density": 9e3}) for name, one in study.materials.items()}
+    heavy = study.model_copy(update={"materials": metal})
+    assert planned_wheel(heavy) == wheel_design(heavy) != planned_wheel(study)

@@ -6,14 +6,13 @@ Verified by tests/unit/test_workbench_study.py.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 from contracts.errors import InputError
 from contracts.materials import Material
 from workbench.study.section import Section
-from workbench.study.wheel import MaterialSection, WheelSection, WheelStudy
+from workbench.study.wheel import WheelStudy
 
 if TYPE_CHECKING:
     from geometry.wheel import WheelDesign
@@ -38,13 +37,9 @@ def in_section[T](section: str, build: Callable[[], T]) -> T:
 
 def materials(study: WheelStudy) -> dict[str, Material]:
     """Materials of the study by name, SI."""
-    return _materials(study.materials)
-
-
-def _materials(sections: Mapping[str, MaterialSection]) -> dict[str, Material]:
     return {
         name: in_section(f"materials.{name}", partial(Material, name=name, **section.model_dump()))
-        for name, section in sections.items()
+        for name, section in study.materials.items()
     }
 
 
@@ -66,29 +61,16 @@ def wheel_design(study: WheelStudy) -> WheelDesign:
     SectionInputError
         If a part breaks a rule or names a material the study does not have; its section is the part's key.
     """
-    return _built(study.name, _Same(study.wheel), _Same(study.materials))
-
-
-@dataclass(frozen=True, slots=True)
-class _Same[T]:
-    """One object, equal to itself alone: sections are never changed, and to compare them takes longer than to build."""
-
-    it: T
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and self.it is other.it
-
-    def __hash__(self) -> int:
-        return id(self.it)
+    parts = tuple(_WheelParts(study).build().items())
+    return in_section("wheel", lambda: _fitting(study.name, parts))
 
 
 @lru_cache(maxsize=16)
-def _built(name: str, wheel: _Same[WheelSection], known: _Same[Mapping[str, MaterialSection]]) -> WheelDesign:
-    """Kept, for the plan of a report asks a hundred times."""
+def _fitting(name: str, parts: tuple[tuple[str, Any], ...]) -> WheelDesign:
+    """Kept, for a report asks forty times whether the parts fit together, and that takes 20 ms."""
     from geometry.wheel import WheelDesign
 
-    parts = _WheelParts(wheel.it, _materials(known.it)).build()
-    return in_section("wheel", lambda: WheelDesign(name=name, **parts))
+    return WheelDesign(name=name, **dict(parts))
 
 
 def design_from(wheel: Mapping[str, Any]) -> WheelDesign:
@@ -101,8 +83,8 @@ def design_from(wheel: Mapping[str, Any]) -> WheelDesign:
 class _WheelParts:
     """Turns each part's section into geometry's class."""
 
-    def __init__(self, wheel: WheelSection, known: Mapping[str, Material]) -> None:
-        self.wheel, self.known = wheel, known
+    def __init__(self, study: WheelStudy) -> None:
+        self.wheel, self.known = study.wheel, materials(study)
 
     def build(self) -> dict[str, Any]:
         """Keyword arguments of WheelDesign."""
