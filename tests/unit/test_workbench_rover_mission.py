@@ -129,7 +129,7 @@ def test_the_section_draws_each_run_and_says_where_it_ends(mission: Mission) -> 
         "undecided",
     ):
         assert words in text, words
-    assert "stops at 20.3 s: a tire folds" in short
+    assert "stops at 20.3 s: a tire folds; on brush tires slip and drift on 25 degrees" in short
     assert short.count("<tr>") == 1 + len(mission.decided)
     assert ("t = 20.3" in short, "t = 20.3" in text) == (False, False)
 

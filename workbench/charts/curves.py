@@ -32,16 +32,22 @@ def add_plain(
 
 
 def add_area(
-    figure: Figure, x: NDArray[np.float64], there: ArrayLike, back: NDArray[np.float64], name: str, colour: str = BAND
+    figure: Figure,
+    x: NDArray[np.float64],
+    there: ArrayLike,
+    back: NDArray[np.float64],
+    name: str,
+    colour: str = BAND,
+    outline: str | None = None,
 ) -> None:
-    """The area between two lines over the same places."""
+    """The area between two lines over the same places; with an outline where a line may cover it whole."""
     figure.add_scatter(
         x=np.concatenate([x, x[::-1]]),
         y=np.concatenate([there, back[::-1]]),
         mode="lines",
         fill="toself",
         fillcolor=colour,
-        line={"width": 0},
+        line={"width": 0} if outline is None else {"width": 3, "color": outline},
         name=name,
         hoverinfo="skip",
     )

@@ -105,7 +105,15 @@ def add_reference(figure: Figure, reference: ReferenceSection | None) -> None:
         return
     if reference.thesis_words:
         band = load_band(plausible().band)
-        add_area(figure, 1e3 * band.deflection, band.low, band.high, f"{THESIS_KIND} band: the thesis' words", _STRONG)
+        add_area(
+            figure,
+            1e3 * band.deflection,
+            band.low,
+            band.high,
+            f"{THESIS_KIND} band: the thesis' words",
+            _STRONG,
+            _GREEN,
+        )
     if (slope := reference.slope) is not None:
         end = 1.6e3 * slope.up_to
         figure.add_scatter(
@@ -124,7 +132,7 @@ def add_reference(figure: Figure, reference: ReferenceSection | None) -> None:
 def _add_band(figure: Figure, band: BandReference) -> None:
     if band.file is not None:
         loads = read_band(Path(band.file))
-        add_area(figure, 1e3 * loads.deflection, loads.low, loads.high, f"{band.kind} band", _STRONG)
+        add_area(figure, 1e3 * loads.deflection, loads.low, loads.high, f"{band.kind} band", _STRONG, _GREEN)
         return
     figure.add_scatter(
         x=[500.0 * (p.low + p.high) for p in band.points],

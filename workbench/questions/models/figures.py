@@ -21,7 +21,7 @@ def models_figures(study: Study, results: ComparedModels) -> dict[str, str]:
     figure, continuum, fe = empty_figure(), results.continuum, results.continuum.fe.average
     add_reference(figure, study.reference)
     add_uncertainty(figure, fe, continuum.mesh_study)
-    add_line(figure, fe, "FE average", MODEL_COLOURS["fe"], width=4.0)
+    add_line(figure, fe, "FE average", MODEL_COLOURS["fe"], width=2.5)
     if results.ancf is not None:
         add_line(figure, results.ancf.average, "ANCF average", MODEL_COLOURS["ancf"], width=4.0, dash="dash")
     if results.brush is not None:

@@ -39,7 +39,7 @@ class MissionRow:
     name, title : of the scenario, ``"slope_up"``, and what it is called
     quantity : what is required
     ours : number found on ANCF tires; None where the run stopped or nothing is required
-    theirs : the same on brush tires; None where there is no such run
+    theirs : the same on brush tires, where ``ours`` is None what decides there; None where there is no such run
     stopped : why the run on ANCF tires stopped, if ``ours`` is None for that
     """
 
@@ -60,7 +60,16 @@ def mission_rows(driven: Mapping[str, Drive], brush: Mapping[str, Drive]) -> lis
         run, theirs = driven[name], {one.quantity: one for one in brush[name].outcomes} if name in brush else {}
         ours = [one for one in run.outcomes if one.limit is not None]
         if run.stopped or not ours:
-            rows.append(MissionRow(name=name, title=title, quantity="the run reaches its end", stopped=run.stopped))
+            limited = [one for one in theirs.values() if one.limit is not None]
+            rows.append(
+                MissionRow(
+                    name=name,
+                    title=title,
+                    quantity="the run reaches its end",
+                    theirs=tightest(limited) if limited else None,
+                    stopped=run.stopped,
+                )
+            )
         rows += [
             MissionRow(name=name, title=title, quantity=one.quantity, ours=one, theirs=theirs.get(one.quantity))
             for one in ours

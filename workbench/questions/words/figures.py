@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 _PITCH = 320.0
 """Between the middles of two wheels drawn side by side [mm]."""
 _FAINT = "rgba(128, 134, 139, 0.18)"
+_TIRES = "rgba(0, 114, 178, 0.16)"
+"""The ANCF curves' colour: green is the reference's."""
 
 
 def words_figures(study: Study, words: Words) -> dict[str, str]:
@@ -55,7 +57,8 @@ def _span_of_tires(figure: Figure, words: Words) -> None:
     means = [tire.average for tire in words.readings.values()]
     at = np.linspace(0.0, min(mean.deflection[-1] for mean in means), 60)
     loads = np.array([mean.load_at(at) for mean in means])
-    add_area(figure, 1e3 * at, loads.min(axis=0), loads.max(axis=0), "means of the tires that the text allows")
+    low, high = loads.min(axis=0), loads.max(axis=0)
+    add_area(figure, 1e3 * at, low, high, "means of the ANCF tires that the text allows", _TIRES)
 
 
 def _band(words: Words) -> Figure:
