@@ -1,0 +1,193 @@
+"""A network of thin ANCF plates: energy, forces, tangent and mass of every state of its nodes.
+
+Each plate has its reference in the nodes' first state, so that curved strips are free of stress there. Along a curved
+axis two points of the membrane strain and three of the curvature do not lock . Verified
+by tests/unit/test_ancf_thin_plates.py and tests/verification/test_ancf_thin_plate_strips.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csc_array
+
+from ancf_reduced.thin_plates.kernels import bending_terms, membrane_terms
+from ancf_reduced.thin_plates.shape_functions import shape_tables
+from contracts.errors import InputError
+
+__all__ = ["ThinPlateMaterial", "ThinPlates"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+_MASS_POINTS = _FULL_POINTS = 4
+HELD = 0.1
+"""Times (thickness / length)^2: share of the membrane strain that is integrated at every point, see `ThinPlates`."""
+_COORDINATES = 12
+"""Of a node."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ThinPlateMaterial:
+    """Isotropic, plane stress; young_modulus [Pa], poisson_ratio [-], density [kg/m^3], thickness [m]."""
+
+    young_modulus: float
+    poisson_ratio: float
+    density: float
+    thickness: float
+
+    def __post_init__(self) -> None:
+        for name in ("young_modulus", "density", "thickness"):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value > 0.0):
+                raise InputError(name.replace("_", " "), value, "must be > 0", "give it in SI units")
+        if not -1.0 < self.poisson_ratio <= 0.5:
+            raise InputError("Poisson's ratio", self.poisson_ratio, "must lie in (-1, 0.5]", "0.3 is usual for metals")
+
+
+class ThinPlates:
+    """Plates of one material and thickness.
+
+    Parameters
+    ----------
+    nodes : (n_nodes, 4, 3) r [m], r_1, r_2 [-], r_12 [1/m] of the reference, free of stress
+    plates : (n, 4) nodes (i, j) of each plate at 2 i + j
+    sizes : (n, 2) lengths of each plate's parameters [m]
+    material : of all plates
+    membrane_points, bending_points : Gauss points along both axes
+
+    With few points of the membrane strain some motions within the surface, r_1 longer at every node, cost nothing. They
+    are held by a share `HELD` (t / length)^2 of the membrane strain at all points: as much as bending has, so that it
+    neither locks nor decides anything.
+
+    Raises
+    ------
+    InputError
+        For arrays that do not belong together, and for a reference whose surface has no normal.
+    """
+
+    def __init__(
+        self,
+        nodes: Array,
+        plates: Index,
+        sizes: Array,
+        material: ThinPlateMaterial,
+        membrane_points: tuple[int, int] = (2, 3),
+        bending_points: tuple[int, int] = (3, 3),
+    ) -> None:
+        if nodes.ndim != 3 or nodes.shape[1:] != (4, 3) or plates.shape != (len(sizes), 4):
+            shapes = f"nodes {nodes.shape}, plates {plates.shape}, sizes {sizes.shape}"
+            raise InputError("thin plates", shapes, "must be (n, 4, 3), (m, 4) and (m, 2)", "see the docstring")
+        self.reference, self.plates, self.material = nodes.copy(), plates.astype(np.int64), material
+        self._membrane = self._points(sizes, membrane_points)
+        self._everywhere = self._points(sizes, (_FULL_POINTS, _FULL_POINTS))
+        self._bending = self._points(sizes, bending_points)
+        self._mass_points = self._points(sizes, (_MASS_POINTS, _MASS_POINTS))
+        t = material.thickness
+        held = np.minimum(1.0, HELD * (t / sizes.max(axis=1)) ** 2)
+        self._membrane_given = self._both((1.0 - held, self._membrane), (held, self._everywhere))
+        tables, area, _, curvature, elastic = self._bending
+        self._bending_given = tables, curvature, t**3 / 12.0 * area[..., None, None] * elastic
+        numbers = (_COORDINATES * self.plates[:, :, None] + np.arange(_COORDINATES)).reshape(len(plates), -1)
+        self._rows = np.repeat(numbers, numbers.shape[1], axis=1).ravel()
+        self._columns = np.tile(numbers, (1, numbers.shape[1])).ravel()
+        self._numbers = numbers
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates."""
+        return self.reference.size
+
+    def energy(self, q: Array) -> float:
+        """Strain energy at nodes q (n_nodes, 4, 3) [J]."""
+        return self._all(q, tangent=False)[0]
+
+    def force(self, q: Array) -> Array:
+        """Derivative of the energy by every coordinate, (n_nodes, 4, 3)."""
+        return self._all(q, tangent=False)[1]
+
+    def tangent(self, q: Array) -> csc_array:
+        """Second derivatives of the energy, (n_nodes * 12, n_nodes * 12), symmetric."""
+        blocks = self._all(q, tangent=True)[2]
+        return csc_array(coo_array((blocks.ravel(), (self._rows, self._columns)), shape=(self.size, self.size)))
+
+    def mass(self) -> csc_array:
+        """Consistent mass, the thickness' own inertia left out, (n_nodes * 12, n_nodes * 12)."""
+        tables, area, *_ = self._mass_points
+        weight = self.material.density * self.material.thickness * area
+        one = np.einsum("ep,epk,epl->ekl", weight, tables[:, :, 0], tables[:, :, 0])
+        blocks = np.einsum("ekl,ij->ekilj", one, np.eye(3))
+        return csc_array(coo_array((blocks.ravel(), (self._rows, self._columns)), shape=(self.size, self.size)))
+
+    def loads(self, pressure: Array) -> Array:
+        """Forces of a load per reference area (3,) [N/m^2] on every plate, (n_nodes, 4, 3)."""
+        tables, area, *_ = self._mass_points
+        local = np.einsum("ep,epk,i->eki", area, tables[:, :, 0], pressure)
+        return self._gathered(local)
+
+    def _both(self, *parts: tuple[Array, tuple[Array, Array, Array, Array, Array]]) -> tuple[Array, Array, Array]:
+        """Tables, metrics and stiffness of several sets of points, each with its share of every plate (n,)."""
+        t = self.material.thickness
+        sets = [
+            (tables, metric, t * (share[:, None] * area)[..., None, None] * elastic)
+            for share, (tables, area, metric, _, elastic) in parts
+        ]
+        tables, metric, stiffness = (np.concatenate([one[k] for one in sets], axis=1) for k in range(3))
+        return tables, metric, stiffness
+
+    def _all(self, q: Array, *, tangent: bool) -> tuple[float, Array, Array]:
+        n = len(self.plates)
+        force = np.zeros((n, 16, 3))
+        blocks = np.zeros((n if tangent else 0, 16, 3, 16, 3))
+        energy = membrane_terms(q, self.plates, *self._membrane_given, force, blocks)
+        energy += bending_terms(q, self.plates, *self._bending_given, force, blocks)
+        return energy, self._gathered(force), blocks
+
+    def _gathered(self, local: Array) -> Array:
+        total = np.bincount(self._numbers.ravel(), weights=local.ravel(), minlength=self.size)
+        return total.reshape(self.reference.shape)
+
+    def _points(self, sizes: Array, counts: tuple[int, int]) -> tuple[Array, Array, Array, Array, Array]:
+        """Tables, areas, metrics (A_11, A_22, 2 A_12), curvatures likewise, and elasticities of all plates' points."""
+        (u, wu), (v, wv) = (np.polynomial.legendre.leggauss(n) for n in counts)
+        at = np.stack(np.meshgrid(0.5 + 0.5 * u, 0.5 + 0.5 * v, indexing="ij"), axis=-1).reshape(-1, 2)
+        weights = 0.25 * np.outer(wu, wv).ravel()
+        tables = np.stack([shape_tables((float(a), float(b)), at[:, 0], at[:, 1]) for a, b in sizes])
+        local = self.reference[self.plates].reshape(len(self.plates), 16, 3)
+        parts = np.einsum("epdk,eki->epdi", tables, local)
+        a1, a2 = parts[:, :, 1], parts[:, :, 2]
+        normal = np.cross(a1, a2)
+        ratio = np.linalg.norm(normal, axis=-1)
+        if not (ratio > 0.0).all():
+            raise InputError(
+                "thin plates", "r_1 x r_2 = 0", "must have a normal everywhere", "give slopes along both axes"
+            )
+        normal /= ratio[..., None]
+        metric = np.stack([(a * b).sum(-1) for a, b in ((a1, a1), (a2, a2), (a1, 2.0 * a2))], axis=-1)
+        second = np.stack([parts[:, :, 3], parts[:, :, 5], 2.0 * parts[:, :, 4]], axis=-2)
+        curvature = np.einsum("epki,epi->epk", second, normal)
+        area = ratio * weights * (sizes[:, 0] * sizes[:, 1])[:, None]
+        return tables, area, metric, curvature, self._elasticity(metric)
+
+    def _elasticity(self, metric: Array) -> Array:
+        """Plane-stress tensor by (11, 22, 12) in contravariant components, (..., 3, 3) [Pa]."""
+        nu = self.material.poisson_ratio
+        covariant = np.stack([metric[..., 0], 0.5 * metric[..., 2], 0.5 * metric[..., 2], metric[..., 1]], axis=-1)
+        A = np.linalg.inv(covariant.reshape(*metric.shape[:-1], 2, 2))
+        pairs = ((0, 0), (1, 1), (0, 1))
+        full = np.stack(
+            [
+                np.stack(
+                    [
+                        nu * A[..., a, b] * A[..., c, d]
+                        + 0.5 * (1.0 - nu) * (A[..., a, c] * A[..., b, d] + A[..., a, d] * A[..., b, c])
+                        for c, d in pairs
+                    ],
+                    axis=-1,
+                )
+                for a, b in pairs
+            ],
+            axis=-2,
+        )
+        return np.asarray(self.material.young_modulus / (1.0 - nu**2) * full)

@@ -1,0 +1,126 @@
+"""Thin ANCF plates: derivatives, rigid motion, patches. Exact up to round-off; derivatives by differences to 1e-6."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+from scipy.spatial.transform import Rotation
+
+from ancf_reduced.thin_plates.plates import ThinPlateMaterial, ThinPlates
+from ancf_reduced.thin_plates.shape_functions import shape_tables
+from contracts.errors import InputError
+
+Array = NDArray[np.float64]
+METAL = ThinPlateMaterial(young_modulus=2e11, poisson_ratio=0.3, density=7800.0, thickness=0.01)
+
+
+def flat(counts: tuple[int, int], lengths: tuple[float, float]) -> tuple[Array, NDArray[np.int64], Array]:
+    """Nodes, plates and sizes of a rectangle in the plane z = 0."""
+    m, n = counts
+    a, b = (length / count for length, count in zip(lengths, counts, strict=True))
+    nodes = np.zeros(((m + 1) * (n + 1), 4, 3))
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(m + 1), np.arange(n + 1), indexing="ij"))
+    nodes[:, 0, 0], nodes[:, 0, 1], nodes[:, 1, 0], nodes[:, 2, 1] = a * i, b * j, 1.0, 1.0
+    first = ((n + 1) * np.arange(m)[:, None] + np.arange(n)).ravel()
+    plates = np.stack([first, first + 1, first + n + 1, first + n + 2], axis=1)
+    return nodes, plates, np.tile([a, b], (m * n, 1))
+
+
+def arc(count: int, across: int, radius: float, angle: float, width: float) -> tuple[Array, NDArray[np.int64], Array]:
+    """A cylindrical strip; its first axis runs around."""
+    nodes, plates, sizes = flat((count, across), (radius * angle, width))
+    turn = nodes[:, 0, 0] / radius
+    curved = np.zeros_like(nodes)
+    curved[:, 0] = np.stack([radius * np.sin(turn), nodes[:, 0, 1], radius * np.cos(turn)], axis=-1)
+    curved[:, 1] = np.stack([np.cos(turn), 0.0 * turn, -np.sin(turn)], axis=-1)
+    curved[:, 2] = [0.0, 1.0, 0.0]
+    return curved, plates, sizes
+
+
+@pytest.fixture
+def strip() -> ThinPlates:
+    return ThinPlates(*arc(3, 1, 0.5, 1.2, 0.2), METAL)
+
+
+def test_shape_functions_reproduce_bicubic_polynomials() -> None:
+    """x^3 y^3 and all its derivatives on a plate 0.3 by 0.7, from its value, slopes and twist at the nodes."""
+    a, b = 0.3, 0.7
+    x, y = (np.array(k) for k in ([0.0, 0.0, a, a], [0.0, b, 0.0, b]))
+    nodes = np.stack([x**3 * y**3, 3 * x**2 * y**3, 3 * x**3 * y**2, 9 * x**2 * y**2], axis=1).ravel()
+    u, v = np.random.default_rng(1).random((2, 9))
+    X, Y = a * u, b * v
+    exact = [X**3 * Y**3, 3 * X**2 * Y**3, 3 * X**3 * Y**2, 6 * X * Y**3, 9 * X**2 * Y**2, 6 * X**3 * Y]
+    np.testing.assert_allclose(shape_tables((a, b), u, v) @ nodes, np.stack(exact, axis=1), atol=1e-14)
+
+
+def test_force_and_tangent_are_derivatives_of_the_energy(strip: ThinPlates) -> None:
+    random = np.random.default_rng(2)
+    q = strip.reference + 0.02 * random.standard_normal(strip.reference.shape)
+    direction = random.standard_normal(q.shape)
+    step = 1e-6
+    ahead, behind = (strip.energy(q + sign * step * direction) for sign in (1.0, -1.0))
+    assert np.vdot(strip.force(q), direction) == pytest.approx((ahead - behind) / (2.0 * step), rel=1e-6)
+    slope = (strip.force(q + step * direction) - strip.force(q - step * direction)).ravel() / (2.0 * step)
+    tangent = strip.tangent(q)
+    np.testing.assert_allclose(tangent @ direction.ravel(), slope, atol=1e-6 * np.abs(slope).max())
+    assert abs(tangent - tangent.T).max() < 1e-9 * abs(tangent).max()
+
+
+def test_a_rigid_motion_costs_nothing(strip: ThinPlates) -> None:
+    turned = Rotation.from_rotvec([0.4, -1.1, 0.7]).apply(strip.reference.reshape(-1, 3)).reshape(strip.reference.shape)
+    turned[:, 0] += [0.3, -2.0, 1.0]
+    scale = METAL.young_modulus * METAL.thickness * 0.6 * 0.2
+    assert strip.energy(turned) < 1e-24 * scale
+    assert np.abs(strip.force(turned)).max() < 1e-11 * scale
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_only_rigid_motions_cost_nothing(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Six zero eigenvalues of the tangent at rest; without the share that holds them there are more (control)."""
+
+    def free() -> int:
+        strip = ThinPlates(*arc(count, 1, 0.5, 0.4 * count, 0.2), METAL)
+        squares = eigh(strip.tangent(strip.reference).toarray(), strip.mass().toarray(), eigvals_only=True)
+        bending = METAL.young_modulus * METAL.thickness**2 / (12.0 * METAL.density * (0.2 * count) ** 4)
+        return int((squares < 1e-3 * bending).sum())
+
+    assert free() == 6
+    monkeypatch.setattr("ancf_reduced.thin_plates.plates.HELD", 0.0)
+    assert free() > 6
+
+
+def test_constant_strain_and_constant_curvature_are_exact() -> None:
+    """Green-Lagrange strains 0.01, -0.02 and a shear; then a flat plate rolled onto a cylinder without stretch."""
+    nodes, plates, sizes = flat((2, 2), (0.4, 0.3))
+    body = ThinPlates(nodes, plates, sizes, METAL)
+    E = np.array([[0.01, 0.004], [0.004, -0.02]])
+    F = np.linalg.cholesky(np.eye(2) + 2.0 * E).T  # F^T F = 1 + 2 E
+    q = nodes.copy()
+    q[:, :, :2] = np.einsum("ij,nkj->nki", F, nodes[:, :, :2])
+    nu, t = METAL.poisson_ratio, METAL.thickness
+    plane = METAL.young_modulus / (1.0 - nu**2)
+    density = 0.5 * t * plane * (nu * np.trace(E) ** 2 + (1.0 - nu) * np.sum(E * E))
+    assert body.energy(q) == pytest.approx(density * 0.4 * 0.3, rel=1e-12)
+    rolled = [ThinPlates(*flat((n, 1), (0.4, 0.3)), METAL).energy(arc(n, 1, 0.5, 0.8, 0.3)[0]) for n in (2, 4, 8)]
+    errors = np.abs(np.array(rolled) / (0.5 * t**3 / 12.0 * plane / 0.5**2 * 0.4 * 0.3) - 1.0)
+    assert errors[2] < 1e-3
+    assert (np.log2(errors[:-1] / errors[1:]) > 1.9).all()
+
+
+def test_mass_is_that_of_the_strip(strip: ThinPlates) -> None:
+    along = np.zeros(strip.reference.shape)
+    along[:, 0, 2] = 1.0
+    exact = METAL.density * METAL.thickness * 0.5 * 1.2 * 0.2
+    assert along.ravel() @ (strip.mass() @ along.ravel()) == pytest.approx(exact, rel=1e-4)
+
+
+def test_bad_input_is_refused() -> None:
+    nodes, plates, sizes = flat((1, 1), (0.1, 0.1))
+    with pytest.raises(InputError, match="must have a normal"):
+        ThinPlates(0.0 * nodes, plates, sizes, METAL)
+    with pytest.raises(InputError, match="must be \\(n, 4, 3\\)"):
+        ThinPlates(nodes[:, 0], plates, sizes, METAL)
+    with pytest.raises(InputError, match="thickness"):
+        ThinPlateMaterial(young_modulus=1.0, poisson_ratio=0.3, density=1.0, thickness=0.0)
