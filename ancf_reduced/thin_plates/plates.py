@@ -1,7 +1,7 @@
 """A network of thin ANCF plates: energy, forces, tangent and mass of every state of its nodes.
 
 Each plate has its reference in the nodes' first state, so that curved strips are free of stress there. Along a curved
-axis two points of the membrane strain and three of the curvature do not lock . Verified
+axis two points of the membrane strain and three of the curvature do not lock (docs/theory/ancf_thin_plate.md). Verified
 by tests/unit/test_ancf_thin_plates.py and tests/verification/test_ancf_thin_plate_strips.py.
 """
 
