@@ -3,7 +3,7 @@
 With a_1, a_2 the tangents, n their unit normal and capitals for the reference, membrane strain and change of curvature
 are
 
-    E_ab = (a_a . a_b - A_a . A_b) / 2,   K_ab = r_,ab . n - R_,ab . N,
+    E_ab = (a_a . a_b - A_a . A_b) / 2,   K_ab = r_,ab . n - R_,ab . N - (B_a^c E_cb + B_b^c E_ca),   B = R_,ab . N,
 
 and the energy is the integral of (t E : C : E + t^3 / 12 K : C : K) / 2 with the plane-stress tensor C in the
 reference's contravariant components (Kirchhoff-Love; Dufva & Shabana, Proc. IMechE K 219, 2005, from memory). Of
@@ -90,14 +90,23 @@ def membrane_terms(
 
 @compiled
 def bending_terms(
-    q: Array, plates: Index, tables: Array, curvature: Array, stiffness: Array, force: Array, tangent: Array
+    q: Array,
+    plates: Index,
+    tables: Array,
+    reference: tuple[Array, Array, Array],
+    stiffness: Array,
+    force: Array,
+    tangent: Array,
 ) -> float:
     """Energy of the change of curvature [J]; adds forces and tangents. As `membrane_terms`, with
 
-    curvature : (n, p, 3) B_11, B_22, 2 B_12 of the reference [1/m]
+    reference : (n, p, 3) B_11, B_22, 2 B_12 [1/m], (n, p, 3) A_11, A_22, 2 A_12, (n, p, 3, 3) [1/m] what stretch alone
+        adds to the curvatures, for E_11, E_22, 2 E_12
     stiffness : (n, p, 3, 3) t^3 / 12 C times area [N m * m^2]
     """
-    energy, local, v = 0.0, np.empty((16, 3)), np.empty((5, 3))
+    curvature, metric, coupling = reference
+    energy, local, v, strain = 0.0, np.empty((16, 3)), np.empty((5, 3)), np.empty(3)
+    T = np.empty((3, 3))
     change, moment = np.empty(3), np.empty(3)
     first, H, half = np.empty((3, 5, 3)), np.empty((5, 3, 5, 3)), np.empty((5, 3, 16, 3))
     for e in range(plates.shape[0]):
@@ -111,10 +120,23 @@ def bending_terms(
                         value += N[1 + d, k] * local[k, i]
                     v[d, i] = value
             n, J = _unit_normal(v)
+            for k in range(3):
+                strain[k] = -0.5 * metric[e, p, k]
+                for m in range(3):
+                    T[k, m] = coupling[e, p, k, m]
+            for i in range(3):
+                strain[0] += 0.5 * v[0, i] * v[0, i]
+                strain[1] += 0.5 * v[1, i] * v[1, i]
+                strain[2] += v[0, i] * v[1, i]
             for row, d in ((0, 2), (1, 4), (2, 3)):
                 factor = 2.0 if row == 2 else 1.0
                 change[row] = factor * (v[d, 0] * n[0] + v[d, 1] * n[1] + v[d, 2] * n[2]) - curvature[e, p, row]
                 _first(v, d, n, J, factor, first[row])
+                for m in range(3):
+                    change[row] -= T[row, m] * strain[m]
+                for i in range(3):
+                    first[row, 0, i] -= T[row, 0] * v[0, i] + T[row, 2] * v[1, i]
+                    first[row, 1, i] -= T[row, 1] * v[1, i] + T[row, 2] * v[0, i]
             for k in range(3):
                 moment[k] = 0.0
                 for m in range(3):
@@ -129,6 +151,12 @@ def bending_terms(
                     force[e, k, i] += value
             if tangent.shape[0]:
                 _second(v, n, J, moment, H)
+                for k in range(3):
+                    for i in range(3):
+                        H[0, i, 0, i] -= moment[k] * T[k, 0]
+                        H[1, i, 1, i] -= moment[k] * T[k, 1]
+                        H[0, i, 1, i] -= moment[k] * T[k, 2]
+                        H[1, i, 0, i] -= moment[k] * T[k, 2]
                 for d in range(5):
                     for i in range(3):
                         for c in range(5):

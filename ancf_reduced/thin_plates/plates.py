@@ -87,8 +87,12 @@ class ThinPlates:
         t = material.thickness
         held = np.minimum(1.0, HELD * (t / sizes.max(axis=1)) ** 2)
         self._membrane_given = self._both((1.0 - held, self._membrane), (held, self._everywhere))
-        tables, area, _, curvature, elastic = self._bending
-        self._bending_given = tables, curvature, t**3 / 12.0 * area[..., None, None] * elastic
+        tables, area, metric, curvature, elastic = self._bending
+        self._bending_given = (
+            tables,
+            (curvature, metric, _coupling(metric, curvature)),
+            t**3 / 12.0 * area[..., None, None] * elastic,
+        )
         numbers = (_COORDINATES * self.plates[:, :, None] + np.arange(_COORDINATES)).reshape(len(plates), -1)
         self._rows = np.repeat(numbers, numbers.shape[1], axis=1).ravel()
         self._columns = np.tile(numbers, (1, numbers.shape[1])).ravel()
@@ -191,3 +195,22 @@ class ThinPlates:
             axis=-2,
         )
         return np.asarray(self.material.young_modulus / (1.0 - nu**2) * full)
+
+
+def _coupling(metric: Array, curvature: Array) -> Array:
+    """What stretch alone adds to the curvatures (11, 22, 2 x 12), by E_11, E_22, 2 E_12, (..., 3, 3) [1/m].
+
+    B_a^c E_cb + B_b^c E_ca: of r_,ab . n, what changes where lines are stretched and keep their curvature.
+    """
+
+    def square(three: Array) -> Array:
+        half = 0.5 * three[..., 2]
+        return np.stack([three[..., 0], half, half, three[..., 1]], axis=-1).reshape(*three.shape[:-1], 2, 2)
+
+    mixed = np.linalg.solve(square(metric), square(curvature))  # A^cd B_da
+    columns = []
+    for unit in ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]):
+        product = np.swapaxes(mixed, -1, -2) @ square(np.array(unit))
+        both = product + np.swapaxes(product, -1, -2)
+        columns.append(np.stack([both[..., 0, 0], both[..., 1, 1], 2.0 * both[..., 0, 1]], axis=-1))
+    return np.stack(columns, axis=-1)

@@ -2,8 +2,8 @@
 
 Sources: frequencies of a free inextensible ring, omega_n^2 = n^2 (n^2 - 1)^2 / (n^2 + 1) * E t^2 / (12 rho R^4) (from
 memory, Love 1927, art. 293); tip deflection of a cantilever under an end force F L^2 / EI = 5 (elastica, Mattiasson,
-Int. J. Numer. Meth. Engng 17, 1981, from memory). Tolerances: 12 plates around the ring, 1.5 % for n = 2 and 3, 2.5 %
-for n = 4; 24 plates, 0.25 %; the cantilever 0.5 %. The control: full integration of the membrane strain locks.
+Int. J. Numer. Meth. Engng 17, 1981, from memory). Tolerances: 12 plates around the ring, 1.5 %; 24 plates,
+0.15 %; the cantilever 0.5 %. The control: full integration of the membrane strain locks.
 """
 
 from __future__ import annotations
@@ -47,9 +47,8 @@ def planar_motions(n_nodes: int) -> np.ndarray:
 
 @pytest.mark.parametrize("slenderness", [0.0043, 0.01])
 def test_twelve_plates_carry_a_ring(slenderness: float) -> None:
-    errors = ring_errors(12, slenderness * RADIUS)
-    assert (np.abs(errors) < [0.015, 0.015, 0.025]).all(), errors
-    assert np.abs(ring_errors(24, slenderness * RADIUS)).max() < 0.0025
+    assert np.abs(ring_errors(12, slenderness * RADIUS)).max() < 0.015
+    assert np.abs(ring_errors(24, slenderness * RADIUS)).max() < 0.0015
 
 
 def test_full_integration_locks() -> None:
