@@ -41,7 +41,7 @@ def _found(checks: list[Check], judged: Mapping[str, Agreement] | None = None, *
     made = {c.id: made_by.get(c.id.replace(".", "_"), c.id.partition(".")[0]) for c in checks}
     models = ComparedModels(continuum=cast(Any, None), ancf=None, brush=None, metrics={}, limit=0.1)
     fields = {"checks": tuple(checks), "question_of": made, "agreements": judged or {}, "answers": {"models": models}}
-    return cast(Comparison, SimpleNamespace(**fields))
+    return cast(Comparison, SimpleNamespace(curves=(), **fields))
 
 
 def test_every_section_stands_in_one_group() -> None:

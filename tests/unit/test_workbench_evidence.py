@@ -15,7 +15,7 @@ from workbench.verdict.rules import Claim, at_most
 
 STUDY = read_study(built_in_study())
 KEYS = task_keys(report_tasks(STUDY))
-FILES = ["curves/fe_-40C_phi015.csv", "curves/fe_AISI_301_20C_phi015.csv", "series/step_fitted_ancf.csv"]
+FILES = ["curves/fe_35C_phi015.csv", "curves/fe_AISI_301_20C_phi015.csv", "series/step_fitted_ancf.csv"]
 FILES += ["curves/fe_phi000.csv", "curves/fe_average.csv", "curves/section_phi015.csv", "series/drop_brush.csv"]
 MADE_BY = {
     "fe.energy": "numerics",
@@ -27,7 +27,7 @@ MADE_BY = {
     "fe.hub_compliance": "hub",
     "rover.drop": "rover",
     "fe.first_yield_load": "strength",
-    "environment.stiffness_-40C": "environment",
+    "environment.stiffness_35C": "environment",
     "environment_AISI_301.similarity": "environment",
     "rover_mission.step_2": "rover_mission",
     "rover_ancf.mission_slope_up": "rover_ancf",
@@ -61,8 +61,8 @@ def test_without_words_the_identifier_or_the_question_decides() -> None:
 
 def test_a_temperature_and_a_scenario_lead_to_their_own_tasks_and_files() -> None:
     found = _evidence(STUDY, MADE_BY)
-    cold, other = found["environment.stiffness_-40C"], found["environment_AISI_301.similarity"]
-    assert (list(cold.tasks), cold.files) == (["fe_phi015", "environment_-40C"], ("curves/fe_-40C_phi015.csv",))
+    cold, other = found["environment.stiffness_35C"], found["environment_AISI_301.similarity"]
+    assert (list(cold.tasks), cold.files) == (["fe_phi015", "environment_35C"], ("curves/fe_35C_phi015.csv",))
     assert list(other.tasks) == ["environment_AISI_301_20C", "environment_AISI_301_-143C"]
     assert other.files == ("curves/fe_AISI_301_20C_phi015.csv",)
     step = found["rover_mission.step_2"]
