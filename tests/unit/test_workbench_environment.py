@@ -131,7 +131,7 @@ def test_variants_whose_names_differ_in_signs_alone_have_tasks_of_their_own() ->
     study = study_of(built_in_study(), table)
     tasks = environment_tasks(study)
     assert len({task.name for task in tasks}) == len(tasks) == 2 + 2 * len(names)
-    densities = [task.inputs["materials"]["tire"]["density"] for task in tasks[3:]]
+    densities = [task.inputs["materials"]["tire"]["density"] for task in tasks[2:]]
     assert densities == [7000.0 + k for k in range(4) for _ in range(2)]
 
 
