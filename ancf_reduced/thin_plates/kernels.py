@@ -49,22 +49,9 @@ def membrane_terms(
         _gather(q, plates[e], local)
         for p in range(tables.shape[1]):
             N = tables[e, p]
-            for d in range(2):
-                for i in range(3):
-                    value = 0.0
-                    for k in range(16):
-                        value += N[1 + d, k] * local[k, i]
-                    a[d, i] = value
-            strain[0], strain[1], strain[2] = -0.5 * metric[e, p, 0], -0.5 * metric[e, p, 1], -0.5 * metric[e, p, 2]
-            for i in range(3):
-                strain[0] += 0.5 * a[0, i] * a[0, i]
-                strain[1] += 0.5 * a[1, i] * a[1, i]
-                strain[2] += a[0, i] * a[1, i]
-            for k in range(3):
-                stress[k] = 0.0
-                for m in range(3):
-                    stress[k] += stiffness[e, p, k, m] * strain[m]
-                energy += 0.5 * stress[k] * strain[k]
+            _at_point(N, local, a)
+            _stretch(a, metric[e, p], strain)
+            energy += _conjugate(stiffness[e, p], strain, stress)
             for k in range(16):
                 for i in range(3):
                     g[0, k, i] = N[1, k] * a[0, i]
@@ -106,28 +93,16 @@ def bending_terms(
     """
     curvature, metric, coupling = reference
     energy, local, v, strain = 0.0, np.empty((16, 3)), np.empty((5, 3)), np.empty(3)
-    T = np.empty((3, 3))
     change, moment = np.empty(3), np.empty(3)
     first, H, half = np.empty((3, 5, 3)), np.empty((5, 3, 5, 3)), np.empty((5, 3, 16, 3))
     for e in range(plates.shape[0]):
         _gather(q, plates[e], local)
         for p in range(tables.shape[1]):
             N = tables[e, p]
-            for d in range(5):
-                for i in range(3):
-                    value = 0.0
-                    for k in range(16):
-                        value += N[1 + d, k] * local[k, i]
-                    v[d, i] = value
+            _at_point(N, local, v)
             n, J = _unit_normal(v)
-            for k in range(3):
-                strain[k] = -0.5 * metric[e, p, k]
-                for m in range(3):
-                    T[k, m] = coupling[e, p, k, m]
-            for i in range(3):
-                strain[0] += 0.5 * v[0, i] * v[0, i]
-                strain[1] += 0.5 * v[1, i] * v[1, i]
-                strain[2] += v[0, i] * v[1, i]
+            _stretch(v, metric[e, p], strain)
+            T = coupling[e, p]
             for row, d in ((0, 2), (1, 4), (2, 3)):
                 factor = 2.0 if row == 2 else 1.0
                 change[row] = factor * (v[d, 0] * n[0] + v[d, 1] * n[1] + v[d, 2] * n[2]) - curvature[e, p, row]
@@ -137,11 +112,7 @@ def bending_terms(
                 for i in range(3):
                     first[row, 0, i] -= T[row, 0] * v[0, i] + T[row, 2] * v[1, i]
                     first[row, 1, i] -= T[row, 1] * v[1, i] + T[row, 2] * v[0, i]
-            for k in range(3):
-                moment[k] = 0.0
-                for m in range(3):
-                    moment[k] += stiffness[e, p, k, m] * change[m]
-                energy += 0.5 * moment[k] * change[k]
+            energy += _conjugate(stiffness[e, p], change, moment)
             for k in range(16):
                 for i in range(3):
                     value = 0.0
@@ -189,6 +160,39 @@ def _gather(q: Array, nodes: Index, local: Array) -> None:
         for d in range(4):
             for i in range(3):
                 local[4 * k + d, i] = q[nodes[k], d, i]
+
+
+@compiled
+def _at_point(N: Array, local: Array, out: Array) -> None:
+    """Derivatives of r at a point, as many as ``out`` (d, 3) has rows: r_1, r_2, r_11, r_12, r_22."""
+    for d in range(out.shape[0]):
+        for i in range(3):
+            out[d, i] = 0.0
+            for k in range(16):
+                out[d, i] += N[1 + d, k] * local[k, i]
+
+
+@compiled
+def _stretch(a: Array, metric: Array, strain: Array) -> None:
+    """E_11, E_22, 2 E_12 of the tangents a[0] and a[1] into ``strain`` (3,)."""
+    for k in range(3):
+        strain[k] = -0.5 * metric[k]
+    for i in range(3):
+        strain[0] += 0.5 * a[0, i] * a[0, i]
+        strain[1] += 0.5 * a[1, i] * a[1, i]
+        strain[2] += a[0, i] * a[1, i]
+
+
+@compiled
+def _conjugate(stiffness: Array, strain: Array, stress: Array) -> float:
+    """stiffness times strain into ``stress`` (3,); half their product [J]."""
+    energy = 0.0
+    for k in range(3):
+        stress[k] = 0.0
+        for m in range(3):
+            stress[k] += stiffness[k, m] * strain[m]
+        energy += 0.5 * stress[k] * strain[k]
+    return float(energy)
 
 
 @compiled

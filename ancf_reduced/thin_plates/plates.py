@@ -7,8 +7,6 @@ by tests/unit/test_ancf_thin_plates.py and tests/verification/test_ancf_thin_pla
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array
@@ -16,8 +14,9 @@ from scipy.sparse import coo_array, csc_array
 from ancf_reduced.thin_plates.kernels import bending_terms, membrane_terms
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from contracts.errors import InputError
+from contracts.materials import Material
 
-__all__ = ["ThinPlateMaterial", "ThinPlates"]
+__all__ = ["ThinPlates"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -28,24 +27,6 @@ _COORDINATES = 12
 """Of a node."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ThinPlateMaterial:
-    """Isotropic, plane stress; young_modulus [Pa], poisson_ratio [-], density [kg/m^3], thickness [m]."""
-
-    young_modulus: float
-    poisson_ratio: float
-    density: float
-    thickness: float
-
-    def __post_init__(self) -> None:
-        for name in ("young_modulus", "density", "thickness"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0.0):
-                raise InputError(name.replace("_", " "), value, "must be > 0", "give it in SI units")
-        if not -1.0 < self.poisson_ratio <= 0.5:
-            raise InputError("Poisson's ratio", self.poisson_ratio, "must lie in (-1, 0.5]", "0.3 is usual for metals")
-
-
 class ThinPlates:
     """Plates of one material and thickness.
 
@@ -54,12 +35,13 @@ class ThinPlates:
     nodes : (n_nodes, 4, 3) r [m], r_1, r_2 [-], r_12 [1/m] of the reference, free of stress
     plates : (n, 4) nodes (i, j) of each plate at 2 i + j
     sizes : (n, 2) lengths of each plate's parameters [m]
-    material : of all plates
+    material : of all plates; plane stress
+    thickness : of all plates [m]
     membrane_points, bending_points : Gauss points along both axes
 
-    With few points of the membrane strain some motions within the surface, r_1 longer at every node, cost nothing. They
-    are held by a share `HELD` (t / length)^2 of the membrane strain at all points: as much as bending has, so that it
-    neither locks nor decides anything.
+    With few points of the membrane strain some motions within the surface cost nothing, as r_1 longer at every node.
+    A share `HELD` (t / length)^2 of the membrane strain at all points holds them; where it locks, it does so with the
+    stiffness of bending (docs/theory/ancf_thin_plate.md has what that changes).
 
     Raises
     ------
@@ -72,19 +54,23 @@ class ThinPlates:
         nodes: Array,
         plates: Index,
         sizes: Array,
-        material: ThinPlateMaterial,
+        material: Material,
+        thickness: float,
         membrane_points: tuple[int, int] = (2, 3),
         bending_points: tuple[int, int] = (3, 3),
     ) -> None:
         if nodes.ndim != 3 or nodes.shape[1:] != (4, 3) or plates.shape != (len(sizes), 4):
             shapes = f"nodes {nodes.shape}, plates {plates.shape}, sizes {sizes.shape}"
             raise InputError("thin plates", shapes, "must be (n, 4, 3), (m, 4) and (m, 2)", "see the docstring")
+        if not (np.isfinite(thickness) and thickness > 0.0):
+            raise InputError("thickness", f"{thickness:g} m", "must be > 0", "give it in metres")
+        self.thickness = thickness
         self.reference, self.plates, self.material = nodes.copy(), plates.astype(np.int64), material
         self._membrane = self._points(sizes, membrane_points)
         self._everywhere = self._points(sizes, (_FULL_POINTS, _FULL_POINTS))
         self._bending = self._points(sizes, bending_points)
         self._mass_points = self._points(sizes, (_MASS_POINTS, _MASS_POINTS))
-        t = material.thickness
+        t = thickness
         held = np.minimum(1.0, HELD * (t / sizes.max(axis=1)) ** 2)
         self._membrane_given = self._both((1.0 - held, self._membrane), (held, self._everywhere))
         tables, area, metric, curvature, elastic = self._bending
@@ -119,20 +105,14 @@ class ThinPlates:
     def mass(self) -> csc_array:
         """Consistent mass, the thickness' own inertia left out, (n_nodes * 12, n_nodes * 12)."""
         tables, area, *_ = self._mass_points
-        weight = self.material.density * self.material.thickness * area
+        weight = self.material.density * self.thickness * area
         one = np.einsum("ep,epk,epl->ekl", weight, tables[:, :, 0], tables[:, :, 0])
         blocks = np.einsum("ekl,ij->ekilj", one, np.eye(3))
         return csc_array(coo_array((blocks.ravel(), (self._rows, self._columns)), shape=(self.size, self.size)))
 
-    def loads(self, pressure: Array) -> Array:
-        """Forces of a load per reference area (3,) [N/m^2] on every plate, (n_nodes, 4, 3)."""
-        tables, area, *_ = self._mass_points
-        local = np.einsum("ep,epk,i->eki", area, tables[:, :, 0], pressure)
-        return self._gathered(local)
-
     def _both(self, *parts: tuple[Array, tuple[Array, Array, Array, Array, Array]]) -> tuple[Array, Array, Array]:
         """Tables, metrics and stiffness of several sets of points, each with its share of every plate (n,)."""
-        t = self.material.thickness
+        t = self.thickness
         sets = [
             (tables, metric, t * (share[:, None] * area)[..., None, None] * elastic)
             for share, (tables, area, metric, _, elastic) in parts

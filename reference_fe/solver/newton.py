@@ -22,6 +22,8 @@ AUGMENTATION_TOLERANCE = 1e-3
 """Relative residual below which contact multipliers are improved: by then the contact set has settled."""
 
 
+ROUND_OFF = 1e-6
+"""Relative residual above which standing still is no round-off, whatever the tolerance: contact looks for its set."""
 LONGEST_CYCLE, SAME = 8, 0.01
 """Residuals after which they may repeat themselves, and relative difference that counts as none."""
 
@@ -125,7 +127,7 @@ class NewtonSolver:
             history.append(self._relative(residual, moved=not history and offset.size > 0))
             augmented = history[-1] <= max(AUGMENTATION_TOLERANCE, goal) and problem.surfaces.augment()
             reached = history[-1] <= goal and not augmented
-            stalled = not reached and self._is_stalled(history)
+            stalled = not reached and _is_stalled(history, goal)
             tired = len(history) - augmentations > self.settings.maximum_iterations
             cycling = augmentations == 0 and _is_cycling(history)
             if reached or stalled or tired or cycling or not np.isfinite(history[-1]):
@@ -145,12 +147,6 @@ class NewtonSolver:
             else:
                 force = self._step(residual, force, offset)
                 offset = np.zeros(0)
-
-    def _is_stalled(self, history: list[float]) -> bool:
-        """Whether the last four residuals lie within a factor of three, at most 100 tolerances above the goal."""
-        last = history[-4:]
-        near = max(last) <= 100.0 * self.settings.relative_tolerance
-        return len(last) == 4 and near and max(last) < 3.0 * min(last)
 
     def _is_spurious(self) -> bool:
         """Whether some point is compressed beyond what St. Venant-Kirchhoff material can mean, or inside out."""
@@ -235,6 +231,12 @@ class NewtonSolver:
         if applied == 0.0:
             return 0.0 if out_of_balance == 0.0 else 1.0
         return out_of_balance / applied
+
+
+def _is_stalled(history: Sequence[float], tolerance: float) -> bool:
+    """Whether the last four residuals lie within a factor of three, at most 100 tolerances and `ROUND_OFF` high."""
+    last = history[-4:]
+    return len(last) == 4 and max(last) <= min(100.0 * tolerance, ROUND_OFF) and max(last) < 3.0 * min(last)
 
 
 def _is_cycling(history: Sequence[float]) -> bool:

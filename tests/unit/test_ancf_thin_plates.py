@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.thin_plates.plates import ThinPlateMaterial, ThinPlates
+from ancf_reduced.thin_plates.plates import ThinPlates
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from contracts.errors import InputError
+from contracts.materials import TI_6AL_4V
 
 Array = NDArray[np.float64]
-METAL = ThinPlateMaterial(young_modulus=2e11, poisson_ratio=0.3, density=7800.0, thickness=0.01)
+METAL, THICKNESS = replace(TI_6AL_4V, young_modulus=2e11, poisson_ratio=0.3, density=7800.0), 0.01
 
 
 def flat(counts: tuple[int, int], lengths: tuple[float, float]) -> tuple[Array, NDArray[np.int64], Array]:
@@ -41,7 +44,7 @@ def arc(count: int, across: int, radius: float, angle: float, width: float) -> t
 
 @pytest.fixture
 def strip() -> ThinPlates:
-    return ThinPlates(*arc(3, 1, 0.5, 1.2, 0.2), METAL)
+    return ThinPlates(*arc(3, 1, 0.5, 1.2, 0.2), METAL, THICKNESS)
 
 
 def test_shape_functions_reproduce_bicubic_polynomials() -> None:
@@ -71,7 +74,7 @@ def test_force_and_tangent_are_derivatives_of_the_energy(strip: ThinPlates) -> N
 def test_a_rigid_motion_costs_nothing(strip: ThinPlates) -> None:
     turned = Rotation.from_rotvec([0.4, -1.1, 0.7]).apply(strip.reference.reshape(-1, 3)).reshape(strip.reference.shape)
     turned[:, 0] += [0.3, -2.0, 1.0]
-    scale = METAL.young_modulus * METAL.thickness * 0.6 * 0.2
+    scale = METAL.young_modulus * THICKNESS * 0.6 * 0.2
     assert strip.energy(turned) < 1e-24 * scale
     assert np.abs(strip.force(turned)).max() < 1e-11 * scale
 
@@ -81,9 +84,9 @@ def test_only_rigid_motions_cost_nothing(count: int, monkeypatch: pytest.MonkeyP
     """Six zero eigenvalues of the tangent at rest; without the share that holds them there are more (control)."""
 
     def free() -> int:
-        strip = ThinPlates(*arc(count, 1, 0.5, 0.4 * count, 0.2), METAL)
+        strip = ThinPlates(*arc(count, 1, 0.5, 0.4 * count, 0.2), METAL, THICKNESS)
         squares = eigh(strip.tangent(strip.reference).toarray(), strip.mass().toarray(), eigvals_only=True)
-        bending = METAL.young_modulus * METAL.thickness**2 / (12.0 * METAL.density * (0.2 * count) ** 4)
+        bending = METAL.young_modulus * THICKNESS**2 / (12.0 * METAL.density * (0.2 * count) ** 4)
         return int((squares < 1e-3 * bending).sum())
 
     assert free() == 6
@@ -94,16 +97,18 @@ def test_only_rigid_motions_cost_nothing(count: int, monkeypatch: pytest.MonkeyP
 def test_constant_strain_and_constant_curvature_are_exact() -> None:
     """Green-Lagrange strains 0.01, -0.02 and a shear; then a flat plate rolled onto a cylinder without stretch."""
     nodes, plates, sizes = flat((2, 2), (0.4, 0.3))
-    body = ThinPlates(nodes, plates, sizes, METAL)
+    body = ThinPlates(nodes, plates, sizes, METAL, THICKNESS)
     E = np.array([[0.01, 0.004], [0.004, -0.02]])
     F = np.linalg.cholesky(np.eye(2) + 2.0 * E).T  # F^T F = 1 + 2 E
     q = nodes.copy()
     q[:, :, :2] = np.einsum("ij,nkj->nki", F, nodes[:, :, :2])
-    nu, t = METAL.poisson_ratio, METAL.thickness
+    nu, t = METAL.poisson_ratio, THICKNESS
     plane = METAL.young_modulus / (1.0 - nu**2)
     density = 0.5 * t * plane * (nu * np.trace(E) ** 2 + (1.0 - nu) * np.sum(E * E))
     assert body.energy(q) == pytest.approx(density * 0.4 * 0.3, rel=1e-12)
-    rolled = [ThinPlates(*flat((n, 1), (0.4, 0.3)), METAL).energy(arc(n, 1, 0.5, 0.8, 0.3)[0]) for n in (2, 4, 8)]
+    rolled = [
+        ThinPlates(*flat((n, 1), (0.4, 0.3)), METAL, THICKNESS).energy(arc(n, 1, 0.5, 0.8, 0.3)[0]) for n in (2, 4, 8)
+    ]
     errors = np.abs(np.array(rolled) / (0.5 * t**3 / 12.0 * plane / 0.5**2 * 0.4 * 0.3) - 1.0)
     assert errors[2] < 1e-3
     assert (np.log2(errors[:-1] / errors[1:]) > 1.9).all()
@@ -112,15 +117,15 @@ def test_constant_strain_and_constant_curvature_are_exact() -> None:
 def test_mass_is_that_of_the_strip(strip: ThinPlates) -> None:
     along = np.zeros(strip.reference.shape)
     along[:, 0, 2] = 1.0
-    exact = METAL.density * METAL.thickness * 0.5 * 1.2 * 0.2
+    exact = METAL.density * THICKNESS * 0.5 * 1.2 * 0.2
     assert along.ravel() @ (strip.mass() @ along.ravel()) == pytest.approx(exact, rel=1e-4)
 
 
 def test_bad_input_is_refused() -> None:
     nodes, plates, sizes = flat((1, 1), (0.1, 0.1))
     with pytest.raises(InputError, match="must have a normal"):
-        ThinPlates(0.0 * nodes, plates, sizes, METAL)
+        ThinPlates(0.0 * nodes, plates, sizes, METAL, THICKNESS)
     with pytest.raises(InputError, match="must be \\(n, 4, 3\\)"):
-        ThinPlates(nodes[:, 0], plates, sizes, METAL)
+        ThinPlates(nodes[:, 0], plates, sizes, METAL, THICKNESS)
     with pytest.raises(InputError, match="thickness"):
-        ThinPlateMaterial(young_modulus=1.0, poisson_ratio=0.3, density=1.0, thickness=0.0)
+        ThinPlates(nodes, plates, sizes, METAL, 0.0)

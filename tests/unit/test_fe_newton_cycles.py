@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from reference_fe.solver.newton import _is_cycling
+from reference_fe.solver.newton import _is_cycling, _is_stalled
 
 ROUND = [6.4e-3, 1.6e-3, 4.0e-4, 1.1e-4, 3.3e-5, 2.3e-5]
 
@@ -25,3 +25,13 @@ ROUND = [6.4e-3, 1.6e-3, 4.0e-4, 1.1e-4, 3.3e-5, 2.3e-5]
 )
 def test_cycles(history: list[float], cycling: bool) -> None:
     assert _is_cycling(history) is cycling
+
+
+@pytest.mark.parametrize(
+    ("residual", "tolerance", "stalled"),
+    [(4e-9, 1e-10, True), (4e-8, 1e-9, True), (4e-9, 1e-11, False), (4.6e-6, 1e-7, False), (4e-5, 1e-6, False)],
+)
+def test_only_round_off_stalls(residual: float, tolerance: float, stalled: bool) -> None:
+    """Contact that looks for its set stood still at 4.6e-6 with friction; a smaller increment found it."""
+    assert _is_stalled([1.0, 0.1, residual, residual, residual, residual], tolerance) is stalled
+    assert not _is_stalled([1.0, 0.1, 9.0 * residual, residual, residual, residual], tolerance)

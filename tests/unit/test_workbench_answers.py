@@ -164,7 +164,7 @@ def _found(brush: Any, uncertainty: float | None = 0.01) -> Comparison:
     )
     return cast(
         Comparison,
-        SimpleNamespace(curves=(), checks=(), question_of={}, answers={"models": models}, agreements=models.agreements),
+        SimpleNamespace(checks=(), question_of={}, answers={"models": models}, agreements=models.agreements),
     )
 
 
@@ -241,3 +241,12 @@ def test_the_first_answer_names_what_the_mesh_may_move() -> None:
     checks = [_check("fe.mesh_uncertainty", role="gate", value=0.009), _check("fe.stress_uncertainty", value=0.042)]
     sentence = computation(checks, _sections(checks)).sentence
     assert sentence == "All 1 gates hold; the mesh may move the load by 0.9 % and the stress by 4.2 %."
+
+
+def test_the_stiffness_told_is_that_of_the_elements_average() -> None:
+    """1.05 and 0.95 times the line; not the brush tire's, 1.2 times it."""
+    found = cast(Any, _found(1.2 * LINE))
+    found.checks, found.question_of = (_check("words.band"),), {"words.band": "words"}
+    told = answers(STUDY, found).wheel.parts[0].text
+    slope = _models({0.0: LINE}).average.load_at(0.005) / 0.005 / 1e3
+    assert told.startswith(f"{slope:.3g} N/mm over the first 5 mm")

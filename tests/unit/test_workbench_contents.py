@@ -39,9 +39,15 @@ def _agreement(distance: float, uncertainty: float | None, verdict: str) -> Agre
 def _found(checks: list[Check], judged: Mapping[str, Agreement] | None = None, **made_by: str) -> Comparison:
     """A comparison with these checks, each made by the question named like its first part unless said otherwise."""
     made = {c.id: made_by.get(c.id.replace(".", "_"), c.id.partition(".")[0]) for c in checks}
-    models = ComparedModels(continuum=cast(Any, None), ancf=None, brush=None, metrics={}, limit=0.1)
+    models = ComparedModels(
+        continuum=cast(Any, SimpleNamespace(fe=SimpleNamespace(average=None))),
+        ancf=None,
+        brush=None,
+        metrics={},
+        limit=0.1,
+    )
     fields = {"checks": tuple(checks), "question_of": made, "agreements": judged or {}, "answers": {"models": models}}
-    return cast(Comparison, SimpleNamespace(curves=(), **fields))
+    return cast(Comparison, SimpleNamespace(**fields))
 
 
 def test_every_section_stands_in_one_group() -> None:

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from contracts.curves import Around, StiffnessCurve
-from workbench.questions.fe.figures import around_figure
+from workbench.charts.interactive import empty_figure
+from workbench.questions.fe.figures import add_reference, around_figure
 from workbench.questions.model_curves import ModelCurves, RunNumbers, mean_curve
+from workbench.study.reference import ReferenceSection
 
 DEFLECTION = np.linspace(0.0, 0.025, 6)
 
@@ -41,3 +43,10 @@ def test_a_mirrored_wheel_has_no_direction() -> None:
     slopes = {0.0: 8e3, 20.0: 9e3, 60.0: 7e3}
     assert around_figure(_fe(slopes), Around(period=120.0, mirrored=True)) == ""
     assert around_figure(_fe({0.0: 8e3, 20.0: 9e3}), Around(period=120.0)) == ""
+
+
+def test_the_references_band_is_wider_than_the_line_that_may_cover_it() -> None:
+    figure = empty_figure()
+    add_reference(figure, ReferenceSection(thesis_words=True))
+    (band,) = figure.data
+    assert band.line.width > 2.5  # of the FE average

@@ -116,6 +116,18 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
         },
         r"points\[0\] = 10 to 12 mm: contradicts 19 to 21 mm at 160 N",
     ),
+    "a band that turns back behind a wide point": (
+        {
+            "band": SAID
+            | {
+                "points": [
+                    {"load": f"{load} N", "low": f"{low} mm", "high": f"{high} mm"}
+                    for load, low, high in ((160, 19, 21), (200, 5, 33), (250, 10, 12))
+                ]
+            }
+        },
+        r"points\[2\] = 10 to 12 mm: contradicts 19 to 21 mm at 160 N",
+    ),
     "one load twice": (
         {"band": SAID | {"points": [{"load": "160 N", "low": "19 mm", "high": "21 mm"}] * 2}},
         r"points\[1\] = 19 to 21 mm: contradicts",

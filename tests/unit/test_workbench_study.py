@@ -13,7 +13,6 @@ import pytest
 from contracts.errors import StudyError
 from geometry.wheel import exomars
 from workbench.study.model_parameters import ancf_preset, brush_parameters
-from workbench.study.planned_wheel import planned_wheel
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.wheel_design import wheel_design
 
@@ -368,13 +367,16 @@ def test_a_limit_of_zero_is_shown_once(tmp_path: Path, old: str, new: str, rule:
     assert caught.value.rule == rule
 
 
-def test_the_planned_wheel_is_that_of_its_own_study() -> None:
-    """Kept for the same sections only: a study with another wheel, or other metal, has another."""
+def test_a_wheel_is_built_once_for_the_same_sections_only() -> None:
+    """A study with another wheel, other metal or another name has another."""
     study = read_study(built_in_study())
-    assert planned_wheel(study) is planned_wheel(study.model_copy(update={"title": "again"})) == wheel_design(study)
+    design = wheel_design(study)
+    assert wheel_design(study.model_copy(update={"title": "again"})) is design
     tire = study.wheel.tire.model_copy(update={"thickness": 0.002})
     thick = study.model_copy(update={"wheel": study.wheel.model_copy(update={"tire": tire})})
-    assert planned_wheel(thick) == wheel_design(thick) != planned_wheel(study)
+    assert wheel_design(thick).tire.thickness == 0.002
     metal = {name: one.model_copy(update={"density": 9e3}) for name, one in study.materials.items()}
-    heavy = study.model_copy(update={"materials": metal})
-    assert planned_wheel(heavy) == wheel_design(heavy) != planned_wheel(study)
+    heavy = wheel_design(study.model_copy(update={"materials": metal}))
+    assert {one.density for one in heavy.materials.values()} == {9e3}
+    assert wheel_design(study.model_copy(update={"name": "other"})).name == "other"
+    assert wheel_design(study) is design

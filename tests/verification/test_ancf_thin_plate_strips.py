@@ -8,12 +8,15 @@ Int. J. Numer. Meth. Engng 17, 1981, from memory). Tolerances: 12 plates around 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import eigh
 from scipy.sparse.linalg import spsolve
 
-from ancf_reduced.thin_plates.plates import ThinPlateMaterial, ThinPlates
+from ancf_reduced.thin_plates.plates import ThinPlates
+from contracts.materials import TI_6AL_4V
 from tests.unit.test_ancf_thin_plates import arc, flat
 
 RADIUS, WIDTH = 0.1, 0.005
@@ -21,10 +24,10 @@ RADIUS, WIDTH = 0.1, 0.005
 
 def ring_errors(count: int, thickness: float, **points: tuple[int, int]) -> np.ndarray:
     """Relative errors of the frequencies n = 2, 3, 4 within the plane, of a closed ring of ``count`` plates."""
-    metal = ThinPlateMaterial(young_modulus=1e11, poisson_ratio=0.0, density=4000.0, thickness=thickness)
+    metal = replace(TI_6AL_4V, young_modulus=1e11, poisson_ratio=0.0, density=4000.0)
     nodes, plates, sizes = arc(count, 1, RADIUS, 2.0 * np.pi, WIDTH)
     plates[plates >= 2 * count] -= 2 * count
-    ring = ThinPlates(nodes[:-2], plates, sizes, metal, **points)
+    ring = ThinPlates(nodes[:-2], plates, sizes, metal, thickness, **points)
     kept = planar_motions(len(ring.reference))
     K, M = (kept.T @ (m @ kept) for m in (ring.tangent(ring.reference), ring.mass()))
     found = np.sqrt(np.abs(eigh(K, M, eigvals_only=True)))
@@ -59,9 +62,8 @@ def test_full_integration_locks() -> None:
 def test_a_cantilever_follows_the_elastica() -> None:
     """Deflection 0.71 L: 8 plates."""
     L, b, t, E = 1.0, 0.05, 0.005, 1e10
-    body = ThinPlates(
-        *flat((8, 1), (L, b)), ThinPlateMaterial(young_modulus=E, poisson_ratio=0.0, density=1.0, thickness=t)
-    )
+    metal = replace(TI_6AL_4V, young_modulus=E, poisson_ratio=0.0)
+    body = ThinPlates(*flat((8, 1), (L, b)), metal, t)
     EI, force = E * b * t**3 / 12.0, 5.0
     q = body.reference.copy()
     free = np.ones(q.shape, dtype=bool)

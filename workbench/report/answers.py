@@ -13,6 +13,7 @@ from typing import Any
 from contracts.curves import StiffnessCurve
 from contracts.records import Check
 from workbench.questions.comparison import Comparison
+from workbench.questions.models.question import MODELS
 from workbench.report.stand_ins import StandIn, stand_ins
 from workbench.study.model import Study
 from workbench.study.reference import (
@@ -116,7 +117,7 @@ def answers(study: Study, found: Comparison) -> Answers:
     """Of a comparison."""
     return Answers(
         computation=computation(found.checks, found.question_of),
-        wheel=wheel(study, found.checks, found.question_of, _average(found.curves)),
+        wheel=wheel(study, found.checks, found.question_of, found.answers[MODELS.name].continuum.fe.average),
         models=stand_ins(found),
     )
 
@@ -143,12 +144,6 @@ def _by_three_meshes(checks: Sequence[Check]) -> str:
     return f"; the mesh may move {' and '.join(known)}" if known else ""
 
 
-def _average(curves: Sequence[StiffnessCurve]) -> StiffnessCurve | None:
-    """The average of the finite elements, if it holds more than first contact."""
-    found = [c for c in curves if c.model == "fe" and c.orientation_deg is None and not c.unloaded]
-    return found[0] if found else None
-
-
 def wheel(
     study: Study,
     checks: Sequence[Check],
@@ -163,7 +158,7 @@ def wheel(
     if "orientation_spread" not in study.tolerances.model_fields_set:
         asked.pop("evenness", None)
     parts = [_part(name, found, question_of, study.reference) for name, found in asked.items()]
-    if average is not None:
+    if average is not None and not average.unloaded:
         numbers = _stiffness(average, study.judged_load)
         parts = [replace(p, text=f"{numbers}{p.text}") if p.name == "stiffness" else p for p in parts]
     decision = together(part.decision for part in parts)

@@ -50,9 +50,12 @@ def _of_the_points(study: Study) -> Iterator[BrokenRule]:
                 key, value = f"reference.band.points[{k}].{name}", f"{scale * number:g} {unit}"
                 rule = f"lies beyond fe.{end[0]} = {scale * end[1]:g} {unit}, where the curves end"
                 yield BrokenRule(key=key, value=value, rule=rule, hint=f"raise fe.{end[0]}, or leave the point out")
-    for (_, lower), (k, upper) in pairwise(sorted(enumerate(points), key=lambda one: one[1].load)):
-        if upper.load == lower.load or upper.high < lower.low:
-            key, value = f"reference.band.points[{k}]", f"{1e3 * upper.low:g} to {1e3 * upper.high:g} mm"
+    ordered = sorted(enumerate(points), key=lambda one: one[1].load)
+    for (_, before), (k, point) in pairwise(ordered):
+        lower = max((p for _, p in ordered if p.load <= before.load), key=lambda p: p.low)
+        if point.load == before.load or point.high < lower.low:
+            lower = before if point.load == before.load else lower
+            key, value = f"reference.band.points[{k}]", f"{1e3 * point.low:g} to {1e3 * point.high:g} mm"
             rule = f"contradicts {1e3 * lower.low:g} to {1e3 * lower.high:g} mm at {lower.load:g} N: "
             rule += "one load once, and the deflection does not fall as the load rises"
             yield BrokenRule(key=key, value=value, rule=rule, hint="correct one of the two")

@@ -15,7 +15,7 @@ from contracts.materials import Material
 from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
-from workbench.study.planned_wheel import planned_wheel
+from workbench.study.wheel_design import wheel_design
 
 __all__ = [
     "HUB_PARTS",
@@ -64,7 +64,7 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "inner_contact_stiffness": INNER_STIFFNESS,
         "relative_tolerance": fe.relative_tolerance,
         "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
-        "materials": material_inputs(planned_wheel(study).materials),
+        "materials": material_inputs(wheel_design(study).materials),
     }
 
 

@@ -21,7 +21,7 @@ from workbench.questions.question import Question
 from workbench.questions.wheel.graph import coarse_across, mesh_task
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees
-from workbench.study.planned_wheel import planned_wheel
+from workbench.study.wheel_design import wheel_design
 from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["HUB", "HubRun", "HubStudy", "held_parts"]
@@ -66,7 +66,7 @@ class HubStudy:
 
 def held_parts(study: Study) -> tuple[tuple[str, ...], ...]:
     """Rigid parts of each run, outside to inside: all of them first, none last."""
-    parts = tuple(part for part in HUB_PARTS if part in planned_wheel(study).materials)
+    parts = tuple(part for part in HUB_PARTS if part in wheel_design(study).materials)
     return tuple(parts[i:] for i in range(len(parts) + 1))
 
 
