@@ -94,12 +94,13 @@ class InputUncertaintySection(Section):
 
     @model_validator(mode="after")
     def _read_within_the_curves(self) -> InputUncertaintySection:
+        """What is stated; defaults beyond short curves are left empty."""
         for name, numbers, end, unit in (
             ("deflections", self.deflections, ("max_deflection", self.max_deflection), "mm"),
             ("loads", self.loads, ("max_load", self.max_load), "N"),
         ):
             scale = 1e3 if unit == "mm" else 1.0
-            if max(numbers) > end[1]:
+            if name in self.model_fields_set and max(numbers) > end[1]:
                 rule = f"lies beyond {end[0]} = {scale * end[1]:g} {unit}, where sampled curves end"
                 raise in_key(name, f"{scale * max(numbers):g} {unit}", rule, f"read it within, or raise {end[0]}")
         return self
