@@ -116,9 +116,18 @@ def dot(a: Array, b: Array) -> float:
 
 @compiled()
 def closest_point(
-    x: Array, point: Array, nodes: Index, lattice: tuple[int, int], xi: Array, shapes: Array, place: Array
+    x: Array,
+    point: Array,
+    nodes: Index,
+    lattice: tuple[int, int],
+    furthest: float,
+    xi: Array,
+    shapes: Array,
+    place: Array,
 ) -> None:
-    """Closest point of one facet, continued beyond its edges to |xi| = 1.5, by Newton from its middle; into xi (2,)."""
+    """Closest point of one facet, continued beyond its edges to |xi| = ``furthest``, by Newton from its middle; into
+    xi (2,). At ``furthest`` it is none.
+    """
     xi[:] = 0.0
     r = np.empty(3)
     for _ in range(_STEPS):
@@ -134,8 +143,8 @@ def closest_point(
         if a00 <= 0.0 or a00 * a11 - a01 * a01 <= 0.0:
             a00, a01, a11 = m00, m01, m11
         det = a00 * a11 - a01 * a01
-        s = min(1.5, max(-1.5, xi[0] + (a11 * f0 - a01 * f1) / det))
-        t = min(1.5, max(-1.5, xi[1] + (a00 * f1 - a01 * f0) / det))
+        s = min(furthest, max(-furthest, xi[0] + (a11 * f0 - a01 * f1) / det))
+        t = min(furthest, max(-furthest, xi[1] + (a00 * f1 - a01 * f0) / det))
         moved = abs(s - xi[0]) + abs(t - xi[1])
         xi[0], xi[1] = s, t
         if moved < _MOVED:

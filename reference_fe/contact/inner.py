@@ -53,8 +53,9 @@ class InnerContact:
     least_gap : points that start closer to the master than this are left out, e.g. beside a weld [m]
     depth : how far behind the master's surface a point is still found [m]
     reach : gap below which facets get room in the matrix before they touch [m]
-    overhang : how far a master facet goes on, straight, beyond an edge it shares with the slave's surface [m]: where a
-        spring is welded to a rim, the rim's face goes on within the weld, and no point can slip off its end
+    overhang : how far a master facet goes on, as its shape functions do, beyond an edge it shares with the slave's
+        surface [m]: where a spring is welded to a rim, its face goes on within the weld, and no point can slip off
+        its end
     gauss_points : slave points along each axis of a facet
     """
 

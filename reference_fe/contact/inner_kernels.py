@@ -132,13 +132,15 @@ def nearest_contacts(
             for i in range(3):
                 height += (centre[i] - middles[c, i]) * outward[c, i]
                 squared += (centre[i] - middles[c, i]) ** 2
-            heights, reach = (-below - bows[c], above + bows[c]), radii[c] + max(above, below)
+            beyond = max(margins[c, 0], margins[c, 1], margins[c, 2], margins[c, 3])
+            furthest = max(1.5, 1.0 + 1.1 * beyond)
+            heights, reach = (-below - bows[c], above + bows[c]), (1.0 + 2.0 * beyond) * radii[c] + max(above, below)
             if squared > (reach + radius) ** 2 or not heights[0] - radius <= height <= heights[1] + radius:
                 continue
             for q in range(n_q):
                 if not _may_touch(points[f, q], normals[f, q], middles[c], outward[c], reach, heights):
                     continue
-                closest_point(x, points[f, q], facets[c], lattice, xi, shapes, place)
+                closest_point(x, points[f, q], facets[c], lattice, furthest, xi, shapes, place)
                 if not (-1.0 - margins[c, 0] <= xi[0] <= 1.0 + margins[c, 1]):
                     continue
                 if not (-1.0 - margins[c, 2] <= xi[1] <= 1.0 + margins[c, 3]):

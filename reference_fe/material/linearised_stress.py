@@ -21,7 +21,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -155,37 +154,37 @@ class _Part:
         along = np.abs(np.einsum("nfi,ni->nf", to_face, self.direction))
         broad = along > 0.7 * np.linalg.norm(to_face, axis=-1)
         self.owners, self.faces = np.nonzero(broad)[0], faces[broad]
-        self.sides = broad
         self.across = (self.ends[:, :, -1] - self.ends[:, :, 0]).mean(axis=1)
         self.across /= np.maximum(np.linalg.norm(self.across, axis=-1, keepdims=True), np.finfo(float).tiny)
-        self.edges = np.zeros(0, dtype=np.int64)
+        self.slice, self.edges = np.arange(len(grid)), dict[int, Index]()
         if mesh.dim == 3:
             lateral = np.abs(np.einsum("nfi,ni->nf", to_face, self.across)) > 0.7 * np.linalg.norm(to_face, axis=-1)
-            self.edges, self.sides = self._edges(faces[lateral]), broad | lateral
-        self.all_faces = faces
+            sides = broad | lateral
+            self.slice = _connected(np.nonzero(sides)[0], faces[sides], len(grid))
+            self.edges = self._edges(np.nonzero(lateral)[0], faces[lateral])
         self.joined = np.zeros(len(grid), dtype=bool)
         self.joined[self.owners[np.isin(self.faces, self.joints).all(axis=1)]] = True
 
-    def _edges(self, lateral: Index) -> Index:
-        """Nodes of the faces beside the strip that no other cell shares; a plane of symmetry is no edge."""
+    def _edges(self, owners: Index, lateral: Index) -> dict[int, Index]:
+        """Slice of the strip -> nodes of its faces to either side that no other cell shares; symmetry is no edge."""
         symmetric = self.mesh.facets[self.mesh.facet_tags == self.mesh.faces.get("symmetry", -1)][:, :4]
         every = np.concatenate([self.mesh.cells[:, :8][:, _FACES[3]].reshape(-1, 4), symmetric])
         different, counts = np.unique(np.sort(every, axis=-1), axis=0, return_counts=True)
         alone = set(map(tuple, different[counts == 1].tolist()))
-        free = [face for face in lateral.tolist() if tuple(face) in alone]
-        return np.unique(np.array(free, dtype=np.int64))
+        found = dict[int, set[int]]()
+        for one, face in zip(self.slice[owners].tolist(), lateral.tolist(), strict=True):
+            if tuple(face) in alone:
+                found.setdefault(one, set()).update(face)
+        return {one: np.array(sorted(nodes)) for one, nodes in found.items()}
 
     def beside_edges(self, row: int) -> Array:
-        """Distances of the lateral places of one cell from the nearest free edge, (3,) [m]."""
+        """Distances of the lateral places of one cell from the nearest free edge of its slice, (3,) [m]."""
         places = self.ends[row]
-        if self._edge_tree is None:
+        if (nodes := self.edges.get(int(self.slice[row]))) is None:
             return np.full(places.shape[1], math.inf)
-        nearest = self.mesh.points[self.edges][self._edge_tree.query(places)[1]]
-        return np.asarray(np.abs((places - nearest) @ self.across[row]).min(axis=0))
-
-    @cached_property
-    def _edge_tree(self) -> cKDTree | None:
-        return cKDTree(self.mesh.points[self.edges]) if len(self.edges) else None
+        apart = self.mesh.points[nodes] - places[:, :, None]
+        nearest = np.linalg.norm(apart, axis=-1).argmin(axis=-1)[..., None, None]
+        return np.asarray(np.abs(np.take_along_axis(apart, nearest, axis=2)[:, :, 0] @ self.across[row]).min(axis=0))
 
     def stacks(self) -> list[Index]:
         """Rows of the cells that lie on each other: they share a broad face."""
@@ -194,8 +193,7 @@ class _Part:
 
     def half_widths(self, stacks: Sequence[Index], beside_edges: Sequence[Array]) -> Array:
         """Largest distance from free edges in the slice of the strip that each stack lies in, (n_stacks,) [m]."""
-        owners = np.nonzero(self.sides)[0]
-        slices = _connected(owners, self.all_faces[self.sides], len(self.cells))[[int(rows[0]) for rows in stacks]]
+        slices = self.slice[[int(rows[0]) for rows in stacks]]
         widest = np.zeros(len(self.cells))
         np.maximum.at(widest, slices, [float(d.max()) for d in beside_edges])
         return np.asarray(widest[slices])

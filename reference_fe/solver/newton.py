@@ -23,7 +23,7 @@ AUGMENTATION_TOLERANCE = 1e-3
 
 
 ROUND_OFF = 1e-6
-"""Relative residual above which standing still is no round-off, whatever the tolerance: contact looks for its set."""
+"""Relative residual above which standing still is taken for contact that looks for its set, not for round-off."""
 LONGEST_CYCLE, SAME = 8, 0.01
 """Residuals after which they may repeat themselves, and relative difference that counts as none."""
 
@@ -234,9 +234,14 @@ class NewtonSolver:
 
 
 def _is_stalled(history: Sequence[float], tolerance: float) -> bool:
-    """Whether the last four residuals lie within a factor of three, at most 100 tolerances and `ROUND_OFF` high."""
+    """Whether the last four residuals stand still above the tolerance, at most 100 of it and `ROUND_OFF` high.
+
+    Within a factor of three of each other, and the last no less than nine tenths of the first: what falls, even slowly,
+    is on its way.
+    """
     last = history[-4:]
-    return len(last) == 4 and max(last) <= min(100.0 * tolerance, ROUND_OFF) and max(last) < 3.0 * min(last)
+    still = len(last) == 4 and max(last) < 3.0 * min(last) and last[-1] >= 0.9 * last[0]
+    return still and tolerance < last[-1] and max(last) <= min(100.0 * tolerance, ROUND_OFF)
 
 
 def _is_cycling(history: Sequence[float]) -> bool:

@@ -356,10 +356,39 @@ def test_the_quick_refusals_refuse_nothing_that_touches(margin: float) -> None:
         touches = nearest_contacts(x, points[None], towards, one, master, balls, (above, below), margins)[0][0] == 0
         for point, touching in zip(points, touches, strict=True):
             xi, shapes, place = np.empty(2), np.empty((6, 9)), np.empty((6, 3))
-            closest_point(x, point, facet[0], lattice, xi, shapes, place)
+            closest_point(x, point, facet[0], lattice, 1.5, xi, shapes, place)
             normal = np.cross(place[1], place[2])
             normal /= np.linalg.norm(normal)
             within = np.abs(xi).max() <= 1.0 + margin
             assert touching == (within and -below < (point - place[0]) @ normal < above and normal[2] > 0.0)
         found += touches.sum()
     assert 100 < found < 900
+
+
+@pytest.mark.parametrize("half", [0.5e-3, 2e-3, 8e-3])
+def test_an_overhang_ends_where_it_should_on_facets_of_any_size(half: float) -> None:
+    """An edge 2 ``half`` long goes on by 1 mm: points 0.1 mm behind it are caught up to there, and no farther."""
+    x = np.zeros((3, 3))
+    x[:, 0] = [-half, 0.0, half]
+    beyond = np.array([0.5e-3, 0.95e-3, 1.05e-3, 3e-3, 4.9e-3])
+    points = np.column_stack([half + beyond, np.full(5, -1e-4), np.zeros(5)])[None]
+    master = (np.array([[0, 1, 2]]), np.array([-1.0]), (3, 1))
+    balls = (np.zeros((1, 3)), np.array([half]), np.array([[0.0, 1.0, 0.0]]))
+    downward, one = np.broadcast_to([0.0, -1.0, 0.0], (1, 5, 3)).copy(), (np.array([0, 1]), np.array([0]))
+    margins = np.array([[0.0, 1e-3 / half, 0.0, 0.0]])
+    facet, _, gap = nearest_contacts(x, points, downward, one, master, balls, (5e-6, 5e-3), margins)
+    assert facet[0].tolist() == [0, 0, -1, -1, -1]
+    np.testing.assert_allclose(gap[0, :2], -1e-4, rtol=1e-9)
+
+
+def test_a_corner_within_the_margin_is_not_refused_for_its_distance() -> None:
+    """A flat facet 16 by 26 mm and points within a fifth beyond its edges, 0.06 mm behind; found no deeper than 0.1."""
+    a, b = np.meshgrid([-8e-3, 0.0, 8e-3], [-13e-3, 0.0, 13e-3], indexing="ij")
+    x = np.stack([a, b, 0.0 * a], axis=-1).reshape(-1, 3)
+    xi = np.stack(np.meshgrid([-1.19, 0.0, 1.19], [-1.19, 0.0, 1.19], indexing="ij"), axis=-1).reshape(-1, 2)
+    points = np.column_stack([8e-3 * xi[:, 0], 13e-3 * xi[:, 1], np.full(9, -6e-5)])[None]
+    balls = np.zeros((1, 3)), np.linalg.norm(x, axis=-1).max(keepdims=True), np.array([[0.0, 0.0, 1.0]])
+    down, one = np.broadcast_to([0.0, 0.0, -1.0], (1, 9, 3)).copy(), (np.array([0, 1]), np.array([0]))
+    master = (np.arange(9)[None], np.ones(1), (3, 3))
+    facet = nearest_contacts(x, points, down, one, master, balls, (5e-6, 1e-4), np.full((1, 4), 0.2))[0]
+    assert (facet == 0).all()

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from contracts.materials import TI_6AL_4V
+from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
 from geometry.wheel import exomars_hoops
@@ -134,21 +135,27 @@ def test_free_edges_are_left_out_up_to_the_distance(edge_distance: float, symmet
     assert found == pytest.approx(expected, rel=1e-3)
 
 
-def test_a_narrow_strip_beside_a_wide_one_of_the_same_part_counts() -> None:
-    """Strips 40 and 6 mm wide, both 1 mm thick, apart from each other; only the narrow one is strained.
-
-    Four thicknesses from its edges there is nothing of it left: half way to its own middle is what counts. The strain
-    grows with y from one edge to the other, so both sides of its one cell are looked at.
-    """
-    wide = block_mesh((6, 5, 1), lambda X: X * [60e-3, 40e-3, 1e-3])
-    narrow = block_mesh((6, 1, 1), lambda X: X * [60e-3, 6e-3, 1e-3] + [0.0, 0.1, 0.0])
-    mesh = replace(
+def _one_part(wide: TaggedMesh, narrow: TaggedMesh) -> TaggedMesh:
+    """Two blocks that do not touch, as one part."""
+    return replace(
         wide,
         points=np.concatenate([wide.points, narrow.points]),
         cells=np.concatenate([wide.cells, narrow.cells + len(wide.points)]),
         cell_tags=np.concatenate([wide.cell_tags, narrow.cell_tags]),
         facets=np.concatenate([wide.facets, narrow.facets + len(wide.points)]),
         facet_tags=np.concatenate([wide.facet_tags, narrow.facet_tags]),
+    )
+
+
+def test_a_narrow_strip_beside_a_wide_one_of_the_same_part_counts() -> None:
+    """Strips 40 and 6 mm wide, both 1 mm thick, apart from each other; only the narrow one is strained.
+
+    Four thicknesses from its edges there is nothing of it left: half way to its own middle is what counts. The strain
+    grows with y from one edge to the other, so both sides of its one cell are looked at.
+    """
+    mesh = _one_part(
+        block_mesh((6, 5, 1), lambda X: X * [60e-3, 40e-3, 1e-3]),
+        block_mesh((6, 1, 1), lambda X: X * [60e-3, 6e-3, 1e-3] + [0.0, 0.1, 0.0]),
     )
     material = replace(TI_6AL_4V, poisson_ratio=0.0)
     supports = [Support(faces=("x0",), components=(0, 1, 2))]
@@ -164,3 +171,22 @@ def test_a_narrow_strip_beside_a_wide_one_of_the_same_part_counts() -> None:
         x = 60e-3 - (1.0 - stations.max()) * 10e-3
         expected = material.young_modulus * 1e-6 * np.sqrt(1.5**2 + 3.0 * (x / 3e-3 / 2) ** 2)
         assert found == pytest.approx(expected, rel=1e-3)
+
+
+def test_the_edges_of_another_strip_are_not_its_own() -> None:
+    """A strip 6 mm wide lies 4 mm over the middle of one 40 mm wide, whose stress is largest there."""
+    wide = block_mesh((6, 10, 1), lambda X: X * [60e-3, 40e-3, 1e-3] + [0.0, -20e-3, 0.0])
+    narrow = block_mesh((6, 1, 1), lambda X: X * [60e-3, 6e-3, 1e-3] + [0.0, -3e-3, 4e-3])
+    found = []
+    for mesh in (wide, _one_part(wide, narrow)):
+        problem = StaticProblem(
+            Domain.from_tagged(mesh),
+            {"body": replace(TI_6AL_4V, poisson_ratio=0.0)},
+            [Support(faces=("x0",), components=(0, 1, 2))],
+        )
+        problem.u.interpolate(
+            lambda x: np.stack([1e-6 * x[0] * np.exp(-((x[1] / 4e-3) ** 2)) * (x[2] < 2e-3), 0 * x[0], 0 * x[0]])
+        )
+        found.append(LinearisedStress(problem, ["body"]).largest_by_part()["body"])
+    assert found[1] == pytest.approx(found[0], rel=1e-12)
+    assert found[0] > TI_6AL_4V.young_modulus * 1e-6
