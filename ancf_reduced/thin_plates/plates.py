@@ -21,8 +21,10 @@ __all__ = ["ThinPlates"]
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 _MASS_POINTS = _FULL_POINTS = 4
-HELD = 0.1
+HELD = 0.3
 """Times (thickness / length)^2: share of the membrane strain that is integrated at every point, see `ThinPlates`."""
+FLAT = 1e-6
+"""Curvature that counts as none [1/m]."""
 _COORDINATES = 12
 """Of a node."""
 
@@ -37,16 +39,18 @@ class ThinPlates:
     sizes : (n, 2) lengths of each plate's parameters [m]
     material : of all plates; plane stress
     thickness : of all plates [m]
-    membrane_points, bending_points : Gauss points along both axes
+    membrane_points, bending_points : Gauss points along both axes; two of the membrane strain along the one a strip is
+        curved along, four along the other, or motions within the surface lose their stiffness
 
-    With few points of the membrane strain some motions within the surface cost nothing, as r_1 longer at every node.
-    A share `HELD` (t / length)^2 of the membrane strain at all points holds them; where it locks, it does so with the
-    stiffness of bending (docs/theory/ancf_thin_plate.md has what that changes).
+    In flat plates two points leave some motions within the surface without any, as r_1 longer at every node. A share
+    `HELD` (t / length)^2 of the membrane strain at all points holds them (docs/theory/ancf_thin_plate.md has what that
+    changes).
 
     Raises
     ------
     InputError
-        For arrays that do not belong together, and for a reference whose surface has no normal.
+        For arrays that do not belong together, for a reference whose surface has no normal, and for one that is curved
+        more along the axis with more points.
     """
 
     def __init__(
@@ -56,7 +60,7 @@ class ThinPlates:
         sizes: Array,
         material: Material,
         thickness: float,
-        membrane_points: tuple[int, int] = (2, 3),
+        membrane_points: tuple[int, int] = (2, 4),
         bending_points: tuple[int, int] = (3, 3),
     ) -> None:
         if nodes.ndim != 3 or nodes.shape[1:] != (4, 3) or plates.shape != (len(sizes), 4):
@@ -79,6 +83,7 @@ class ThinPlates:
             (curvature, metric, _coupling(metric, curvature)),
             t**3 / 12.0 * area[..., None, None] * elastic,
         )
+        _require_along(metric, curvature, membrane_points)
         numbers = (_COORDINATES * self.plates[:, :, None] + np.arange(_COORDINATES)).reshape(len(plates), -1)
         self._rows = np.repeat(numbers, numbers.shape[1], axis=1).ravel()
         self._columns = np.tile(numbers, (1, numbers.shape[1])).ravel()
@@ -175,6 +180,15 @@ class ThinPlates:
             axis=-2,
         )
         return np.asarray(self.material.young_modulus / (1.0 - nu**2) * full)
+
+
+def _require_along(metric: Array, curvature: Array, points: tuple[int, int]) -> None:
+    """Refuse a reference that is curved more along the axis with more points of the membrane strain."""
+    along, across = (float(np.abs(curvature[..., k] / metric[..., k]).max()) for k in (0, 1))
+    if (points[0] < points[1] and across > along + FLAT) or (points[0] > points[1] and along > across + FLAT):
+        rule = f"has curvatures of {along:.3g} and {across:.3g} 1/m and membrane points of {points[0]} and {points[1]}"
+        hint = "give fewer points along the axis that is curved more, or turn the plates"
+        raise InputError("thin plates", "the reference", rule, hint)
 
 
 def _coupling(metric: Array, curvature: Array) -> Array:

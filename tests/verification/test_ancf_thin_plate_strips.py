@@ -13,9 +13,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import eigh
-from scipy.sparse.linalg import spsolve
+from scipy.sparse import diags_array
+from scipy.sparse.linalg import eigsh, spsolve
 
 from ancf_reduced.thin_plates.plates import ThinPlates
+from ancf_reduced.thin_plates.shape_functions import shape_tables
+from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
 from tests.unit.test_ancf_thin_plates import arc, flat
 
@@ -80,3 +83,57 @@ def test_a_cantilever_follows_the_elastica() -> None:
         else:
             pytest.fail("no equilibrium")
     assert q[-2:, 0, 2].mean() / L == pytest.approx(0.71379, rel=5e-3)
+
+
+METAL = replace(TI_6AL_4V, young_modulus=1.138e11, poisson_ratio=0.342, density=4430.0)
+
+
+@pytest.mark.parametrize("thickness", [0.4e-3, 0.9e-3])
+def test_a_strip_loaded_within_its_plane_is_a_beam(thickness: float) -> None:
+    """96 by 26 mm, six plates of the wheel's size: Timoshenko's beam, F (L^3 / 3 E I + 1.2 L / G A), within 3 %.
+
+    The load is even along the edge. Control: with 2 x 3 points it gives way
+    """
+    L, b, t = 0.096, 0.026, thickness
+    E, G = METAL.young_modulus, METAL.young_modulus / 2.0 / (1.0 + METAL.poisson_ratio)
+    exact = L**3 / (3.0 * E * t * b**3 / 12.0) + 1.2 * L / (G * t * b)
+
+    def compliance(points: tuple[int, int]) -> float:
+        body = ThinPlates(*flat((6, 1), (L, b)), METAL, t, points)
+        load = np.zeros(body.reference.shape)
+        v, w = np.polynomial.legendre.leggauss(6)
+        v, w = 0.5 + 0.5 * v, 0.5 * w
+        edge = shape_tables((L / 6.0, b), np.ones(6), v)[:, 0]
+        force = np.einsum("p,pk->k", w, edge).reshape(4, 4)[2:]
+        load[-2:, :, 1] = force
+        free = np.ones(load.shape, dtype=bool)
+        free[:2] = False
+        kept = free.ravel()
+        moved = np.zeros(body.size)
+        moved[kept] = spsolve(body.tangent(body.reference)[kept][:, kept].tocsc(), load.ravel()[kept])
+        return float(moved @ load.ravel())
+
+    assert compliance((2, 4)) == pytest.approx(exact, rel=0.03)
+    assert compliance((2, 3)) > 1.3 * exact
+
+
+def test_the_lowest_motions_of_a_free_curved_strip_are_the_bodys_own() -> None:
+    """R = 70 mm, 90 degrees, 26 mm wide, 0.4 mm thick: six frequencies of 8 x 2 plates beside 24 x 6 within 2 %."""
+
+    def frequencies(counts: tuple[int, int]) -> np.ndarray:
+        strip = ThinPlates(*arc(*counts, 0.070, 0.5 * np.pi, 0.026), METAL, 0.4e-3)
+        scale = diags_array(np.tile(np.repeat([1.0, 0.02, 0.02, 0.0004], 3), len(strip.reference)) ** -1.0)
+        K, M = (scale @ m @ scale for m in (strip.tangent(strip.reference), strip.mass()))
+        shift = -1e3 * abs(M).max() ** 0.0
+        found = eigsh(K.tocsc(), 12, M.tocsc(), sigma=shift, return_eigenvectors=False)
+        return np.sqrt(np.sort(np.abs(found)))[6:]
+
+    np.testing.assert_allclose(frequencies((8, 2)), frequencies((24, 6)), rtol=0.02)
+
+
+def test_a_strip_curved_along_the_wrong_axis_is_refused() -> None:
+    nodes, plates, sizes = arc(4, 1, 0.07, 1.0, 0.026)
+    turned = nodes[:, [0, 2, 1, 3]]
+    with pytest.raises(InputError, match=r"curvatures of .* and membrane points of 2 and 4"):
+        ThinPlates(turned, plates[:, [0, 2, 1, 3]], sizes[:, ::-1], METAL, 0.4e-3)
+    ThinPlates(turned, plates[:, [0, 2, 1, 3]], sizes[:, ::-1], METAL, 0.4e-3, (4, 2))
