@@ -126,6 +126,11 @@ def test_a_baseline_that_is_none_is_refused(tmp_path: Path) -> None:
         content | {"schema": 99},
         *(content | {"checks": [row | change]} for change in ({"role": "gaet"}, {"status": "passed"}, {"value": nan})),
         content | {"checks": [row, row]},
+        *(content | {"checks": [row | {"reference": ends}]} for ends in ([nan, 1], ["1", "2"], [2, 1], [1, 2, 3])),
+        *(content | {"checks": [row | {"tolerance": words}]} for words in ("1.2.3 %", "e %", "... %")),
+        *(content | {"provenance": content["provenance"] | {"commit": commit}} for commit in (5, True, {"a": 1})),
+        *(content | {"schema": schema} for schema in (True, 1.0, "2")),
+        content | {"study": 5},
     ]
     for one in damaged:
         path.write_text(json.dumps(one), encoding="utf-8")

@@ -249,6 +249,10 @@ def test_points_are_whole_studies_with_the_runs_of_the_section() -> None:
         ({"ancf.young_modulus": {"low": 1, "high": 2, "source": "s"}}, "nothing that the section model computes with"),
         ({"orientation": {"low": "0 deg", "high": "1 deg", "source": "s"}}, "nothing that the section model"),
         (TWO | {f"{THICKNESS} = wheel.springs[0].thickness": TWO[THICKNESS]}, "draws wheel.tire.thickness, as"),
+        (TWO | {"wheel..tire.thickness": TWO[THICKNESS]}, "draws wheel..tire.thickness, as"),
+        (TWO | {"strip_scale": {"low": 0.9, "high": 1.1, "source": "s"}}, "every strip's thickness"),
+        ({"materials.Ti-6Al-4V.density": {"low": 4e3, "high": 5e3, "source": "s"}}, "nothing that the section model"),
+        ({"wheel.cone.thickness": {"low": "1 mm", "high": "2 mm", "source": "s"}}, "nothing that the section model"),
         (TWO | {"deflections": ["10 mm", "50 mm"]}, "50 mm.* lies beyond max_deflection = 40 mm"),
         (TWO | {"loads": ["400 N"]}, "400 N.* lies beyond max_load = 300 N"),
     ],
@@ -270,6 +274,21 @@ def test_what_cannot_be_drawn_is_refused(inputs: dict[str, Any], message: str) -
         ({"fe.friction": {"low": -0.5, "high": 0.6, "source": "s"}}, "fe.friction.*-0.5.*cannot be: .*narrow what is"),
         ({"materials.Ti-6Al-4V.poisson_ratio": {"low": 0.3, "high": 0.6, "source": "s"}}, "poisson_ratio.*cannot be"),
         ({THICKNESS: {"deviation": "0.4 mm", "source": "s"}}, "tire.thickness.*cannot be: .*narrow"),
+        ({THICKNESS: {"deviation": "1e308 mm", "source": "s"}}, "is far larger than the value it is about"),
+        ({"wheel.grousers.count": {"deviation": 1, "source": "s"}}, "counts something; give low and high as whole"),
+        ({"wheel.grousers.count": {"low": 11.5, "high": 12.5, "source": "s"}}, "counts something"),
+        ({"wheel.springs[1].direction": {"low": -1, "high": 1, "source": "s"}}, "direction.*cannot be"),
+        (
+            {f"{THICKNESS} = wheel.springs[0].thickness": {"low": "0.5 mm", "high": "1 mm", "source": "s"}},
+            "drawn as one and the study has 0.9235 mm, 0.5903 mm",
+        ),
+        (
+            {
+                "max_deflection": "90 mm",
+                "wheel.outer_hub.outer_radius": {"low": "30 mm", "high": "60 mm", "source": "s"},
+            },
+            "outer_radius.*cannot be: .*less than the gap",
+        ),
         ({"fe.points": {"low": 10, "high": 30, "source": "s"}}, "fe.points.*changes nothing that the section model"),
         ({"fe.max_deflection": {"low": "30 mm", "high": "50 mm", "source": "s"}}, "max_deflection.*changes nothing"),
         ({"materials.AISI 301.young_modulus": {"low": "180 GPa", "high": "200 GPa", "source": "s"}}, "changes nothing"),
@@ -373,6 +392,20 @@ def test_the_report_says_whether_its_record_is_there_and_of_this_study(tmp_path:
     missing = _read(study, tmp_path)
     assert (missing.state, missing.sampled, list(INPUT_UNCERTAINTY.checks(study, missing))) == ("missing", None, [])
     keep(study, RECORD, "make sample", [record_task(study, study.input_uncertainty)], 1.0, _found(study))
+    assert _read(study, tmp_path).state == "stale"  # of fewer samples than the study states
+    found = _found(study)
+    keep(
+        study,
+        RECORD,
+        "make sample",
+        [record_task(study, study.input_uncertainty)],
+        1.0,
+        found
+        | {
+            "samples": [found["samples"][k % len(found["samples"])] for k in range(40)],
+            "inputs": {key: [values[k % len(values)] for k in range(40)] for key, values in found["inputs"].items()},
+        },
+    )
     current = _read(study, tmp_path)
     assert current.state == "current"
     assert current.sampled.outputs[1].nominal == pytest.approx(110.0)

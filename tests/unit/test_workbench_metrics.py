@@ -35,6 +35,11 @@ def test_range_is_the_common_one_and_ends_at_the_reference_load() -> None:
     assert compare_curves(_line(9000.0), _line(8000.0), max_load=160.0).end == pytest.approx(0.02)
 
 
+def test_a_reference_that_begins_above_the_load_is_compared_whole() -> None:
+    stiff = _line(8000.0, offset=300.0)
+    assert compare_curves(_line(9000.0), stiff, max_load=250.0).end == pytest.approx(0.03)
+
+
 def test_curves_that_share_nothing_are_refused() -> None:
     with pytest.raises(InputError, match="share no range"):
         compare_curves(_line(1.0, end=0.01), _line(1.0, end=0.03, start=0.02))

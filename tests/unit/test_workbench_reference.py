@@ -128,6 +128,12 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
         },
         r"points\[2\] = 10 to 12 mm: contradicts 19 to 21 mm at 160 N",
     ),
+    "one load twice, as it is shown": (
+        {
+            "band": SAID | {"points": [{"load": f"160.000{k} N", "low": "19 mm", "high": "21 mm"} for k in (1, 2)]},
+        },
+        r"points\[1\] = 19 to 21 mm: contradicts",
+    ),
     "one load twice": (
         {"band": SAID | {"points": [{"load": "160 N", "low": "19 mm", "high": "21 mm"}] * 2}},
         r"points\[1\] = 19 to 21 mm: contradicts",
@@ -148,7 +154,7 @@ def test_bad_input_is_one_message(tmp_path: Path, reference: dict[str, Any], mes
 
 def test_a_band_whose_ends_are_turned_round_is_refused(tmp_path: Path) -> None:
     (tmp_path / "bad.csv").write_text(BAND_FILE.replace("78,82", "82,78"), encoding="utf-8")
-    with pytest.raises(InputError, match="needs 0 < load_low_N <= load_high_N"):
+    with pytest.raises(InputError, match="needs 0 <= load_low_N <= load_high_N"):
         read_band(tmp_path / "bad.csv")
 
 
@@ -204,6 +210,37 @@ def test_a_band_file_in_other_units_or_out_of_reach_is_refused(tmp_path: Path, r
     (tmp_path / "other.csv").write_text(f"deflection_m,load_N,load_low_N,load_high_N\n{rows}", encoding="utf-8")
     with pytest.raises(StudyError, match=message):
         _study(tmp_path, band=SAID | {"file": "other.csv"})
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("deflection_m,load_N\n0.2,80\n0.3,160\n", "goes from 200 to 300 mm and shares nothing with 0 to fe.max_defl"),
+        ("deflection_m,load_N\n-0.02,0\n-0.01,80\n", "shares nothing with 0 to"),
+        ("deflection_m,load_N\n0,0\n0.04,0\n0.05,80\n", "holds no load above zero from 0 to 34 mm"),
+        ("deflection_m,load_N,load_N\n0,0,0\n0.01,8,80\n", "has two columns load_N"),
+        ("deflection_m,load_N,deflection_mm\n0,0,0\n0.01,8,10\n", "has two columns of deformation"),
+        ("# uncertainty: lots\ndeflection_m,load_N\n0,0\n0.01,80\n", "uncertainty.*lots"),
+    ],
+)
+def test_a_curve_that_cannot_be_compared_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / "other.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(StudyError, match=message):
+        _study(tmp_path, curves=[CURVE | {"file": "other.csv"}])
+
+
+def test_a_curve_that_begins_loaded_is_taken(tmp_path: Path) -> None:
+    (tmp_path / "stiff.csv").write_text("deflection_m,load_N\n0.001,300\n0.02,1600\n", encoding="utf-8")
+    assert _study(tmp_path, curves=[CURVE | {"file": "stiff.csv"}]).reference is not None
+
+
+def test_a_band_with_one_header_twice_is_refused_and_one_without_a_lower_end_is_taken(tmp_path: Path) -> None:
+    header = "deflection_m,load_N,load_low_N,load_high_N"
+    (tmp_path / "twice.csv").write_text(f"{header},load_low_N\n0,0,0,0,0\n0.01,80,78,82,1\n", encoding="utf-8")
+    with pytest.raises(InputError, match="has two columns load_low_N"):
+        read_band(tmp_path / "twice.csv")
+    (tmp_path / "open.csv").write_text(f"{header}\n0,0,0,0\n0.001,8,0,15\n", encoding="utf-8")
+    assert read_band(tmp_path / "open.csv").low.tolist() == [0.0, 0.0]
 
 
 def test_a_curve_without_load_is_refused(tmp_path: Path) -> None:

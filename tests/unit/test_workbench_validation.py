@@ -105,6 +105,15 @@ def test_it_is_asked_where_a_record_lies_beside_the_study(studies: Path) -> None
     assert (one.wheel.name, one.state) == ("E3", "current")
 
 
+@pytest.mark.parametrize("text", ["", "{}", '{"found": {}}'])
+def test_a_damaged_record_is_told_before_anything_is_computed(studies: Path, text: str) -> None:
+    study = study_with(studies, E3, found(E3))
+    assert VALIDATION.applies(study)
+    (studies / "e3.kept" / "validation.json").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match="kept record"):
+        VALIDATION.applies(study)
+
+
 def test_a_difference_beyond_what_is_unknown_fails(studies: Path) -> None:
     study = study_with(studies, E3, found(E3, 0.0146))  # 3.6 times
     (check,) = VALIDATION.checks(study, answered(study))

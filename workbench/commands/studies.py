@@ -17,6 +17,7 @@ from contracts.input_file import input_text
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.disk import STUDY, naming_the_disk
 from workbench.questions.input_uncertainty.samples import require_inputs
+from workbench.questions.section.graph import without_planar_model
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.sweep.graph import sweep_graph
 from workbench.report.placing import moved
@@ -82,7 +83,7 @@ def run_check(path: Path) -> int:
             full_study(study)
         if study.sweep is not None:
             sweep_graph(points, study.sweep.models)
-        if study.input_uncertainty is not None:
+        if study.input_uncertainty is not None and without_planar_model(study) is None:
             require_inputs(path, read_study_table(path), study.input_uncertainty)
     console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)
     return 0

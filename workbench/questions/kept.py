@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from contracts.errors import InputError
+from contracts.input_file import input_bytes
 from contracts.text import for_json
 from workbench.execution.fingerprint import canonical_json, text_sha256
 from workbench.execution.task import Task, task_keys
@@ -25,7 +26,7 @@ from workbench.study.model import Study
 __all__ = ["Kept", "State", "keep", "kept", "keys_of"]
 
 State = Literal["current", "older sources", "stale"]
-_DIGITS, _WORDS = 16, 200
+_DIGITS, _WORDS, _MOST = 16, 200, 50_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +81,7 @@ def kept(study: Study, name: str, understand: Callable[[Mapping[str, Any]], obje
     if not path.exists():
         return None
     try:
-        record = Kept(**json.loads(path.read_text(encoding="utf-8")))
+        record = Kept(**json.loads(input_bytes(path, "kept record", _MOST)))
         _whole(record)
         understand(record.found)
     except (OSError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError, RecursionError) as error:

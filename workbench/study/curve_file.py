@@ -25,7 +25,7 @@ from workbench.study.deformation import DEFORMATIONS, UNLOADED, Deformation, Kin
 from workbench.study.magnitudes import number_in_si, require_possible
 from workbench.study.quantities import to_si
 
-__all__ = ["MeasuredCurve", "in_si", "load_uncertainty", "newtons", "read_measured_curve"]
+__all__ = ["MeasuredCurve", "in_si", "load_uncertainty", "newtons", "read_measured_curve", "require_distinct"]
 
 _OWN = ("deflection_m", "load_N")
 _LOADS = ("load", "force", "wheel_load", "vertical_load")
@@ -77,6 +77,7 @@ def read_measured_curve(path: Path) -> MeasuredCurve:
         is not known, says a thing twice and differently, or holds numbers that no wheel has.
     """
     names, remarks = _head(path)
+    require_distinct(path, names)
     own = names[:2] == _OWN or not names
     columns = _columns(path, names[2:] if own else names, own=own)
     units = "give deflection in metres and load in newtons, or units in the header (docs/curves.md)"
@@ -114,7 +115,15 @@ def _bad_line(table: CsvTable, place: int, load: NDArray[np.float64], *, falls: 
     return f" (line {table.lines[int(bad[0])]})" if len(bad) else ""
 
 
-def in_si(path: Path) -> str:
+def require_distinct(path: Path, names: Sequence[str] | None = None) -> None:
+    """Refuse a file one of whose headers stands twice, InputError; ``names`` of its header if they are known."""
+    names = _head(path)[0] if names is None else names
+    twice = [name for name in names if names.count(name) > 1]
+    if twice:
+        raise InputError(_WHAT, path, f"has two columns {one_line(twice[0])}", "rename or remove one of them")
+
+
+def in_si(path: Path, found: MeasuredCurve | None = None) -> str:
     """The file's text if it is a radial deflection in the project's own format, else the same curve in it.
 
     Raises
@@ -122,7 +131,7 @@ def in_si(path: Path) -> str:
     InputError
         As `read_measured_curve`; and for a change of diameter, which is not what the report compares.
     """
-    found = read_measured_curve(path)
+    found = read_measured_curve(path) if found is None else found
     if found.kind != "radial deflection":
         rule = "is a change of diameter between two plates; the models' curves are radial deflections of a loaded hub"
         raise InputError(_WHAT, path, rule, "compare it with a curve of its own kind (workbench compare)")
@@ -187,7 +196,7 @@ def _columns(path: Path, names: Sequence[str], *, own: bool) -> dict[str, _Colum
     if own:
         found["deformation"] = _Column(place=0, quantity="deflection", factor=1.0)
         found["load"] = _Column(place=1, quantity="load", factor=1.0)
-    known = {"uncertainty": (_UNCERTAINTY,)} if own else _ROLES
+    known = {"deformation": tuple(DEFORMATIONS), "load": (), "uncertainty": (_UNCERTAINTY,)} if own else _ROLES
     for place, name in enumerate(names, start=len(found)):
         quantity, unit = _parts(name)
         role = next((role for role, quantities in known.items() if quantity in quantities), None)

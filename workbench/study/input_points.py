@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_input_uncertainty.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -17,9 +18,10 @@ from scipy.special import ndtr, ndtri
 
 from contracts.errors import StudyError
 from workbench.study.input_uncertainty import CUT, InputUncertaintySection, UncertainInput
+from workbench.study.key_units import is_whole_number
 from workbench.study.model import Study
 from workbench.study.quantities import number_and_unit, to_si
-from workbench.study.sweep import SweepSection, Value
+from workbench.study.sweep import SweepSection, Value, tied_keys
 from workbench.study.sweep_points import (
     Point,
     drawn_values,
@@ -52,6 +54,7 @@ def as_sweep(path: Path, section: InputUncertaintySection, base: Mapping[str, An
 def _ends(path: Path, key: str, one: UncertainInput, base: Mapping[str, Any]) -> dict[str, Any]:
     """Low and high of one input, as a sweep has them."""
     found = number_and_unit(written_at(key, base))
+    _require_alike(path, key, one, base)
     if one.deviation is None:
         ends = [number_and_unit(end) for end in (one.low, one.high)]
         low, high = (end or (0.0, "") for end in ends)
@@ -71,10 +74,29 @@ def _ends(path: Path, key: str, one: UncertainInput, base: Mapping[str, Any]) ->
         raise StudyError(path, f"{_SECTION}.{key}.deviation", one.deviation, rule, hint)
     ends_of = [found[0] + sign * CUT * deviation for sign in (-1.0, 1.0)]
     low_end, high_end = (f"{end:.9g} {unit}" if unit else end for end in ends_of)
+    if not all(math.isfinite(end) for end in ends_of):
+        rule, hint = "is far larger than the value it is about", f"the study has {written_at(key, base)}"
+        raise StudyError(path, f"{_SECTION}.{key}.deviation", one.deviation, rule, hint)
     if low_end == high_end:
         rule, hint = "is too small beside the value it is about", f"the study has {written_at(key, base)}; leave it out"
         raise StudyError(path, f"{_SECTION}.{key}.deviation", one.deviation, rule, hint)
     return {"low": low_end, "high": high_end}
+
+
+def _require_alike(path: Path, key: str, one: UncertainInput, base: Mapping[str, Any]) -> None:
+    """Refuse a deviation of what is counted, and keys drawn together whose values in the study differ."""
+    keys = [name for _, name in tied_keys(key)]
+    if is_whole_number(keys[0]) and (
+        one.deviation is not None or any(not isinstance(end, int) for end in (one.low, one.high))
+    ):
+        rule, hint = "counts something", "give low and high as whole numbers"
+        raise StudyError(path, f"{_SECTION}.{key}", one.words, rule, hint)
+    if all(sign > 0.0 for sign, _ in tied_keys(key)):
+        values = [number_and_unit(written_at(name, base)) for name in keys]
+        if any(value != values[0] for value in values):
+            told = ", ".join(str(written_at(name, base)) for name in keys)
+            rule, hint = f"are drawn as one and the study has {told}", "draw each by itself, or let the study have one"
+            raise StudyError(path, f"{_SECTION}.{key}", one.words, rule, hint)
 
 
 def _within(found: tuple[float, str], low: tuple[float, str], high: tuple[float, str]) -> bool:
@@ -116,7 +138,7 @@ def input_points(path: Path, table: Mapping[str, Any], section: InputUncertainty
     StudyError
         As `as_sweep`, and if a sample makes a study that cannot be used: names point, input and key.
     """
-    base = _needed(table)
+    base = _needed(table, section)
     values = [{}, *input_values(path, section, base)]
     points = [_point(path, base, number, chosen) for number, chosen in enumerate(values)]
     return [replace(point, study=as_sampled(point.study, section)) for point in points]
@@ -140,23 +162,27 @@ def input_ends(
     StudyError
         As `as_sweep`, and where an end makes a study that cannot be used: names input, value and rule.
     """
-    base = _needed(table)
+    base = _needed(table, section)
     sweep = as_sweep(path, section, base)
-    all_low, all_high = drawn_values(sweep, np.array([[0.0], [np.nextafter(1.0, 0.0)]]).repeat(len(section.inputs), 1))
-    ends = {}
+    places = np.array([[0.0], [0.5], [np.nextafter(1.0, 0.0)]]).repeat(len(section.inputs), 1)
+    drawn, ends = drawn_values(sweep, places), {}
     for key in section.inputs:
         try:
-            points = [study_point(path, base, 0, {key: values[key]}) for values in (all_low, all_high)]
+            points = [study_point(path, base, 0, {key: values[key]}) for values in drawn]
         except StudyError as error:
+            inner = error.key.removeprefix("[sweep] point 0").removeprefix(", ").strip()
+            rule = f"cannot be: {inner + ': ' if inner and inner != key else ''}{error.rule}"
             hint = f"narrow what is drawn of {key}: {error.hint}"
-            raise StudyError(path, f"[{_SECTION}] {key}", error.value, f"cannot be: {error.rule}", hint) from error
-        low, high = (as_sampled(point.study, section) for point in points)
+            raise StudyError(path, f"[{_SECTION}] {key}", error.value, rule, hint) from error
+        low, _, high = (as_sampled(point.study, section) for point in points)
         ends[key] = low, high
     return ends
 
 
-def _needed(table: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in table.items() if key in _NEEDED}
+def _needed(table: Mapping[str, Any], section: InputUncertaintySection) -> dict[str, Any]:
+    """What the section model computes with, pressed as far as the samples are."""
+    needed = {key: value for key, value in table.items() if key in _NEEDED}
+    return needed | {"fe": dict(needed.get("fe", {})) | {"max_deflection": section.max_deflection}}
 
 
 def as_sampled(study: Study, section: InputUncertaintySection) -> Study:

@@ -6,6 +6,7 @@ Verified by tests/unit/test_workbench_input_uncertainty.py.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from typing import Annotated, Any
 
@@ -23,6 +24,11 @@ CUT = 3.0
 FEWEST = 20
 """Samples whose 5th and 95th percentile lie within them."""
 _NOT_ITS_OWN = ("orientation", "orientation_step", "plates", "temperature")
+_HELD = ("wheel.cone", "wheel.inner_hub", "wheel.impact_springs", "wheel.outer_hub.thickness", "wheel.outer_hub.width")
+"""Parts that the section model holds rigid."""
+_STRIPS = {"strip_thickness", "strip_scale"}
+"""Keys that stand for the thickness of every strip."""
+_PART = re.compile(r"\[(\d+)\]|([^.\[\]]+)")
 _WHEEL = ("wheel", "materials", "fe", "strip_thickness", "strip_scale")
 """How keys begin that the section model knows of."""
 
@@ -111,12 +117,20 @@ _EXAMPLE = 'e.g. { deviation = "0.03 mm", source = "..." } or { low = "0.5 mm", 
 
 def _each_once(inputs: Mapping[str, Any]) -> None:
     """Refuse a key of the study that two inputs draw."""
-    seen = dict[str, str]()
+    seen = dict[tuple[str | int, ...], str]()
     for key in inputs:
         for _, one in tied_keys(key):
-            if one in seen:
-                raise in_key(key, "", f"draws {one}, as {seen[one]!r} does already", "draw each key once")
-            seen[one] = key
+            parts = tuple(int(number) if number else name for number, name in _PART.findall(one))
+            if parts in seen:
+                raise in_key(key, "", f"draws {one}, as {seen[parts]!r} does already", "draw each key once")
+            seen[parts] = key
+    strips = [key for key in inputs if key in _STRIPS]
+    if strips and (len(strips) > 1 or any(parts[-1] == "thickness" for parts in seen)):
+        rule, hint = (
+            "draws every strip's thickness, as another input does",
+            "draw all strips together, or each by itself",
+        )
+        raise in_key(strips[0], "", rule, hint)
 
 
 def _check(key: str, value: Any) -> None:
@@ -125,6 +139,9 @@ def _check(key: str, value: Any) -> None:
         raise in_key(key, value, "must be a table", _EXAMPLE)
     if key in _NOT_ITS_OWN or not key.startswith(_WHEEL):
         raise in_key(key, "", "is nothing that the section model computes with", "name a key of wheel, materials or fe")
+    for _, one in tied_keys(key):
+        if one.startswith(_HELD) or one.endswith(".density"):
+            raise in_key(key, "", "is nothing that the section model computes with", "leave it out, or name another")
     ranged = {name: value[name] for name in ("low", "high") if name in value}
     if bool(ranged) == ("deviation" in value):
         raise in_key(key, "", "must have low and high, or a deviation", _EXAMPLE)

@@ -15,6 +15,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from contracts.curves import StiffnessCurve
 from contracts.errors import InputError, StudyError
 from contracts.input_file import input_table
 from contracts.ranges import Key, dotted
@@ -280,11 +281,24 @@ def _check_curves(path: Path, study: Study, table: Mapping[str, Any]) -> None:
                 )
         for i, section in enumerate(reference.curves):
             key = f"reference.curves[{i}].file"
-            in_si(Path(section.file))
-            if not read_measured_curve(Path(section.file)).curve.load.max() > 0.0:
-                rule, hint = "holds no load above zero", "give the load of the ground on the wheel, positive"
-                raise InputError("curve file", section.file, rule, hint)
+            found = read_measured_curve(Path(section.file))
+            in_si(Path(section.file), found)
+            _require_comparable(section.file, found.curve, study.fe.max_deflection)
             key = f"reference.curves[{i}].uncertainty"
-            stated_uncertainty(section)
+            stated_uncertainty(section, found)
     except InputError as error:
-        raise StudyError(path, key, _at(table, parts_of(key)) or "", error.rule, error.hint) from error
+        about = "" if error.what in ("curve file", "band file", "uncertainty") else f"{error.what} = {error.value}: "
+        raise StudyError(path, key, _at(table, parts_of(key)) or "", f"{about}{error.rule}", error.hint) from error
+
+
+def _require_comparable(file: str, curve: StiffnessCurve, end: float) -> None:
+    """Refuse a curve that shares no range with the continuum's, or carries nothing there; InputError."""
+    first, last = max(0.0, float(curve.deflection[0])), min(end, float(curve.deflection[-1]))
+    if not last > first:
+        told = f"from {1e3 * curve.deflection[0]:g} to {1e3 * curve.deflection[-1]:g} mm"
+        rule = f"goes {told} and shares nothing with 0 to fe.max_deflection = {1e3 * end:g} mm"
+        raise InputError("curve file", file, rule, "check its unit, or compute the curves further")
+    inside = curve.load[(curve.deflection >= first) & (curve.deflection <= last)]
+    if not max(float(curve.load_at(last)), float(inside.max(initial=0.0))) > 0.0:
+        rule = f"holds no load above zero from {1e3 * first:g} to {1e3 * last:g} mm"
+        raise InputError("curve file", file, rule, "give the load of the ground on the wheel, positive")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
-from workbench.study.curve_file import load_uncertainty, read_measured_curve
+from workbench.study.curve_file import MeasuredCurve, load_uncertainty, read_measured_curve, require_distinct
 from workbench.study.reference import CurveReference
 
 __all__ = ["LoadBand", "load_band", "read_band", "stated_uncertainty"]
@@ -38,8 +38,8 @@ def load_band(curve: StiffnessCurve) -> LoadBand:
             hint = "its columns are deflection_m, load_N, load_low_N, load_high_N"
             raise InputError("band file", curve.model, f"has no column {name}", hint)
     low, high = (curve.columns[name] for name in _ENDS)
-    if not np.all((low <= high) & ((low > 0.0) | (curve.deflection <= 0.0))):
-        rule = "needs 0 < load_low_N <= load_high_N in every row behind first contact"
+    if not np.all((low >= 0.0) & (low <= high) & ((high > 0.0) | (curve.deflection <= 0.0))):
+        rule = "needs 0 <= load_low_N <= load_high_N, and load_high_N > 0 in every row behind first contact"
         raise InputError("band file", curve.model, rule, "mend the rows that have not")
     return LoadBand(deflection=curve.deflection, low=low, high=high)
 
@@ -52,6 +52,7 @@ def read_band(path: Path) -> LoadBand:
     InputError
         As `read_curve`, as `load_band`, and for numbers that no wheel has: infinite ones, or those of another unit.
     """
+    require_distinct(path)
     band = load_band(read_curve(path))
     for numbers, name, most in (
         (band.deflection, "deflection_m", 1.0),
@@ -64,7 +65,7 @@ def read_band(path: Path) -> LoadBand:
     return band
 
 
-def stated_uncertainty(section: CurveReference) -> Array:
+def stated_uncertainty(section: CurveReference, found: MeasuredCurve | None = None) -> Array:
     """Half width (n,) [N] of the load's interval of a reference's curve: what the study says, else what its file does.
 
     Raises
@@ -72,7 +73,7 @@ def stated_uncertainty(section: CurveReference) -> Array:
     InputError
         If neither says so, or as `workbench.study.curve_file.load_uncertainty`.
     """
-    found = read_measured_curve(Path(section.file))
+    found = read_measured_curve(Path(section.file)) if found is None else found
     if section.uncertainty is not None:
         return load_uncertainty(section.uncertainty, found.curve.load)
     if found.uncertainty is None:

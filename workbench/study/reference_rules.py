@@ -53,8 +53,8 @@ def _of_the_points(study: Study) -> Iterator[BrokenRule]:
     ordered = sorted(enumerate(points), key=lambda one: one[1].load)
     for (_, before), (k, point) in pairwise(ordered):
         lower = max((p for _, p in ordered if p.load <= before.load), key=lambda p: p.low)
-        if point.load == before.load or point.high < lower.low:
-            lower = before if point.load == before.load else lower
+        if f"{point.load:g}" == f"{before.load:g}" or point.high < lower.low:
+            lower = before if f"{point.load:g}" == f"{before.load:g}" else lower
             key, value = f"reference.band.points[{k}]", f"{1e3 * point.low:g} to {1e3 * point.high:g} mm"
             rule = f"contradicts {1e3 * lower.low:g} to {1e3 * lower.high:g} mm at {lower.load:g} N: "
             rule += "one load once, and the deflection does not fall as the load rises"

@@ -122,12 +122,15 @@ def read_baseline(folder: Path, study: str, what: str = "baseline") -> Baseline:
         hint = "give the folder that workbench report wrote"
     try:
         content = read_json(path, what, hint)
-        if content.get("schema", 1) not in _SCHEMAS:
+        schema = content.get("schema", 1)
+        if isinstance(schema, bool) or not isinstance(schema, int) or schema not in _SCHEMAS:
             raise ValueError("schema of another version")
         checks = [_kept(row) for row in content["checks"]]
         if len({check.id for check in checks}) < len(checks):
             raise ValueError("one identifier twice")
         origin = content["provenance"]
+        if not isinstance(content["study"], str) or not isinstance(origin.get("commit"), str | None):
+            raise TypeError("study and commit are texts")
         found = Baseline(
             study=str(content["study"]),
             commit=origin.get("commit"),
@@ -152,12 +155,22 @@ def _kept(row: Mapping[str, Any]) -> Kept:
         raise TypeError("a name that is no text")
     if row["role"] not in get_args(Role) or row["status"] not in get_args(Status):
         raise ValueError(f"role {row['role']!r}, status {row['status']!r}")
-    return Kept(
+    kept = Kept(
         claim=str(row.get("claim") or row["title"]),
-        reference=(float(reference[0]), float(reference[1])) if isinstance(reference, list) else _number(reference),
+        reference=_interval(reference) if isinstance(reference, list) else _number(reference),
         value=_number(value),
         **{name: row[name] for name in names},
     )
+    if kept.share is not None and not math.isfinite(kept.share):
+        raise ValueError(f"tolerance {kept.tolerance!r}")
+    return kept
+
+
+def _interval(ends: Sequence[object]) -> tuple[float, float]:
+    low, high = map(_number, ends)
+    if low is None or high is None or low > high:
+        raise ValueError("a reference that is no interval")
+    return low, high
 
 
 def _number(value: object) -> float | None:

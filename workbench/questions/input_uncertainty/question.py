@@ -16,7 +16,7 @@ from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.input_uncertainty.figures import in_words, inputs_figures
 from workbench.questions.input_uncertainty.results import Output, Sampled
-from workbench.questions.input_uncertainty.samples import RECORD, record_task, samples_of
+from workbench.questions.input_uncertainty.samples import RECORD, drawn_of, record_task, samples_of
 from workbench.questions.kept import Kept, State, kept
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
@@ -62,6 +62,8 @@ def _read(study: Study, folders: Mapping[str, Path]) -> InputUncertainty:
     section = stated(study.input_uncertainty, "input_uncertainty")
     record = kept(study, RECORD, samples_of)
     state = "missing" if record is None else record.state([record_task(study, section)])
+    if record is not None and not drawn_of(samples_of(record.found), section):
+        state = "stale"
     sampled = None
     if record is not None and state != "stale":
         fe = model_curves("fe", folders, around(study))

@@ -21,13 +21,13 @@ from workbench.study.input_points import as_sampled, input_ends
 from workbench.study.input_uncertainty import InputUncertaintySection
 from workbench.study.model import Study
 
-__all__ = ["RECORD", "Samples", "record_task", "require_inputs", "samples_of"]
+__all__ = ["RECORD", "Samples", "drawn_of", "record_task", "require_inputs", "samples_of"]
 
 RECORD = "input_uncertainty"
 """Name of the record, see `workbench.questions.kept`."""
 
 Array = NDArray[np.float64]
-_LARGEST = 1e15
+_LARGEST, _LONGEST = 1e15, 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,9 +127,21 @@ def samples_of(found: Mapping[str, Any]) -> Samples:
         raise ValueError("every sample has a value of each input, a load at each deflection and a stress")
     numbers = np.concatenate([samples.load.ravel(), samples.nominal_load, samples.stress, samples.used])
     if (
-        not (np.diff(samples.deflection) > 0.0).all()
-        or (np.abs(numbers) > _LARGEST).any()
+        samples.deflection[0] != 0.0
+        or not (np.diff(samples.deflection) > 0.0).all()
+        or not samples.deflection[-1] <= _LONGEST
+        or (numbers < 0.0).any()
+        or (numbers > _LARGEST).any()
+        or not np.isfinite(samples.values).all()
+        or not np.nanmax(samples.nominal_load, initial=0.0) > 0.0
         or not 0 <= samples.early <= n
     ):
-        raise ValueError(f"deflections rise from 0, and no number lies beyond {_LARGEST:g}")
+        raise ValueError(f"deflections rise from 0 to {_LONGEST:g} m at most, numbers from 0 to {_LARGEST:g}")
+    if len(samples.units) != len(samples.keys) or not all(isinstance(unit, str) for unit in samples.units):
+        raise ValueError("each input has a unit")
     return samples
+
+
+def drawn_of(samples: Samples, section: InputUncertaintySection) -> bool:
+    """Whether a record holds the samples that the section states: its inputs, as many."""
+    return samples.keys == tuple(section.inputs) and len(samples.load) == section.samples

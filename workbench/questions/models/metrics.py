@@ -51,7 +51,8 @@ def compare_curves(curve: StiffnessCurve, reference: StiffnessCurve, max_load: f
     Parameters
     ----------
     curve, reference : the curve under test and the one it is held against
-    max_load : if given, the range ends where ``reference`` reaches this load [N] (or where either curve ends)
+    max_load : if given, the range ends where ``reference`` reaches this load [N], unless it begins there or above (or
+        where either curve ends)
 
     Raises
     ------
@@ -62,7 +63,7 @@ def compare_curves(curve: StiffnessCurve, reference: StiffnessCurve, max_load: f
     """
     start = max(curve.deflection[0], reference.deflection[0])
     end = min(curve.deflection[-1], reference.deflection[-1])
-    if max_load is not None and reference.load.max() >= max_load:
+    if max_load is not None and reference.load[0] < max_load <= reference.load.max():
         end = min(end, reference.deflection_at(max_load))
     if not end > start:
         rule = "share no range of deflection"

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 __all__ = ["measure"]
 
+_SAME = 1e-6
+"""Orientations that are one [deg]."""
+
 
 def measure(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """Compare ANCF, brush and the user's curves with the continuum's: ``result.json``, ``user_{i}.csv``.
@@ -50,11 +53,12 @@ def _counterpart(fe: ModelCurves, orientation_deg: float | None) -> StiffnessCur
     """Our curve that a user's curve is held against."""
     if orientation_deg is None:
         return fe.average
-    if orientation_deg not in fe.by_orientation:
+    nearest = min(fe.by_orientation, key=lambda o: abs(o - orientation_deg))
+    if abs(nearest - orientation_deg) > _SAME:
         known = ", ".join(f"{o:g}" for o in fe.by_orientation)
         rule = f"is not among the orientations of the study ({known} deg)"
         raise InputError("user curve's orientation", f"{orientation_deg:g} deg", rule, "add it to fe.orientations")
-    return fe.by_orientation[orientation_deg]
+    return fe.by_orientation[nearest]
 
 
 def _distance(pair: tuple[StiffnessCurve, StiffnessCurve], max_load: float) -> dict[str, float]:

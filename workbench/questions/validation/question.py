@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 
 from contracts.records import Check
@@ -58,7 +59,7 @@ def _files(study: Study) -> list[tuple[PublishedWheel, Path]]:
 def _read(study: Study, folders: Mapping[str, Path]) -> Validation:
     found = []
     for wheel, path in _files(study):
-        record = kept(read_study(path), NAME)
+        record = _record(wheel, path)
         if record is not None:
             found.append(
                 ValidatedWheel(
@@ -70,6 +71,27 @@ def _read(study: Study, folders: Mapping[str, Path]) -> Validation:
                 )
             )
     return Validation(wheels=tuple(found))
+
+
+def _record(wheel: PublishedWheel, path: Path) -> Kept | None:
+    """The record of a wheel, read to its end."""
+    return kept(read_study(path), NAME, lambda found: (comparisons(wheel, found), input_effects(wheel, found)))
+
+
+@lru_cache(maxsize=16)
+def _readable(name: str, path: Path, changed: tuple[int, ...]) -> bool:
+    """Whether a wheel has a record; InputError for one that cannot be read. ``changed``: of study and record [ns]."""
+    (wheel,) = (one for one in published_wheels() if one.name == name)
+    return _record(wheel, path) is not None
+
+
+def _asked(study: Study) -> bool:
+    """A record that cannot be read is told here, before anything is computed."""
+    found = False
+    for wheel, path in _files(study) if study.of_the_thesis else []:
+        files = path, path.with_suffix(".kept") / f"{NAME}.json"
+        found |= _readable(wheel.name, path, tuple(file.stat().st_mtime_ns for file in files))
+    return found
 
 
 def _checks(study: Study, results: Validation) -> Sequence[Check]:
@@ -98,5 +120,5 @@ VALIDATION = Question(
     group="Solvers",
     read=_read,
     checks=_checks,
-    applies=lambda study: study.of_the_thesis and bool(_files(study)),
+    applies=_asked,
 )
