@@ -63,7 +63,7 @@ def _ends(path: Path, key: str, one: UncertainInput, base: Mapping[str, Any]) ->
             raise StudyError(path, f"{_SECTION}.{key}", f"{one.low} to {one.high}", "misses the study's value", hint)
         return {"low": one.low, "high": one.high}
     deviation, unit = number_and_unit(one.deviation) or (0.0, "")
-    if found is None:
+    if found is None or any(number_and_unit(written_at(name, base)) is None for _, name in tied_keys(key)):
         hint = "correct the key's spelling, or state its value there"
         raise StudyError(
             path, f"{_SECTION}.{key}.deviation", one.deviation, "is about no value of the study file", hint
@@ -92,9 +92,9 @@ def _require_alike(path: Path, key: str, one: UncertainInput, base: Mapping[str,
         rule, hint = "counts something", "give low and high as whole numbers"
         raise StudyError(path, f"{_SECTION}.{key}", one.words, rule, hint)
     if all(sign > 0.0 for sign, _ in tied_keys(key)):
-        values = [number_and_unit(written_at(name, base)) for name in keys]
-        if any(value != values[0] for value in values):
-            told = ", ".join(str(written_at(name, base)) for name in keys)
+        told_at = [value for name in keys if (value := written_at(name, base)) is not None]
+        if len({number_and_unit(value) for value in told_at}) > 1:
+            told = ", ".join(str(value) for value in told_at)
             rule, hint = f"are drawn as one and the study has {told}", "draw each by itself, or let the study have one"
             raise StudyError(path, f"{_SECTION}.{key}", one.words, rule, hint)
 
