@@ -21,126 +21,96 @@ from numpy.typing import NDArray
 
 from ancf_reduced.compiled import compiled
 
-__all__ = ["bending_terms", "membrane_terms"]
+__all__ = ["add_terms", "find_stress", "normal_second", "unit_normal"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Points = tuple[Index, Array, Array, Array, Array, Array, Array]
+"""Points of some plates where one measure of strain, M = A E + beta (r_,ab . n - R_,ab . N), is integrated:
+
+which (n,) : plates
+tables (n, p, 6, 16) : as `shape_functions.shape_tables`
+metric (n, p, 3) : A_11, A_22, 2 A_12 of the reference
+curvature (n, p, 3) : B_11, B_22, 2 B_12 [1/m]
+stretch (n, p, 3, 3) : A, by E_11, E_22, 2 E_12
+beta (n,) : 0 for the membrane strain, 1 for the change of curvature [-], minus a layer's height [m]
+stiffness (n, p, 3, 3) : of M, times area
+"""
 
 
 @compiled
-def membrane_terms(
-    q: Array, plates: Index, tables: Array, metric: Array, stiffness: Array, force: Array, tangent: Array
-) -> float:
-    """Energy of the membrane strain [J]; adds forces and tangents.
+def add_terms(q: Array, plates: Index, points: Points, mixed: Array, force: Array, tangent: Array) -> float:
+    """Energy of one measure of strain [J]; adds forces and tangents.
 
     Parameters
     ----------
     q : (n_nodes, 4, 3) r [m], r_1, r_2 [-], r_12 [1/m]
-    plates : (n, 4) nodes
-    tables : (n, p, 6, 16) as `shape_functions.shape_tables`, at the points of the membrane strain
-    metric : (n, p, 3) A_11, A_22, 2 A_12 of the reference
-    stiffness : (n, p, 3, 3) t C times area [N/m * m^2], for E_11, E_22, 2 E_12
-    force, tangent : (n, 16, 3), (n, 16, 3, 16, 3) added to; a tangent of no plates is left alone
+    plates : (n_plates, 4) nodes
+    points : see `Points`
+    mixed : (n, p, 3) stresses for the geometric part of the tangent; of no plates for those that belong to q
+    force, tangent : (n_plates, 16, 3), (n_plates, 16, 3, 16, 3) added to; a tangent of no plates is left alone
     """
-    energy, local = 0.0, np.empty((16, 3))
-    a, strain, stress = np.empty((2, 3)), np.empty(3), np.empty(3)
-    g = np.empty((3, 16, 3))
-    for e in range(plates.shape[0]):
-        _gather(q, plates[e], local)
-        for p in range(tables.shape[1]):
-            N = tables[e, p]
-            _at_point(N, local, a)
-            _stretch(a, metric[e, p], strain)
-            energy += _conjugate(stiffness[e, p], strain, stress)
-            for k in range(16):
-                for i in range(3):
-                    g[0, k, i] = N[1, k] * a[0, i]
-                    g[1, k, i] = N[2, k] * a[1, i]
-                    g[2, k, i] = N[1, k] * a[1, i] + N[2, k] * a[0, i]
-                    force[e, k, i] += stress[0] * g[0, k, i] + stress[1] * g[1, k, i] + stress[2] * g[2, k, i]
-            if tangent.shape[0]:
-                for k in range(16):
-                    for m in range(16):
-                        shared = stress[0] * N[1, k] * N[1, m] + stress[1] * N[2, k] * N[2, m]
-                        shared += stress[2] * (N[1, k] * N[2, m] + N[2, k] * N[1, m])
-                        for i in range(3):
-                            tangent[e, k, i, m, i] += shared
-                        for i in range(3):
-                            for j in range(3):
-                                value = 0.0
-                                for r in range(3):
-                                    for c in range(3):
-                                        value += g[r, k, i] * stiffness[e, p, r, c] * g[c, m, j]
-                                tangent[e, k, i, m, j] += value
-    return energy
-
-
-@compiled
-def bending_terms(
-    q: Array,
-    plates: Index,
-    tables: Array,
-    reference: tuple[Array, Array, Array],
-    stiffness: Array,
-    force: Array,
-    tangent: Array,
-) -> float:
-    """Energy of the change of curvature [J]; adds forces and tangents. As `membrane_terms`, with
-
-    reference : (n, p, 3) B_11, B_22, 2 B_12 [1/m], (n, p, 3) A_11, A_22, 2 A_12, (n, p, 3, 3) [1/m] what stretch alone
-        adds to the curvatures, for E_11, E_22, 2 E_12
-    stiffness : (n, p, 3, 3) t^3 / 12 C times area [N m * m^2]
-    """
-    curvature, metric, coupling = reference
-    energy, local, v, strain = 0.0, np.empty((16, 3)), np.empty((5, 3)), np.empty(3)
-    change, moment = np.empty(3), np.empty(3)
+    which, tables, metric, curvature, stretch, beta, stiffness = points
+    energy, local, all_v, strain = 0.0, np.empty((16, 3)), np.empty((5, 3)), np.empty(3)
+    measure, stress, geometric = np.empty(3), np.empty(3), np.empty(3)
     first, H, half = np.empty((3, 5, 3)), np.empty((5, 3, 5, 3)), np.empty((5, 3, 16, 3))
-    for e in range(plates.shape[0]):
+    rows = np.empty((3, 15))
+    for s in range(which.shape[0]):
+        e, b = which[s], beta[s]
+        count = 2 if b == 0.0 else 5
+        v = all_v[:count]
         _gather(q, plates[e], local)
         for p in range(tables.shape[1]):
-            N = tables[e, p]
+            N, A = tables[s, p], stretch[s, p]
             _at_point(N, local, v)
-            n, J = _unit_normal(v)
-            _stretch(v, metric[e, p], strain)
-            T = coupling[e, p]
-            for row, d in ((0, 2), (1, 4), (2, 3)):
-                factor = 2.0 if row == 2 else 1.0
-                change[row] = factor * (v[d, 0] * n[0] + v[d, 1] * n[1] + v[d, 2] * n[2]) - curvature[e, p, row]
-                _first(v, d, n, J, factor, first[row])
-                for m in range(3):
-                    change[row] -= T[row, m] * strain[m]
+            n, J = unit_normal(all_v) if count == 5 else (strain, 1.0)
+            _stretch(v, metric[s, p], strain)
+            _measure(v, n, b, A, curvature[s, p], strain, measure)
+            first[:] = 0.0
+            for row in range(3):
+                if count == 5:
+                    d, factor = (2, b) if row == 0 else (4, b) if row == 1 else (3, 2.0 * b)
+                    _first(v, d, n, J, factor, first[row])
                 for i in range(3):
-                    first[row, 0, i] -= T[row, 0] * v[0, i] + T[row, 2] * v[1, i]
-                    first[row, 1, i] -= T[row, 1] * v[1, i] + T[row, 2] * v[0, i]
-            energy += _conjugate(stiffness[e, p], change, moment)
-            for k in range(16):
+                    first[row, 0, i] += A[row, 0] * v[0, i] + A[row, 2] * v[1, i]
+                    first[row, 1, i] += A[row, 1] * v[1, i] + A[row, 2] * v[0, i]
+            energy += _conjugate(stiffness[s, p], measure, stress)
+            for d in range(count):
                 for i in range(3):
-                    value = 0.0
-                    for d in range(5):
-                        for r in range(3):
-                            value += N[1 + d, k] * moment[r] * first[r, d, i]
-                    force[e, k, i] += value
+                    value = stress[0] * first[0, d, i] + stress[1] * first[1, d, i] + stress[2] * first[2, d, i]
+                    for k in range(16):
+                        force[e, k, i] += N[1 + d, k] * value
             if tangent.shape[0]:
-                _second(v, n, J, moment, H)
-                for k in range(3):
+                for m in range(3):
+                    geometric[m] = mixed[s, p, m] if mixed.shape[0] else stress[m]
+                H[:] = 0.0
+                if count == 5:
+                    _second(v, n, J, b * geometric, H)
+                for i in range(3):
+                    for m in range(3):
+                        H[0, i, 0, i] += geometric[m] * A[m, 0]
+                        H[1, i, 1, i] += geometric[m] * A[m, 1]
+                        H[0, i, 1, i] += geometric[m] * A[m, 2]
+                        H[1, i, 0, i] += geometric[m] * A[m, 2]
+                for d in range(count):
                     for i in range(3):
-                        H[0, i, 0, i] -= moment[k] * T[k, 0]
-                        H[1, i, 1, i] -= moment[k] * T[k, 1]
-                        H[0, i, 1, i] -= moment[k] * T[k, 2]
-                        H[1, i, 0, i] -= moment[k] * T[k, 2]
-                for d in range(5):
+                        for r in range(3):
+                            value = 0.0
+                            for m in range(3):
+                                value += stiffness[s, p, r, m] * first[m, d, i]
+                            rows[r, 3 * d + i] = value
+                for d in range(count):
                     for i in range(3):
-                        for c in range(5):
+                        for c in range(count):
                             for j in range(3):
                                 for r in range(3):
-                                    for s in range(3):
-                                        H[d, i, c, j] += first[r, d, i] * stiffness[e, p, r, s] * first[s, c, j]
-                for d in range(5):
+                                    H[d, i, c, j] += first[r, d, i] * rows[r, 3 * c + j]
+                for d in range(count):
                     for i in range(3):
                         for m in range(16):
                             for j in range(3):
                                 value = 0.0
-                                for c in range(5):
+                                for c in range(count):
                                     value += H[d, i, c, j] * N[1 + c, m]
                                 half[d, i, m, j] = value
                 for k in range(16):
@@ -148,10 +118,46 @@ def bending_terms(
                         for m in range(16):
                             for j in range(3):
                                 value = 0.0
-                                for d in range(5):
+                                for d in range(count):
                                     value += N[1 + d, k] * half[d, i, m, j]
                                 tangent[e, k, i, m, j] += value
     return energy
+
+
+@compiled
+def find_stress(q: Array, step: Array, plates: Index, points: Points, out: Array) -> None:
+    """Stresses of the measure, linearised in what squares of the stretch add, (n, p, 3) into ``out``.
+
+    C (M(q + step) - A E2(step)), where E2 are the squares of the step in E: exact to first order, and free of the large
+    stretch that a straight step gives to strips that turn. ``step`` of zeros: the stresses at q.
+    """
+    which, tables, metric, curvature, stretch, beta, stiffness = points
+    local, moved, all_v, a = np.empty((16, 3)), np.empty((16, 3)), np.empty((5, 3)), np.empty((2, 3))
+    strain, square, measure, none = np.empty(3), np.empty(3), np.empty(3), np.zeros(3)
+    for s in range(which.shape[0]):
+        _gather(q, plates[which[s]], local)
+        _gather(step, plates[which[s]], moved)
+        local += moved
+        v = all_v[:2] if beta[s] == 0.0 else all_v
+        for p in range(tables.shape[1]):
+            _at_point(tables[s, p], local, v)
+            _at_point(tables[s, p], moved, a)
+            n = unit_normal(all_v)[0] if beta[s] != 0.0 else none
+            _stretch(v, metric[s, p], strain)
+            _stretch(a, none, square)
+            strain -= square
+            _measure(v, n, beta[s], stretch[s, p], curvature[s, p], strain, measure)
+            _conjugate(stiffness[s, p], measure, out[s, p])
+
+
+@compiled
+def _measure(v: Array, n: Array, b: float, A: Array, curvature: Array, strain: Array, out: Array) -> None:
+    for row in range(3):
+        out[row] = A[row, 0] * strain[0] + A[row, 1] * strain[1] + A[row, 2] * strain[2]
+        if b != 0.0:
+            d, factor = (2, 1.0) if row == 0 else (4, 1.0) if row == 1 else (3, 2.0)
+            along = v[d, 0] * n[0] + v[d, 1] * n[1] + v[d, 2] * n[2]
+            out[row] += b * (factor * along - curvature[row])
 
 
 @compiled
@@ -196,7 +202,7 @@ def _conjugate(stiffness: Array, strain: Array, stress: Array) -> float:
 
 
 @compiled
-def _unit_normal(v: Array) -> tuple[Array, float]:
+def unit_normal(v: Array) -> tuple[Array, float]:
     """Of v = (a_1, a_2, ...): unit normal and |a_1 x a_2|."""
     n = np.array(
         [
@@ -233,12 +239,8 @@ def _first(v: Array, d: int, n: Array, J: float, factor: float, out: Array) -> N
 
 
 @compiled
-def _second(v: Array, n: Array, J: float, moment: Array, H: Array) -> None:
-    """Second derivatives of sum of moments times v_d . n by v into H (5, 3, 5, 3)."""
-    H[:] = 0.0
-    c = np.empty(3)  # as the moments are constant here, one vector stands for all three
-    for i in range(3):
-        c[i] = moment[0] * v[2, i] + moment[1] * v[4, i] + 2.0 * moment[2] * v[3, i]
+def normal_second(v: Array, n: Array, J: float, c: Array, out: Array, turn: Array) -> None:
+    """Of c . n with constant c: second derivatives by (a_1, a_2) into out (6, 6), d n by them into turn (3, 6)."""
     along = c[0] * n[0] + c[1] * n[1] + c[2] * n[2]
     D = np.zeros((3, 6))  # m by a_1 and a_2
     for i in range(3):
@@ -254,13 +256,22 @@ def _second(v: Array, n: Array, J: float, moment: Array, H: Array) -> None:
     for i in range(3):
         for j in range(3):
             second[i, j] = -(f[i] * n[j] + n[i] * f[j]) / J - along * P[i, j] / J**2
-    by_a, by_c = D.T @ second @ D, P @ D / J
+    out[:], turn[:] = D.T @ second @ D, P @ D / J
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
-        by_a[j, 3 + k] += f[i]  # f . (da_1 x da_2)
-        by_a[k, 3 + j] -= f[i]
-        by_a[3 + k, j] += f[i]
-        by_a[3 + j, k] -= f[i]
+        out[j, 3 + k] += f[i]  # f . (da_1 x da_2)
+        out[k, 3 + j] -= f[i]
+        out[3 + k, j] += f[i]
+        out[3 + j, k] -= f[i]
+
+
+@compiled
+def _second(v: Array, n: Array, J: float, moment: Array, H: Array) -> None:
+    """Second derivatives of sum of moments times v_d . n by v, added to H (5, 3, 5, 3)."""
+    c, by_a, turn = np.empty(3), np.empty((6, 6)), np.empty((3, 6))
+    for i in range(3):  # as the moments are constant here, one vector stands for all three
+        c[i] = moment[0] * v[2, i] + moment[1] * v[4, i] + 2.0 * moment[2] * v[3, i]
+    normal_second(v, n, J, c, by_a, turn)
     for i in range(3):
         for j in range(3):
             for a in range(2):
@@ -268,5 +279,5 @@ def _second(v: Array, n: Array, J: float, moment: Array, H: Array) -> None:
                     H[a, i, b, j] += by_a[3 * a + i, 3 * b + j]
                 for row in range(3):
                     d, factor = (2, 1.0) if row == 0 else (4, 1.0) if row == 1 else (3, 2.0)
-                    H[d, i, a, j] += factor * moment[row] * by_c[i, 3 * a + j]
-                    H[a, j, d, i] += factor * moment[row] * by_c[i, 3 * a + j]
+                    H[d, i, a, j] += factor * moment[row] * turn[i, 3 * a + j]
+                    H[a, j, d, i] += factor * moment[row] * turn[i, 3 * a + j]

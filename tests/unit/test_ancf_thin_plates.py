@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.spatial.transform import Rotation
 
-from ancf_reduced.thin_plates.plates import ThinPlates
+from ancf_reduced.thin_plates.plates import Layer, ThinPlates
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
 
 Array = NDArray[np.float64]
 METAL, THICKNESS = replace(TI_6AL_4V, young_modulus=2e11, poisson_ratio=0.3, density=7800.0), 0.01
+LAYERS = [[Layer(material=METAL, thickness=THICKNESS)]]
 
 
 def flat(counts: tuple[int, int], lengths: tuple[float, float]) -> tuple[Array, NDArray[np.int64], Array]:
@@ -44,7 +45,7 @@ def arc(count: int, across: int, radius: float, angle: float, width: float) -> t
 
 @pytest.fixture
 def strip() -> ThinPlates:
-    return ThinPlates(*arc(3, 1, 0.5, 1.2, 0.2), METAL, THICKNESS)
+    return ThinPlates(*arc(3, 1, 0.5, 1.2, 0.2), LAYERS)
 
 
 def test_shape_functions_reproduce_bicubic_polynomials() -> None:
@@ -85,7 +86,7 @@ def test_only_rigid_motions_cost_nothing(count: int, monkeypatch: pytest.MonkeyP
 
     def free(*, curved: bool = False) -> int:
         shape = arc(count, 1, 0.5, 0.4 * count, 0.2) if curved else flat((count, 1), (0.2 * count, 0.2))
-        strip = ThinPlates(*shape, METAL, THICKNESS)
+        strip = ThinPlates(*shape, LAYERS)
         squares = eigh(strip.tangent(strip.reference).toarray(), strip.mass().toarray(), eigvals_only=True)
         bending = METAL.young_modulus * THICKNESS**2 / (12.0 * METAL.density * (0.2 * count) ** 4)
         return int((squares < 1e-3 * bending).sum())
@@ -98,7 +99,7 @@ def test_only_rigid_motions_cost_nothing(count: int, monkeypatch: pytest.MonkeyP
 def test_constant_strain_and_constant_curvature_are_exact() -> None:
     """Green-Lagrange strains 0.01, -0.02 and a shear; then a flat plate rolled onto a cylinder without stretch."""
     nodes, plates, sizes = flat((2, 2), (0.4, 0.3))
-    body = ThinPlates(nodes, plates, sizes, METAL, THICKNESS)
+    body = ThinPlates(nodes, plates, sizes, LAYERS)
     E = np.array([[0.01, 0.004], [0.004, -0.02]])
     F = np.linalg.cholesky(np.eye(2) + 2.0 * E).T  # F^T F = 1 + 2 E
     q = nodes.copy()
@@ -107,9 +108,7 @@ def test_constant_strain_and_constant_curvature_are_exact() -> None:
     plane = METAL.young_modulus / (1.0 - nu**2)
     density = 0.5 * t * plane * (nu * np.trace(E) ** 2 + (1.0 - nu) * np.sum(E * E))
     assert body.energy(q) == pytest.approx(density * 0.4 * 0.3, rel=1e-12)
-    rolled = [
-        ThinPlates(*flat((n, 1), (0.4, 0.3)), METAL, THICKNESS).energy(arc(n, 1, 0.5, 0.8, 0.3)[0]) for n in (2, 4, 8)
-    ]
+    rolled = [ThinPlates(*flat((n, 1), (0.4, 0.3)), LAYERS).energy(arc(n, 1, 0.5, 0.8, 0.3)[0]) for n in (2, 4, 8)]
     errors = np.abs(np.array(rolled) / (0.5 * t**3 / 12.0 * plane / 0.5**2 * 0.4 * 0.3) - 1.0)
     assert errors[2] < 1e-3
     assert (np.log2(errors[:-1] / errors[1:]) > 1.9).all()
@@ -125,8 +124,8 @@ def test_mass_is_that_of_the_strip(strip: ThinPlates) -> None:
 def test_bad_input_is_refused() -> None:
     nodes, plates, sizes = flat((1, 1), (0.1, 0.1))
     with pytest.raises(InputError, match="must have a normal"):
-        ThinPlates(0.0 * nodes, plates, sizes, METAL, THICKNESS)
+        ThinPlates(0.0 * nodes, plates, sizes, LAYERS)
     with pytest.raises(InputError, match="must be \\(n, 4, 3\\)"):
-        ThinPlates(nodes[:, 0], plates, sizes, METAL, THICKNESS)
+        ThinPlates(nodes[:, 0], plates, sizes, LAYERS)
     with pytest.raises(InputError, match="thickness"):
-        ThinPlates(nodes, plates, sizes, METAL, 0.0)
+        ThinPlates(nodes, plates, sizes, [[Layer(material=METAL, thickness=0.0)]])

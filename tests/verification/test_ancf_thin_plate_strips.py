@@ -16,7 +16,7 @@ from scipy.linalg import eigh
 from scipy.sparse import diags_array
 from scipy.sparse.linalg import eigsh, spsolve
 
-from ancf_reduced.thin_plates.plates import ThinPlates
+from ancf_reduced.thin_plates.plates import Layer, ThinPlates
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
@@ -30,7 +30,7 @@ def ring_errors(count: int, thickness: float, **points: tuple[int, int]) -> np.n
     metal = replace(TI_6AL_4V, young_modulus=1e11, poisson_ratio=0.0, density=4000.0)
     nodes, plates, sizes = arc(count, 1, RADIUS, 2.0 * np.pi, WIDTH)
     plates[plates >= 2 * count] -= 2 * count
-    ring = ThinPlates(nodes[:-2], plates, sizes, metal, thickness, **points)
+    ring = ThinPlates(nodes[:-2], plates, sizes, [[Layer(material=metal, thickness=thickness)]], **points)
     kept = planar_motions(len(ring.reference))
     K, M = (kept.T @ (m @ kept) for m in (ring.tangent(ring.reference), ring.mass()))
     found = np.sqrt(np.abs(eigh(K, M, eigvals_only=True)))
@@ -66,7 +66,7 @@ def test_a_cantilever_follows_the_elastica() -> None:
     """Deflection 0.71 L: 8 plates."""
     L, b, t, E = 1.0, 0.05, 0.005, 1e10
     metal = replace(TI_6AL_4V, young_modulus=E, poisson_ratio=0.0)
-    body = ThinPlates(*flat((8, 1), (L, b)), metal, t)
+    body = ThinPlates(*flat((8, 1), (L, b)), [[Layer(material=metal, thickness=t)]])
     EI, force = E * b * t**3 / 12.0, 5.0
     q = body.reference.copy()
     free = np.ones(q.shape, dtype=bool)
@@ -99,7 +99,7 @@ def test_a_strip_loaded_within_its_plane_is_a_beam(thickness: float) -> None:
     exact = L**3 / (3.0 * E * t * b**3 / 12.0) + 1.2 * L / (G * t * b)
 
     def compliance(points: tuple[int, int]) -> float:
-        body = ThinPlates(*flat((6, 1), (L, b)), METAL, t, points)
+        body = ThinPlates(*flat((6, 1), (L, b)), [[Layer(material=METAL, thickness=t)]], points)
         load = np.zeros(body.reference.shape)
         v, w = np.polynomial.legendre.leggauss(6)
         v, w = 0.5 + 0.5 * v, 0.5 * w
@@ -121,7 +121,7 @@ def test_the_lowest_motions_of_a_free_curved_strip_are_the_bodys_own() -> None:
     """R = 70 mm, 90 degrees, 26 mm wide, 0.4 mm thick: six frequencies of 8 x 2 plates beside 24 x 6 within 2 %."""
 
     def frequencies(counts: tuple[int, int]) -> np.ndarray:
-        strip = ThinPlates(*arc(*counts, 0.070, 0.5 * np.pi, 0.026), METAL, 0.4e-3)
+        strip = ThinPlates(*arc(*counts, 0.070, 0.5 * np.pi, 0.026), [[Layer(material=METAL, thickness=0.4e-3)]])
         scale = diags_array(np.tile(np.repeat([1.0, 0.02, 0.02, 0.0004], 3), len(strip.reference)) ** -1.0)
         K, M = (scale @ m @ scale for m in (strip.tangent(strip.reference), strip.mass()))
         shift = -1e3 * abs(M).max() ** 0.0
@@ -135,5 +135,5 @@ def test_a_strip_curved_along_the_wrong_axis_is_refused() -> None:
     nodes, plates, sizes = arc(4, 1, 0.07, 1.0, 0.026)
     turned = nodes[:, [0, 2, 1, 3]]
     with pytest.raises(InputError, match=r"curvatures of .* and membrane points of 2 and 4"):
-        ThinPlates(turned, plates[:, [0, 2, 1, 3]], sizes[:, ::-1], METAL, 0.4e-3)
-    ThinPlates(turned, plates[:, [0, 2, 1, 3]], sizes[:, ::-1], METAL, 0.4e-3, (4, 2))
+        ThinPlates(turned, plates[:, [0, 2, 1, 3]], sizes[:, ::-1], [[Layer(material=METAL, thickness=0.4e-3)]])
+    ThinPlates(turned, plates[:, [0, 2, 1, 3]], sizes[:, ::-1], [[Layer(material=METAL, thickness=0.4e-3)]], (4, 2))

@@ -1,0 +1,107 @@
+"""A Newton step that finds the touching set: the wheel is linearised once, its contact is not.
+
+With the wheel's residual R and tangent K, gaps g + G s after a step s and penalties k, s solves
+
+    R + K s + G^T k min(g + G s, 0) = 0,
+
+the minimum of a function that is quadratic in pieces. Newton's method on it changes the set of touching points; every
+set's matrix differs from the one that was factorised by one product a changed point, so that a solve costs as many
+solves with the factors as there are new points (Woodbury's formula). An exact line search along each direction keeps
+the sets from cycling. Verified by tests/unit/test_ancf_wheel_static.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+__all__ = ["settle"]
+
+Array = NDArray[np.float64]
+_LIMIT = 60
+
+
+def settle(
+    solve: Callable[[Array], Array],
+    tangent: Callable[[Array], Array],
+    residual: Array,
+    contact: tuple[Array, csr_array, Array],
+    factored: NDArray[np.bool_],
+) -> tuple[Array, Array]:
+    """Step (n,) and forces of the contact points (m,).
+
+    Parameters
+    ----------
+    solve : inverse of K + G_A^T k G_A, A the points ``factored`` (m,), of vectors (n,) or columns (n, j)
+    tangent : K times a vector
+    residual : R (n,)
+    contact : gaps (m,), slopes G (m, n), penalties (m,)
+    """
+    gap, G, k = contact
+    columns = dict[int, Array]()
+    base = solve(-residual - G.T @ np.where(factored, k * gap, 0.0))
+    base_gap = gap + G @ base
+    step = base
+    at = base_gap
+    for _ in range(_LIMIT):
+        changed = np.flatnonzero((at < 0.0) != factored)
+        goal = _with_changes(solve, (base, base_gap), (G, k), changed, factored, columns)
+        if not np.array_equal(goal, step):
+            share = _search(residual + tangent(step), tangent, goal - step, (at, G, k))
+            step = step + share * (goal - step)
+        new = gap + G @ step
+        settled = np.array_equal(new < 0.0, at < 0.0) and np.abs(new - at).max() <= 1e-9 * np.abs(gap).max()
+        at = new
+        if settled:
+            break
+    return step, -k * np.minimum(at, 0.0)
+
+
+def _with_changes(
+    solve: Callable[[Array], Array],
+    base: tuple[Array, Array],
+    contact: tuple[csr_array, Array],
+    changed: NDArray[np.int64],
+    factored: NDArray[np.bool_],
+    columns: dict[int, Array],
+) -> Array:
+    """The step of a touching set that differs from the factored one by the points ``changed``."""
+    step, gap = base
+    if not len(changed):
+        return step
+    G, k = contact
+    new = [p for p in changed.tolist() if p not in columns]
+    if new:
+        columns |= dict(zip(new, solve(G[new].toarray().T).T, strict=True))
+    X = np.array([columns[p] for p in changed.tolist()])
+    signed = np.where(factored[changed], -k[changed], k[changed])
+    y = np.linalg.solve(np.diag(1.0 / signed) + G[changed] @ X.T, gap[changed])
+    return np.asarray(step - y @ X)
+
+
+def _search(
+    body: Array, tangent: Callable[[Array], Array], direction: Array, contact: tuple[Array, csr_array, Array]
+) -> float:
+    """Share of a direction, at most 1, at which the slope of the energy along it is zero."""
+    at, G, k = contact
+    first, curvature, rate = float(direction @ body), float(direction @ tangent(direction)), G @ direction
+
+    def slope(share: float) -> float:
+        return first + share * curvature + float((k * np.minimum(at + share * rate, 0.0)) @ rate)
+
+    low, high = 0.0, 1.0
+    if slope(low) >= 0.0 or slope(high) <= 0.0:
+        return 1.0
+    ends = slope(low), slope(high)
+    for _ in range(60):
+        middle = low - ends[0] * (high - low) / (ends[1] - ends[0])
+        if _ % 3 == 2:
+            middle = 0.5 * (low + high)
+        value = slope(middle)
+        if abs(value) <= 1e-12 * abs(first) or high - low < 1e-14:
+            break
+        low, high, ends = (middle, high, (value, ends[1])) if value < 0.0 else (low, middle, (ends[0], value))
+    return middle

@@ -1,0 +1,205 @@
+"""Compiled energy, force and tangent of ties and of the ground. Verified by tests/unit/test_ancf_wheel_static.py."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ancf_reduced.compiled import compiled
+from ancf_reduced.thin_plates.kernels import normal_second, unit_normal
+
+__all__ = ["find_tie_forces", "ground_gaps", "tie_terms"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+@compiled
+def _vectors(q: Array, nodes: Index, tables: Array, out: Array) -> None:
+    """r, a_1, a_2 (3, 3) at a point of a plate with rows tables (3, 16)."""
+    for d in range(3):
+        for i in range(3):
+            out[d, i] = 0.0
+            for k in range(16):
+                out[d, i] += tables[d, k] * q[nodes[k // 4], k % 4, i]
+
+
+@compiled
+def tie_terms(
+    q: Array,
+    plates: Index,
+    ties: tuple[Index, Index, Array, Array, Array],
+    weights: tuple[Array, Array],
+    mixed: Array,
+    force: Array,
+    tangent: Array,
+) -> float:
+    """Energy of edges that follow a plate at an offset along its normal [J]; adds forces and tangents.
+
+    With g = r_s - r_m - d n_m and h = a_1s . n_m: (k_r g . g + k_n h^2) / 2 at every point.
+
+    Parameters
+    ----------
+    ties : plates of springs and rim (n,), offsets d (n,) [m], rows r, r_1, r_2 of both at p points (n, p, 3, 16)
+    weights : k_r [N/m] and k_n [N m] of every point, (n, p)
+    mixed : (n, p, 4) forces for the geometric part of the tangent; of no ties for those that belong to q
+    force, tangent : (n, 32, 3), (n, 32, 3, 32, 3) of the spring's 16 and the rim's 16 vectors
+    """
+    springs, rims, offsets, of_spring, of_rim = ties
+    by_place, by_turn = weights
+    energy, s, m = 0.0, np.empty((3, 3)), np.empty((3, 3))
+    second, turn, c, normal = np.empty((6, 6)), np.empty((3, 6)), np.empty(3), np.empty(3)
+    # Rows: vectors r_s, a_1s, r_m, a_1m, a_2m; columns: components of g and h.
+    slope, H = np.empty((15, 4)), np.empty((15, 15))
+    weight, gap, held, rows = np.empty(4), np.empty(4), np.empty(4), np.zeros((5, 32))
+    for t in range(springs.shape[0]):
+        for p in range(by_place.shape[1]):
+            _vectors(q, plates[springs[t]], of_spring[t, p], s)
+            _vectors(q, plates[rims[t]], of_rim[t, p], m)
+            n, J = unit_normal(m[1:])
+            normal[:] = n
+            d = offsets[t]
+            h = 0.0
+            for i in range(3):
+                gap[i] = s[0, i] - m[0, i] - d * n[i]
+                h += s[1, i] * n[i]
+            gap[3] = h
+            weight[:3], weight[3] = by_place[t, p], by_turn[t, p]
+            for i in range(4):
+                held[i] = mixed[t, p, i] if mixed.shape[0] else weight[i] * gap[i]
+            for i in range(3):
+                c[i] = -d * held[i] + held[3] * s[1, i]
+            normal_second(m[1:], n, J, c, second, turn)
+            slope[:] = 0.0
+            for i in range(3):
+                slope[i, i], slope[6 + i, i] = 1.0, -1.0
+                slope[3 + i, 3] = n[i]
+                for j in range(6):
+                    slope[9 + j, i] = -d * turn[i, j]
+                    slope[9 + j, 3] += s[1, i] * turn[i, j]
+            for r in range(3):
+                for k in range(16):
+                    if r < 2:
+                        rows[r, k] = of_spring[t, p, r, k]
+                    rows[2 + r, 16 + k] = of_rim[t, p, r, k]
+            for j in range(4):
+                energy += 0.5 * weight[j] * gap[j] ** 2
+            for a in range(5):
+                for i in range(3):
+                    value = 0.0
+                    for j in range(4):
+                        value += weight[j] * gap[j] * slope[3 * a + i, j]
+                    for k in range(32):
+                        force[t, k, i] += rows[a, k] * value
+            if tangent.shape[0]:
+                for a in range(15):
+                    for b in range(15):
+                        H[a, b] = 0.0
+                        for j in range(4):
+                            H[a, b] += weight[j] * slope[a, j] * slope[b, j]
+                H[9:, 9:] += second
+                for i in range(3):
+                    for j in range(6):
+                        H[3 + i, 9 + j] += held[3] * turn[i, j]
+                        H[9 + j, 3 + i] += held[3] * turn[i, j]
+                _spread(H, rows, tangent[t])
+    return energy
+
+
+@compiled
+def _spread(H: Array, rows: Array, out: Array) -> None:
+    """Add rows^T H rows: H (3 n, 3 n) by vectors, rows (n, m), out (m, 3, m, 3)."""
+    n, m = rows.shape
+    half = np.zeros((n, 3, m, 3))
+    for a in range(n):
+        for i in range(3):
+            for b in range(n):
+                for j in range(3):
+                    value = H[3 * a + i, 3 * b + j]
+                    for k in range(m):
+                        half[a, i, k, j] += value * rows[b, k]
+    for a in range(n):
+        for k in range(m):
+            if rows[a, k] != 0.0:
+                for i in range(3):
+                    for c in range(m):
+                        for j in range(3):
+                            out[k, i, c, j] += rows[a, k] * half[a, i, c, j]
+
+
+@compiled
+def ground_gaps(
+    q: Array,
+    plates: Index,
+    points: tuple[Index, Array, Array, Array],
+    plane: tuple[Array, float],
+    forces: Array,
+    found: tuple[Array, Array],
+    tangent: Array,
+) -> None:
+    """Distances of points from a plane, their slopes, and what forces there add to the tangent.
+
+    Parameters
+    ----------
+    points : plates (n,), heights (n,) [m], areas (n,) [m^2], rows r, r_1, r_2 (n, 3, 16)
+    plane : unit normal to the wheel (3,), level of the plane along it [m]
+    forces : (n,) [N] of the ground on the wheel
+    found : gaps (n,) [m], negative inside the ground, and their derivatives by the plate's vectors (n, 16, 3)
+    tangent : (n_plates, 16, 3, 16, 3) added to
+    """
+    which, heights, _, tables = points
+    normal, level = plane
+    gaps, slopes = found
+    v, slope, H = np.empty((3, 3)), np.empty(9), np.zeros((9, 9))
+    second, turn = np.empty((6, 6)), np.empty((3, 6))
+    for p in range(which.shape[0]):
+        e, height = which[p], heights[p]
+        _vectors(q, plates[e], tables[p], v)
+        n, J = unit_normal(v[1:])
+        gaps[p] = -level
+        for i in range(3):
+            gaps[p] += normal[i] * (v[0, i] + height * n[i])
+        normal_second(v[1:], n, J, normal, second, turn)
+        slope[:3] = normal
+        for j in range(6):
+            slope[3 + j] = height * (normal[0] * turn[0, j] + normal[1] * turn[1, j] + normal[2] * turn[2, j])
+        for k in range(16):
+            for i in range(3):
+                slopes[p, k, i] = 0.0
+                for d in range(3):
+                    slopes[p, k, i] += slope[3 * d + i] * tables[p, d, k]
+        if forces[p] > 0.0 and tangent.shape[0]:
+            H[3:, 3:] = -forces[p] * height * second
+            _spread(H, tables[p], tangent[e])
+
+
+@compiled
+def find_tie_forces(
+    q: Array,
+    step: Array,
+    plates: Index,
+    ties: tuple[Index, Index, Array, Array, Array],
+    weights: tuple[Array, Array],
+    out: Array,
+) -> None:
+    """Forces (n, p, 4) of ties after a step from q, linearised."""
+    springs, rims, offsets, of_spring, of_rim = ties
+    s, m, ds, dm = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
+    second, turn, c = np.empty((6, 6)), np.empty((3, 6)), np.zeros(3)
+    for t in range(springs.shape[0]):
+        for p in range(out.shape[1]):
+            _vectors(q, plates[springs[t]], of_spring[t, p], s)
+            _vectors(q, plates[rims[t]], of_rim[t, p], m)
+            _vectors(step, plates[springs[t]], of_spring[t, p], ds)
+            _vectors(step, plates[rims[t]], of_rim[t, p], dm)
+            n, J = unit_normal(m[1:])
+            normal_second(m[1:], n, J, c, second, turn)
+            h = 0.0
+            for i in range(3):
+                dn = 0.0
+                for j in range(3):
+                    dn += turn[i, j] * dm[1, j] + turn[i, 3 + j] * dm[2, j]
+                gap = s[0, i] - m[0, i] + ds[0, i] - dm[0, i] - offsets[t] * (n[i] + dn)
+                out[t, p, i] = weights[0][t, p] * gap
+                h += (s[1, i] + ds[1, i]) * n[i] + s[1, i] * dn
+            out[t, p, 3] = weights[1][t, p] * h

@@ -1,0 +1,327 @@
+"""From a wheel design to thin plates: rim, springs, welds, grousers, what the hub and the plane of symmetry hold.
+
+Every part is a grid of plates on its middle surface; its first axis runs along the strip, its second along the axle.
+A weld is a second layer of the rim's plates, a grouser another; a spring begins at the end of its weld, where its edge
+follows the rim's at half of both thicknesses (`ancf_reduced.wheel.ties`). Rim and springs are divided as the solid mesh
+divides them: at weld ends, flanks of grousers, edges of bands. Verified by tests/unit/test_ancf_wheel_mesh.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.sparse import csc_array
+
+from ancf_reduced.thin_plates.plates import Layer, ThinPlates
+from contracts.errors import InputError
+from geometry.parts import SpringSet
+from geometry.resolution import MeshSize, Ring, axial_bands, axial_levels, rim_ring
+from geometry.springs import leg_sides, polar, spring_leg, station_angles, weld_angle
+from geometry.wheel import WheelDesign
+
+__all__ = ["AncfWheel", "GroundPoints", "TieLine", "build_ancf_wheel"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+_AXLE = np.array([0.0, 1.0, 0.0])
+_LEAST_PER_LEG = 8
+_ACROSS = 4
+"""Contact points of a plate along the axle."""
+_APART = 1.5e-3
+"""Largest distance of contact points around the rim [m]."""
+_LOBATTO = np.array([-1.0, 0.0, 1.0]), np.array([1.0, 4.0, 1.0]) / 6.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TieLine:
+    """Where the first edges of springs follow the rim, one row per plate of a spring.
+
+    Attributes
+    ----------
+    spring, rim : (n,) plates; the edge is u = 0 of both
+    offset : (n,) of the spring's middle from the rim's, along the rim's normal [m]
+    """
+
+    spring: Index
+    rim: Index
+    offset: Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class GroundPoints:
+    """Points that may touch the ground.
+
+    Attributes
+    ----------
+    plate : (n,) plates
+    at : (n, 2) places (u, v) in them
+    height : (n,) above the plate's middle, along its normal [m]
+    area : (n,) [m^2]
+    """
+
+    plate: Index
+    at: Array
+    height: Array
+    area: Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class AncfWheel:
+    """A wheel of thin plates.
+
+    Attributes
+    ----------
+    plates : the network
+    parts : (n_plates,) name of each plate's part
+    ties : springs on the rim
+    ground : what may touch the ground
+    basis : (12 n_nodes, n_free) coordinates less their reference by the free ones: supports leave no others
+    sides : 2 for half a wheel, whose loads count twice; else 1
+    """
+
+    plates: ThinPlates
+    parts: NDArray[np.str_]
+    ties: TieLine
+    ground: GroundPoints
+    basis: csc_array
+    sides: float
+
+    def coordinates(self, free: Array) -> Array:
+        """Nodes (n_nodes, 4, 3) of free coordinates (n_free,)."""
+        return np.asarray(self.plates.reference + (self.basis @ free).reshape(self.plates.reference.shape))
+
+
+@dataclass(slots=True)
+class _Draft:
+    levels: Array
+    nodes: list[Array] = field(default_factory=list)
+    plates: list[Index] = field(default_factory=list)
+    sizes: list[Array] = field(default_factory=list)
+    layers: list[tuple[Layer, ...]] = field(default_factory=list)
+    parts: list[str] = field(default_factory=list)
+    count: int = 0
+    plate_count: int = 0
+
+    def add_strip(self, part: str, line: tuple[Array, Array], steps: Array, columns: range) -> tuple[Index, Index]:
+        """A strip along ``line``, points and unit tangents (m, 2) in the section; closed if it has as many steps.
+
+        columns : axial intervals it covers. Returns numbers of its nodes (m, n + 1) and plates (steps, n).
+        """
+        points, tangents = line
+        y = self.levels[columns.start : columns.stop + 1]
+        m, n = len(points), len(y)
+        new = np.zeros((m, n, 4, 3))
+        new[:, :, 0, [0, 2]], new[:, :, 0, 1] = points[:, None], y
+        new[:, :, 1, [0, 2]], new[:, :, 2] = tangents[:, None], _AXLE
+        numbers = self.count + np.arange(m * n).reshape(m, n)
+        ahead = np.arange(1, len(steps) + 1) % m
+        behind = np.arange(len(steps))
+        corners = [numbers[i][:, j] for i in (behind, ahead) for j in (slice(None, -1), slice(1, None))]
+        self.nodes.append(new.reshape(-1, 4, 3))
+        self.plates.append(np.stack(corners, axis=-1).reshape(-1, 4))
+        grid = np.meshgrid(steps, np.diff(y), indexing="ij")
+        self.sizes.append(np.stack(grid, axis=-1).reshape(-1, 2))
+        plates = self.plate_count + np.arange(len(steps) * (n - 1)).reshape(len(steps), n - 1)
+        self.parts += [part] * plates.size
+        self.count += m * n
+        self.plate_count += plates.size
+        return numbers, plates
+
+
+def build_ancf_wheel(
+    design: WheelDesign,
+    *,
+    element_size: float = 16e-3,
+    axial_size: float = 18e-3,
+    half_width: bool = True,
+    factor: float = 1.0,
+) -> AncfWheel:
+    """Divide a wheel into thin plates, its outer hub rigid.
+
+    Parameters
+    ----------
+    design : spring sets between rim and outer hub; sidewall springs are refused
+    element_size : largest length of a plate along strips and around the rim [m]; a leg has eight plates at least
+    axial_size : largest length along the axle [m]
+    half_width : the half y >= 0, symmetry at y = 0
+    factor : at least 1; counts along strips and along the axle are multiplied by it and rounded up
+
+    Raises
+    ------
+    InputError
+        For sidewall springs, and bands that are not symmetric where half of the wheel is asked for.
+    """
+    if design.sidewall_springs is not None:
+        rule = "stand in planes of their own: the wheel has no ANCF model yet"
+        raise InputError("sidewall springs", design.sidewall_springs.name, rule, "use the solid model")
+    size = MeshSize(
+        element_size=element_size, axial_size=axial_size, thickness_elements=1, refinement={}, factor=factor
+    )
+    bands = axial_bands(design, size, axial_levels(design, "flexible", half_width))
+    levels = np.concatenate([[bands[0][0]], *(np.linspace(a, b, n + 1)[1:] for a, b, n in bands)])
+    draft = _Draft(levels=levels)
+    ring = rim_ring(design, size)
+    breaks, rim_plates, ground = _add_rim(draft, design, ring)
+    ties, clamped = list[tuple[Index, Index, float]](), list[tuple[Index, float]]()
+    for springs in design.spring_sets:
+        _add_springs(draft, design, springs, size, (ring, breaks, rim_plates), (ties, clamped))
+    nodes = np.concatenate(draft.nodes)
+    plates = ThinPlates(nodes, np.concatenate(draft.plates), np.concatenate(draft.sizes), draft.layers)
+    return AncfWheel(
+        plates=plates,
+        parts=np.array(draft.parts),
+        ties=TieLine(
+            spring=np.concatenate([s for s, _, _ in ties]),
+            rim=np.concatenate([r for _, r, _ in ties]),
+            offset=np.concatenate([np.full(len(s), d) for s, _, d in ties]),
+        ),
+        ground=ground,
+        basis=_basis(nodes, clamped, symmetric=half_width),
+        sides=2.0 if half_width else 1.0,
+    )
+
+
+def _columns(draft: _Draft, bands: Iterable[tuple[float, float]]) -> list[range]:
+    """Axial intervals of every band that lies in the drawn width."""
+    found = []
+    for low, high in bands:
+        middle = 0.5 * (draft.levels[1:] + draft.levels[:-1])
+        inside = np.flatnonzero((middle > low) & (middle < high))
+        if len(inside):
+            found.append(range(int(inside[0]), int(inside[-1]) + 1))
+    return found
+
+
+def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Index, GroundPoints]:
+    """Returns the rim's first row of plates after each break of the ring, all its plates, and the ground's points."""
+    tire, fins = design.tire, design.grousers
+    middle = 0.5 * (tire.inner_radius + tire.outer_radius)
+    angles = np.concatenate([ring.angle(i) + ring.step(i) * np.arange(n) / n for i, n in enumerate(ring.counts)])
+    steps = np.repeat([ring.step(i) / n for i, n in enumerate(ring.counts)], ring.counts)
+    of = np.repeat(np.arange(len(ring.angles)), ring.counts)
+    points = np.array([polar(middle, a) for a in angles])
+    tangents = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    columns = range(len(draft.levels) - 1)
+    _, plates = draft.add_strip("tire", (points, tangents), middle * steps, columns)
+    welds = _weld_layers(draft, design, ring)
+    inside = dict[int, float]()
+    if fins is not None:
+        half = math.asin(0.5 * fins.thickness / tire.outer_radius)
+        for k in range(fins.count):
+            at = fins.phase + 2.0 * math.pi * k / fins.count
+            inside |= dict.fromkeys(ring.span(at - half, at + half), at)
+    own = Layer(material=tire.material, thickness=tire.thickness)
+    for i in of:
+        for j in columns:
+            fin: tuple[Layer, ...] = ()
+            if fins is not None and int(i) in inside:
+                height = -0.5 * (tire.thickness + fins.height)
+                fin = (Layer(material=fins.material, thickness=fins.height, height=height),)
+            draft.layers.append((own, *welds.get((int(i), j), ()), *fin))
+    ground = [
+        _ground_points(design, plates[row], draft.sizes[-1].reshape(*plates.shape, 2)[row], int(i) in inside)
+        for row, i in enumerate(of)
+    ]
+    fields = {name: np.concatenate([getattr(g, name) for g in ground]) for name in GroundPoints.__slots__}
+    first = np.concatenate([[0], np.cumsum(ring.counts)[:-1]])
+    return first, plates, GroundPoints(**fields)
+
+
+def _weld_layers(draft: _Draft, design: WheelDesign, ring: Ring) -> dict[tuple[int, int], tuple[Layer, ...]]:
+    """Layers that welds add to the rim, by interval of the ring and of the axle."""
+    found = dict[tuple[int, int], tuple[Layer, ...]]()
+    for springs in design.spring_sets:
+        height = 0.5 * (design.tire.thickness + springs.thickness)
+        layer = Layer(material=springs.material, thickness=springs.thickness, height=height)
+        half = 0.5 * weld_angle(springs, design.tire.inner_radius)
+        for station in station_angles(springs):
+            for i in ring.span(station - half, station + half):
+                for columns in _columns(draft, springs.bands):
+                    found |= {(i, j): (*found.get((i, j), ()), layer) for j in columns}
+    return found
+
+
+def _ground_points(design: WheelDesign, plates: Index, sizes: Array, fin: bool) -> GroundPoints:
+    """Points of one row of the rim's plates: on its outer face, or on the tip of a grouser."""
+    tire, fins = design.tire, design.grousers
+    middle = 0.5 * (tire.inner_radius + tire.outer_radius)
+    length = float(sizes[0, 0])
+    if fin and fins is not None:
+        height, around = 0.5 * tire.thickness + fins.height, _LOBATTO
+    else:
+        n = max(1, math.ceil(length / _APART))
+        height, around = 0.5 * tire.thickness, ((2.0 * np.arange(n) + 1.0) / n - 1.0, np.full(n, 1.0 / n))
+    y, w = np.polynomial.legendre.leggauss(_ACROSS)
+    place = np.stack(np.meshgrid(0.5 + 0.5 * around[0], 0.5 + 0.5 * y, indexing="ij"), axis=-1).reshape(-1, 2)
+    share = np.outer(around[1], 0.5 * w).ravel()
+    along = fins.thickness if fin and fins is not None else length * tire.outer_radius / middle
+    if fin and fins is not None:  # the tip is as wide as the foot, the rays between them are not
+        place[:, 0] = 0.5 + (place[:, 0] - 0.5) * fins.thickness / length * middle / (tire.outer_radius + fins.height)
+    count = len(share)
+    return GroundPoints(
+        plate=np.repeat(plates, count),
+        at=np.tile(place, (len(plates), 1)),
+        height=np.full(count * len(plates), -height),
+        area=np.concatenate([share * along * b for b in sizes[:, 1]]),
+    )
+
+
+def _add_springs(
+    draft: _Draft,
+    design: WheelDesign,
+    springs: SpringSet,
+    size: MeshSize,
+    rim: tuple[Ring, Index, Index],
+    found: tuple[list[tuple[Index, Index, float]], list[tuple[Index, float]]],
+) -> None:
+    ring, breaks, rim_plates = rim
+    ties, clamped = found
+    gap = design.outer_hub.outer_radius, design.tire.inner_radius
+    half = 0.5 * weld_angle(springs, design.tire.inner_radius)
+    offset = 0.5 * (design.tire.thickness + springs.thickness)
+    layer = Layer(material=springs.material, thickness=springs.thickness)
+    for station in station_angles(springs):
+        for side in leg_sides(springs):
+            leg = spring_leg(springs, gap, station, side)
+            count = size.refined(max(_LEAST_PER_LEG, math.ceil(leg.length / size.of(springs.name) - 1e-6)))
+            ends = np.column_stack([-leg.normals[[0, -1], 1], leg.normals[[0, -1], 0]])
+            ends *= np.sign(ends[0] @ (leg.points[1] - leg.points[0]))
+            arc = np.linspace(0.0, leg.length, len(leg.points))
+            line = CubicSpline(arc, leg.points, bc_type=((1, ends[0]), (1, ends[1])))
+            at = np.linspace(0.0, leg.length, count + 1)
+            tangents = line(at, 1) / np.linalg.norm(line(at, 1), axis=1)[:, None]
+            first = breaks[ring.index(station + side * half)]
+            for columns in _columns(draft, springs.bands):
+                steps = np.full(count, leg.length / count)
+                numbers, plates = draft.add_strip(springs.name, (line(at), tangents), steps, columns)
+                draft.layers += [(layer,)] * plates.size
+                ties.append((plates[0], rim_plates[first, columns.start : columns.stop], offset))
+                clamped.append((numbers[-1], station + side * half))
+
+
+def _basis(nodes: Array, clamped: list[tuple[Index, float]], *, symmetric: bool) -> csc_array:
+    """Columns of free coordinates: clamped edges keep place and tangent plane, the plane of symmetry its mirror."""
+    frames = np.broadcast_to(np.eye(3), (len(nodes), 3, 3)).copy()
+    free = np.ones((len(nodes), 4, 3), dtype=bool)
+    for numbers, angle in clamped:
+        radial, around = polar(1.0, angle), np.array([math.cos(angle), math.sin(angle)])
+        frames[numbers] = np.array([[around[0], 0.0, radial[0]], [0.0, 1.0, 0.0], [around[1], 0.0, radial[1]]])
+        free[numbers[:, None], [0, 2]] = False
+        free[numbers[:, None], [1, 3], 2] = False
+    if symmetric:
+        middle = np.abs(nodes[:, 0, 1]) < 1e-12
+        free[middle, 0, 1] = free[middle, 1, 1] = False
+        for k in (2, 3):
+            free[middle, k, 0] = free[middle, k, 2] = False
+    node, slot, local = np.nonzero(free)
+    rows = (12 * node + 3 * slot)[:, None] + np.arange(3)
+    values = frames[node, :, local]
+    columns = np.repeat(np.arange(len(node)), 3)
+    kept = values.ravel() != 0.0
+    shape = (12 * len(nodes), len(node))
+    return csc_array((values.ravel()[kept], (rows.ravel()[kept], columns[kept])), shape=shape)

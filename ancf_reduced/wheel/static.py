@@ -1,0 +1,260 @@
+"""Equilibria of an ANCF wheel on a rigid plane, its hub held: loads, and whether they are stable.
+
+Newton's method as the continuum model has it: stresses of the tangent's geometric part are linearised from step to step
+(mixed integration points), so that thin strips turn far in few iterations, and every step finds its own set of touching
+points (`ancf_reduced.wheel.contact_step`). Verified by tests/unit/test_ancf_wheel_static.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array, csr_array
+from scipy.sparse.linalg import splu
+
+from ancf_reduced.thin_plates.shape_functions import shape_tables
+from ancf_reduced.wheel.contact_step import settle
+from ancf_reduced.wheel.kernels import find_tie_forces, ground_gaps, tie_terms
+from ancf_reduced.wheel.mesh import AncfWheel
+from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from contracts.frames import ground_direction_h
+
+__all__ = ["Equilibrium", "WheelOnPlane", "press"]
+
+Array = NDArray[np.float64]
+Mixed = tuple[list[Array], Array, Array]
+"""Stresses of plates, forces of ties and of the ground's points [N]."""
+
+_TIE_POINTS = 4
+_TIE_STIFFNESS = 1e3
+"""Of a tie, in t E / length of the spring's plate for places and t E length for turns [-]."""
+_REACH = 10e-3
+"""Gap up to which a point may touch within one step [m]."""
+_LEAST_WORK = 1e-9
+"""Work that residuals are held against at least [N m]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Equilibrium:
+    """The wheel at rest at one deflection.
+
+    Attributes
+    ----------
+    deflection : from first touch [m]
+    load : of the ground on the whole wheel [N]
+    energy : strain energy of plates and ties, of the whole wheel [J]
+    free : (n_free,) coordinates
+    pressed : (n_ground,) force at each of the ground's points [N]
+    negative : negative eigenvalues of the tangent, the contact's stiffness included: none where the wheel stands
+    residuals : work of the residual in each step, over load times deflection [-]
+    """
+
+    deflection: float
+    load: float
+    energy: float
+    free: Array
+    pressed: Array
+    negative: int
+    residuals: tuple[float, ...]
+
+    @property
+    def iterations(self) -> int:
+        """Steps taken."""
+        return len(self.residuals) - 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _System:
+    """The wheel linearised: residual (n,) and tangent without contact; gaps, their slopes (m, n) and penalties near."""
+
+    residual: Array
+    tangent: csc_array
+    gaps: Array
+    slopes: csr_array
+    stiffness: Array
+    near: NDArray[np.int64]
+    energy: float
+
+
+class WheelOnPlane:
+    """One wheel at one orientation.
+
+    Parameters
+    ----------
+    wheel : from `ancf_reduced.wheel.mesh.build_ancf_wheel`
+    orientation : circumferential position that faces the ground [rad]
+    contact_stiffness : penalty of the ground [N/m^3]
+    """
+
+    def __init__(self, wheel: AncfWheel, orientation: float, contact_stiffness: float = 1e11) -> None:
+        if not np.isfinite(orientation):
+            raise InputError("orientation", f"{orientation} rad", "must be finite", "give an angle such as 0.785 rad")
+        if not (np.isfinite(contact_stiffness) and contact_stiffness > 0.0):
+            raise InputError("contact stiffness", f"{contact_stiffness:g} N/m^3", "must be > 0", "1e11 N/m^3 is usual")
+        self.wheel = wheel
+        plates, ties, ground = wheel.plates, wheel.ties, wheel.ground
+        self._normal, self._penalty = -ground_direction_h(orientation), contact_stiffness
+        at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
+        at = 0.5 + 0.5 * at
+        rows = [
+            np.stack([shape_tables(_size(plates.sizes[k]), 0.0 * at, at)[:, :3] for k in which])
+            for which in (ties.spring, ties.rim)
+        ]
+        self._ties = ties.spring, ties.rim, ties.offset, rows[0], rows[1]
+        layers = [plates.layers[k][0] for k in ties.spring]
+        stiff = _TIE_STIFFNESS * np.array([layer.material.young_modulus * layer.thickness for layer in layers])
+        length, width = plates.sizes[ties.spring].T
+        share = 0.5 * weight[None] * (stiff * width)[:, None]
+        self._weights = share / length[:, None], share * length[:, None]
+        tables = np.empty((len(ground.plate), 3, 16))
+        for k in np.unique(ground.plate):
+            of = ground.plate == k
+            tables[of] = shape_tables(_size(plates.sizes[k]), *ground.at[of].T)[:, :3]
+        self._ground = ground.plate, ground.height, ground.area, tables
+        self._tie_numbers = np.concatenate([plates.numbers[ties.spring], plates.numbers[ties.rim]], axis=1)
+        self._find_pattern()
+        self._touch = 0.0
+        self._touch = float(self._gaps(plates.reference)[0].min())
+
+    def unloaded(self) -> Equilibrium:
+        """The wheel at first touch."""
+        free, pressed = np.zeros(self.wheel.basis.shape[1]), np.zeros(len(self._ground[0]))
+        return Equilibrium(deflection=0.0, load=0.0, energy=0.0, free=free, pressed=pressed, negative=0, residuals=())
+
+    def solve(
+        self, deflection: float, start: Equilibrium, tolerance: float = 1e-12, limit: int = 25
+    ) -> Equilibrium | tuple[float, ...]:
+        """Equilibrium at a deflection [m] from one that is near, or the works of the residual of a try that failed.
+
+        tolerance : work of the residual in the next step over load times deflection; limit : steps
+        """
+        free, residuals = start.free, list[float]()
+        mixed: Mixed = *self._extrapolated(free, np.zeros_like(free)), start.pressed
+        while True:
+            system = self._linearised(free, deflection, mixed)
+            touching = system.gaps < 0.0
+            G = system.slopes[np.flatnonzero(touching)]
+            matrix = csc_array(system.tangent + G.T @ csr_array(G * system.stiffness[touching, None]))
+            try:
+                factors = splu(
+                    matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+                )
+            except RuntimeError:  # singular
+                return (*residuals, float("inf"))
+            contact = system.gaps, system.slopes, system.stiffness
+            step, forces = settle(factors.solve, system.tangent.dot, system.residual, contact, touching)
+            held = -system.stiffness * np.minimum(system.gaps, 0.0)
+            work = abs(float((system.residual - system.slopes.T @ held) @ step))
+            residuals.append(work / max(held.sum() * deflection, _LEAST_WORK))
+            pressed = np.zeros(len(start.pressed))
+            if residuals[-1] < tolerance:
+                pressed[system.near] = held
+                return Equilibrium(
+                    deflection=deflection,
+                    load=self.wheel.sides * float(held.sum()),
+                    energy=self.wheel.sides * system.energy,
+                    free=free,
+                    pressed=pressed,
+                    negative=int((factors.U.diagonal() < 0.0).sum()),
+                    residuals=tuple(residuals),
+                )
+            if len(residuals) > limit or not np.isfinite(residuals[-1]):
+                return tuple(residuals)
+            pressed[system.near] = forces
+            mixed = *self._extrapolated(free, step), pressed
+            free = free + step
+
+    def _gaps(self, q: Array, pressed: Array | None = None, blocks: Array | None = None) -> tuple[Array, Array]:
+        count = len(self._ground[0])
+        found = np.empty(count), np.empty((count, 16, 3))
+        forces = np.zeros(count) if pressed is None else pressed
+        added = np.empty((0, 16, 3, 16, 3)) if blocks is None else blocks
+        plates = self.wheel.plates.plates
+        ground_gaps(q, plates, self._ground, (self._normal, self._touch), forces, found, added)
+        return found
+
+    def _linearised(self, free: Array, deflection: float, mixed: Mixed) -> _System:
+        """The wheel about free coordinates."""
+        plates, T = self.wheel.plates, self.wheel.basis
+        q = self.wheel.coordinates(free)
+        stresses, tied, pressed = mixed
+        energy, force, blocks = plates.terms(q, stresses)
+        count = len(tied)
+        tie_force, tie_blocks = np.zeros((count, 32, 3)), np.zeros((count, 32, 3, 32, 3))
+        energy += tie_terms(q, plates.plates, self._ties, self._weights, tied, tie_force, tie_blocks)
+        gaps, slopes = self._gaps(q, pressed, blocks)
+        gaps = gaps - deflection
+        near = np.flatnonzero(gaps < _REACH)
+        columns, starts = plates.numbers[self._ground[0][near]], 48 * np.arange(len(near) + 1)
+        G = csr_array((slopes[near].ravel(), columns.ravel(), starts), shape=(len(near), plates.size))
+        total = np.bincount(plates.numbers.ravel(), weights=force.ravel(), minlength=plates.size)
+        total += np.bincount(self._tie_numbers.ravel(), weights=tie_force.ravel(), minlength=plates.size)
+        data = np.bincount(self._place, weights=np.concatenate([blocks.ravel(), tie_blocks.ravel()]))
+        matrix = csc_array((data, self._indices, self._starts), shape=(plates.size, plates.size))
+        return _System(
+            residual=T.T @ total,
+            tangent=csc_array(T.T @ matrix @ T),
+            gaps=gaps[near],
+            slopes=csr_array(G @ T),
+            stiffness=self._penalty * self._ground[2][near],
+            near=near,
+            energy=energy,
+        )
+
+    def _extrapolated(self, free: Array, step: Array) -> tuple[list[Array], Array]:
+        """Stresses of plates and forces of ties after a step, linearised."""
+        plates = self.wheel.plates
+        q, change = self.wheel.coordinates(free), (self.wheel.basis @ step).reshape(plates.reference.shape)
+        tied = np.empty((*self._weights[0].shape, 4))
+        find_tie_forces(q, change, plates.plates, self._ties, self._weights, tied)
+        return plates.stresses(q, change), tied
+
+    def _find_pattern(self) -> None:
+        """Positions of every block's entries in one sparse matrix."""
+        size, blocks = self.wheel.plates.size, (self.wheel.plates.numbers, self._tie_numbers)
+        rows = np.concatenate([np.repeat(n, n.shape[1], axis=1).ravel() for n in blocks])
+        columns = np.concatenate([np.tile(n, (1, n.shape[1])).ravel() for n in blocks])
+        found, self._place = np.unique(columns * size + rows, return_inverse=True)
+        self._indices = (found % size).astype(np.int32)
+        self._starts = np.concatenate([[0], np.cumsum(np.bincount(found // size, minlength=size))]).astype(np.int32)
+
+
+def _size(lengths: Array) -> tuple[float, float]:
+    return float(lengths[0]), float(lengths[1])
+
+
+def press(problem: WheelOnPlane, deflections: Sequence[float], smallest_step: float = 1e-5) -> Iterator[Equilibrium]:
+    """Equilibria at increasing deflections [m], each from the one before; increments that fail are halved.
+
+    Raises
+    ------
+    InputError
+        For deflections that do not increase from above zero.
+    ConvergenceError
+        If an increment fails whose half is below ``smallest_step`` [m]; with the history of increments.
+    """
+    if not all(a < b for a, b in zip((0.0, *deflections), deflections, strict=False)):
+        told = ", ".join(f"{1e3 * d:g}" for d in deflections)
+        raise InputError("deflections", f"{told} mm", "must increase from above zero", "sort them")
+    state, history = problem.unloaded(), list[IncrementRecord]()
+    for target in deflections:
+        step = target - state.deflection
+        while state.deflection < target:
+            goal = target if state.deflection + 1.5 * step > target else state.deflection + step
+            found = problem.solve(goal, state)
+            arrived = isinstance(found, Equilibrium)
+            residuals = found.residuals if isinstance(found, Equilibrium) else found
+            history.append(
+                IncrementRecord(target=goal, step=goal - state.deflection, converged=arrived, residuals=residuals)
+            )
+            if isinstance(found, Equilibrium):
+                state = found
+            elif 0.5 * step < smallest_step:
+                what = f"ANCF wheel: no equilibrium found from {1e3 * state.deflection:.4g} to {1e3 * goal:.4g} mm"
+                raise ConvergenceError(f"{what}; ask for closer deflections, or stop there", history, state)
+            else:
+                step *= 0.5
+        yield state

@@ -1,0 +1,119 @@
+"""ANCF wheel on the ground: derivatives of ties and gaps, touching sets, equilibria of a small wheel."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+from scipy.sparse import csr_array
+
+from ancf_reduced.wheel.contact_step import settle
+from ancf_reduced.wheel.mesh import build_ancf_wheel
+from ancf_reduced.wheel.static import Equilibrium, WheelOnPlane, press
+from contracts.errors import InputError
+from geometry.wheel import WheelDesign, exomars_hoops
+
+Array = NDArray[np.float64]
+
+
+def small() -> WheelDesign:
+    """The hoops' wheel without grousers and outer springs: three hoops."""
+    wheel = exomars_hoops()
+    inner = replace(wheel.spring_sets[1], bands=((-60e-3, 60e-3),), thickness=1e-3, phase=0.0)
+    return replace(wheel, grousers=None, spring_sets=(inner,), tire=replace(wheel.tire, thickness=1e-3))
+
+
+@pytest.fixture(scope="module")
+def problem() -> WheelOnPlane:
+    return WheelOnPlane(build_ancf_wheel(small(), element_size=40e-3, axial_size=60e-3), 0.0)
+
+
+@pytest.fixture(scope="module")
+def pressed(problem: WheelOnPlane) -> list[Equilibrium]:
+    return list(press(problem, [2e-3, 4e-3, 6e-3]))
+
+
+def test_residual_and_tangent_are_derivatives(problem: WheelOnPlane) -> None:
+    """Of plates, ties and gaps at a state that balances nothing; forces of the present state, not of a step's."""
+    random = np.random.default_rng(1)
+    size = problem.wheel.basis.shape[1]
+    free, direction = 1e-4 * random.standard_normal(size), random.standard_normal(size)
+    none = np.zeros(len(problem.wheel.ground.plate))
+
+    def at(x: Array) -> tuple[float, Array, Array, Array]:
+        found = problem._linearised(x, 5e-3, (*problem._extrapolated(x, 0.0 * x), none))
+        return found.energy, found.residual, found.gaps, found.tangent @ direction
+
+    step = 1e-7
+    ahead, behind, here = at(free + step * direction), at(free - step * direction), at(free)
+    assert here[1] @ direction == pytest.approx((ahead[0] - behind[0]) / (2.0 * step), rel=1e-6)
+    slope = (ahead[1] - behind[1]) / (2.0 * step)
+    np.testing.assert_allclose(here[3], slope, atol=1e-6 * np.abs(slope).max())
+    system = problem._linearised(free, 5e-3, (*problem._extrapolated(free, 0.0 * free), none))
+    np.testing.assert_allclose(system.slopes @ direction, (ahead[2] - behind[2]) / (2.0 * step), rtol=1e-5, atol=1e-6)
+
+
+def test_what_forces_add_to_the_tangent_is_the_slopes_derivative(problem: WheelOnPlane) -> None:
+    """G^T f with constant f, by differences: the ground's part of the tangent, minus sign included."""
+    random = np.random.default_rng(2)
+    size = problem.wheel.basis.shape[1]
+    free, direction = 1e-4 * random.standard_normal(size), random.standard_normal(size)
+    forces = random.random(len(problem.wheel.ground.plate))
+    stresses, tied = problem._extrapolated(free, 0.0 * free)
+
+    def pull(x: Array) -> Array:
+        found = problem._linearised(x, 0.5, (stresses, tied, 0.0 * forces))
+        return -(found.slopes.T @ forces[found.near])
+
+    step = 1e-7
+    slope = (pull(free + step * direction) - pull(free - step * direction)) / (2.0 * step)
+    loaded, bare = (problem._linearised(free, 0.5, (stresses, tied, k * forces)).tangent for k in (1.0, 0.0))
+    np.testing.assert_allclose((loaded - bare) @ direction, slope, atol=1e-5 * np.abs(slope).max())
+
+
+def test_a_touching_set_is_the_minimum_of_the_energy() -> None:
+    """Twelve unknowns, thirty points: against a general minimiser."""
+    random = np.random.default_rng(5)
+    root = random.standard_normal((12, 12))
+    K, R = root @ root.T + np.eye(12), random.standard_normal(12)
+    gap, G, k = 0.1 * random.standard_normal(30), random.standard_normal((30, 12)), 1e3 * random.random(30)
+    factored = gap < 0.0
+    inverse = np.linalg.inv(K + G.T @ (G * np.where(factored, k, 0.0)[:, None]))
+    step, forces = settle(inverse.__matmul__, K.__matmul__, R, (gap, csr_array(G), k), factored)
+
+    def energy(s: Array) -> tuple[float, Array]:
+        held = np.minimum(gap + G @ s, 0.0)
+        return 0.5 * s @ K @ s + R @ s + 0.5 * k @ held**2, K @ s + R + G.T @ (k * held)
+
+    found = minimize(energy, np.zeros(12), jac=True, method="BFGS", options={"gtol": 1e-9})
+    np.testing.assert_allclose(step, found.x, atol=1e-6)
+    np.testing.assert_allclose(forces, -k * np.minimum(gap + G @ step, 0.0))
+    assert np.abs(energy(step)[1]).max() < 1e-9 * np.abs(R).max()
+
+
+def test_the_load_is_the_slope_of_the_energy(problem: WheelOnPlane, pressed: list[Equilibrium]) -> None:
+    """dW / dd = F by differences, within 1 %: the ground's own energy is left out."""
+    one, two, three = pressed
+    assert two.load == pytest.approx((three.energy - one.energy) / (three.deflection - one.deflection), rel=0.01)
+    assert all(a.load < b.load for a, b in pairwise(pressed))
+    assert all(state.negative == 0 and state.residuals[-1] < 1e-12 for state in pressed)
+    assert all(state.pressed.min() >= 0.0 for state in pressed)
+
+
+def test_the_wheel_is_the_same_a_third_of_a_turn_on(pressed: list[Equilibrium]) -> None:
+    wheel = build_ancf_wheel(small(), element_size=40e-3, axial_size=60e-3)
+    (turned,) = press(WheelOnPlane(wheel, 2.0 * np.pi / 3.0), [pressed[0].deflection])
+    assert turned.load == pytest.approx(pressed[0].load, rel=1e-6)
+
+
+def test_bad_input_is_refused(problem: WheelOnPlane) -> None:
+    with pytest.raises(InputError, match="must be finite"):
+        WheelOnPlane(problem.wheel, np.nan)
+    with pytest.raises(InputError, match="contact stiffness"):
+        WheelOnPlane(problem.wheel, 0.0, contact_stiffness=0.0)
+    with pytest.raises(InputError, match="must increase"):
+        next(press(problem, [2e-3, 1e-3]))
