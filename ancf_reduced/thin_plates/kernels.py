@@ -105,22 +105,7 @@ def add_terms(q: Array, plates: Index, points: Points, mixed: Array, force: Arra
                             for j in range(3):
                                 for r in range(3):
                                     H[d, i, c, j] += first[r, d, i] * rows[r, 3 * c + j]
-                for d in range(count):
-                    for i in range(3):
-                        for m in range(16):
-                            for j in range(3):
-                                value = 0.0
-                                for c in range(count):
-                                    value += H[d, i, c, j] * N[1 + c, m]
-                                half[d, i, m, j] = value
-                for k in range(16):
-                    for i in range(3):
-                        for m in range(16):
-                            for j in range(3):
-                                value = 0.0
-                                for d in range(count):
-                                    value += N[1 + d, k] * half[d, i, m, j]
-                                tangent[e, k, i, m, j] += value
+                _pull_back(H, N, count, half, tangent[e])
     return energy
 
 
@@ -148,6 +133,26 @@ def find_stress(q: Array, step: Array, plates: Index, points: Points, out: Array
             strain -= square
             _measure(v, n, beta[s], stretch[s, p], curvature[s, p], strain, measure)
             _conjugate(stiffness[s, p], measure, out[s, p])
+
+
+@compiled
+def _pull_back(H: Array, N: Array, count: int, half: Array, tangent: Array) -> None:
+    """Add N^T H N to ``tangent`` (16, 3, 16, 3); innermost loops run along memory."""
+    for d in range(count):
+        for i in range(3):
+            half[d, i] = 0.0
+            for c in range(count):
+                for m in range(16):
+                    shape = N[1 + c, m]
+                    for j in range(3):
+                        half[d, i, m, j] += H[d, i, c, j] * shape
+    for k in range(16):
+        for i in range(3):
+            row = tangent[k, i].reshape(48)
+            for d in range(count):
+                shape, part = N[1 + d, k], half[d, i].reshape(48)
+                for m in range(48):
+                    row[m] += shape * part[m]
 
 
 @compiled

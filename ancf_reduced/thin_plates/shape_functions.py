@@ -30,7 +30,7 @@ def hermite(u: Array, length: float) -> Array:
     )
 
 
-def shape_tables(size: tuple[float, float], u: Array, v: Array) -> Array:
+def shape_tables(size: tuple[float, float] | Array, u: Array, v: Array) -> Array:
     """Shape functions of a plate and their derivatives, (n, 6, 16), rows as in `DERIVATIVES`.
 
     size : lengths a, b of the plate's parameters [m]; u, v : (n,) places in [0, 1] along both axes

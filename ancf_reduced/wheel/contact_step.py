@@ -41,14 +41,14 @@ def settle(
     contact : gaps (m,), slopes G (m, n), penalties (m,)
     """
     gap, G, k = contact
-    columns = dict[int, Array]()
+    columns = _Columns(solve, G)
     base = solve(-residual - G.T @ np.where(factored, k * gap, 0.0))
     base_gap = gap + G @ base
     step = base
     at = base_gap
     for _ in range(_LIMIT):
         changed = np.flatnonzero((at < 0.0) != factored)
-        goal = _with_changes(solve, (base, base_gap), (G, k), changed, factored, columns)
+        goal = _with_changes(columns, (base, base_gap), (G, k), changed, factored)
         if not np.array_equal(goal, step):
             share = _search(residual + tangent(step), tangent, goal - step, (at, G, k))
             step = step + share * (goal - step)
@@ -60,23 +60,37 @@ def settle(
     return step, -k * np.minimum(at, 0.0)
 
 
+class _Columns:
+    """K_A^-1 G^T by points, each found when it is first asked for."""
+
+    def __init__(self, solve: Callable[[Array], Array], slopes: csr_array) -> None:
+        self._solve, self._slopes = solve, slopes
+        self._row = np.full(slopes.shape[0], -1)
+        self._found = np.empty((0, slopes.shape[1]))
+
+    def of(self, points: NDArray[np.int64]) -> Array:
+        """Rows (len(points), n)."""
+        new = points[self._row[points] < 0]
+        if len(new):
+            self._row[new] = len(self._found) + np.arange(len(new))
+            right = np.asfortranarray(self._slopes[new].toarray().T)
+            self._found = np.concatenate([self._found, self._solve(right).T])
+        return np.asarray(self._found[self._row[points]])
+
+
 def _with_changes(
-    solve: Callable[[Array], Array],
+    columns: _Columns,
     base: tuple[Array, Array],
     contact: tuple[csr_array, Array],
     changed: NDArray[np.int64],
     factored: NDArray[np.bool_],
-    columns: dict[int, Array],
 ) -> Array:
     """The step of a touching set that differs from the factored one by the points ``changed``."""
     step, gap = base
     if not len(changed):
         return step
     G, k = contact
-    new = [p for p in changed.tolist() if p not in columns]
-    if new:
-        columns |= dict(zip(new, solve(G[new].toarray().T).T, strict=True))
-    X = np.array([columns[p] for p in changed.tolist()])
+    X = columns.of(changed)
     signed = np.where(factored[changed], -k[changed], k[changed])
     y = np.linalg.solve(np.diag(1.0 / signed) + G[changed] @ X.T, gap[changed])
     return np.asarray(step - y @ X)

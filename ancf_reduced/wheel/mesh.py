@@ -2,8 +2,9 @@
 
 Every part is a grid of plates on its middle surface; its first axis runs along the strip, its second along the axle.
 A weld is a second layer of the rim's plates, a grouser another; a spring begins at the end of its weld, where its edge
-follows the rim's at half of both thicknesses (`ancf_reduced.wheel.ties`). Rim and springs are divided as the solid mesh
-divides them: at weld ends, flanks of grousers, edges of bands. Verified by tests/unit/test_ancf_wheel_mesh.py.
+follows the rim's at half of both thicknesses; it turns there, and on the hub's weld, as far as the material below gives
+way (`ancf_reduced.wheel.joints`). Rim and springs are divided as the solid mesh divides them: at weld ends, flanks of
+grousers, edges of bands. Verified by tests/unit/test_ancf_wheel_mesh.py.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ from scipy.interpolate import CubicSpline
 from scipy.sparse import csc_array
 
 from ancf_reduced.thin_plates.plates import Layer, ThinPlates
+from ancf_reduced.wheel.joints import RIGID_RATIO, turning_stiffness
+from ancf_reduced.wheel.supports import HubEnd, free_basis, hub_stiffness
 from contracts.errors import InputError
 from geometry.parts import SpringSet
 from geometry.resolution import MeshSize, Ring, axial_bands, axial_levels, rim_ring
@@ -45,11 +48,13 @@ class TieLine:
     ----------
     spring, rim : (n,) plates; the edge is u = 0 of both
     offset : (n,) of the spring's middle from the rim's, along the rim's normal [m]
+    turning : (n,) moment by angle and width that the weld's end has against turning [N/rad]
     """
 
     spring: Index
     rim: Index
     offset: Array
+    turning: Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -81,6 +86,7 @@ class AncfWheel:
     ties : springs on the rim
     ground : what may touch the ground
     basis : (12 n_nodes, n_free) coordinates less their reference by the free ones: supports leave no others
+    held : (n_free, n_free) stiffness of the hub's welds against turning [N m/m^2 and alike]
     sides : 2 for half a wheel, whose loads count twice; else 1
     """
 
@@ -89,6 +95,7 @@ class AncfWheel:
     ties: TieLine
     ground: GroundPoints
     basis: csc_array
+    held: csc_array
     sides: float
 
     def coordinates(self, free: Array) -> Array:
@@ -167,21 +174,19 @@ def build_ancf_wheel(
     draft = _Draft(levels=levels)
     ring = rim_ring(design, size)
     breaks, rim_plates, ground = _add_rim(draft, design, ring)
-    ties, clamped = list[tuple[Index, Index, float]](), list[tuple[Index, float]]()
+    ties, ends = list[TieLine](), list[HubEnd]()
     for springs in design.spring_sets:
-        _add_springs(draft, design, springs, size, (ring, breaks, rim_plates), (ties, clamped))
+        _add_springs(draft, design, springs, size, (ring, breaks, rim_plates), (ties, ends))
     nodes = np.concatenate(draft.nodes)
     plates = ThinPlates(nodes, np.concatenate(draft.plates), np.concatenate(draft.sizes), draft.layers)
+    basis = free_basis(nodes, ends, symmetric=half_width)
     return AncfWheel(
         plates=plates,
         parts=np.array(draft.parts),
-        ties=TieLine(
-            spring=np.concatenate([s for s, _, _ in ties]),
-            rim=np.concatenate([r for _, r, _ in ties]),
-            offset=np.concatenate([np.full(len(s), d) for s, _, d in ties]),
-        ),
+        ties=TieLine(**{name: np.concatenate([getattr(tie, name) for tie in ties]) for name in TieLine.__slots__}),
         ground=ground,
-        basis=_basis(nodes, clamped, symmetric=half_width),
+        basis=basis,
+        held=csc_array(basis.T @ hub_stiffness(plates, ends) @ basis),
         sides=2.0 if half_width else 1.0,
     )
 
@@ -277,22 +282,26 @@ def _add_springs(
     springs: SpringSet,
     size: MeshSize,
     rim: tuple[Ring, Index, Index],
-    found: tuple[list[tuple[Index, Index, float]], list[tuple[Index, float]]],
+    found: tuple[list[TieLine], list[HubEnd]],
 ) -> None:
     ring, breaks, rim_plates = rim
-    ties, clamped = found
+    ties, ends = found
     gap = design.outer_hub.outer_radius, design.tire.inner_radius
     half = 0.5 * weld_angle(springs, design.tire.inner_radius)
     offset = 0.5 * (design.tire.thickness + springs.thickness)
     layer = Layer(material=springs.material, thickness=springs.thickness)
+    turning = [
+        turning_stiffness(springs.material, springs.thickness, ratio)
+        for ratio in (springs.thickness / design.tire.thickness, RIGID_RATIO)
+    ]
     for station in station_angles(springs):
         for side in leg_sides(springs):
             leg = spring_leg(springs, gap, station, side)
             count = size.refined(max(_LEAST_PER_LEG, math.ceil(leg.length / size.of(springs.name) - 1e-6)))
-            ends = np.column_stack([-leg.normals[[0, -1], 1], leg.normals[[0, -1], 0]])
-            ends *= np.sign(ends[0] @ (leg.points[1] - leg.points[0]))
+            along = np.column_stack([-leg.normals[[0, -1], 1], leg.normals[[0, -1], 0]])
+            along *= np.sign(along[0] @ (leg.points[1] - leg.points[0]))
             arc = np.linspace(0.0, leg.length, len(leg.points))
-            line = CubicSpline(arc, leg.points, bc_type=((1, ends[0]), (1, ends[1])))
+            line = CubicSpline(arc, leg.points, bc_type=((1, along[0]), (1, along[1])))
             at = np.linspace(0.0, leg.length, count + 1)
             tangents = line(at, 1) / np.linalg.norm(line(at, 1), axis=1)[:, None]
             first = breaks[ring.index(station + side * half)]
@@ -300,28 +309,8 @@ def _add_springs(
                 steps = np.full(count, leg.length / count)
                 numbers, plates = draft.add_strip(springs.name, (line(at), tangents), steps, columns)
                 draft.layers += [(layer,)] * plates.size
-                ties.append((plates[0], rim_plates[first, columns.start : columns.stop], offset))
-                clamped.append((numbers[-1], station + side * half))
-
-
-def _basis(nodes: Array, clamped: list[tuple[Index, float]], *, symmetric: bool) -> csc_array:
-    """Columns of free coordinates: clamped edges keep place and tangent plane, the plane of symmetry its mirror."""
-    frames = np.broadcast_to(np.eye(3), (len(nodes), 3, 3)).copy()
-    free = np.ones((len(nodes), 4, 3), dtype=bool)
-    for numbers, angle in clamped:
-        radial, around = polar(1.0, angle), np.array([math.cos(angle), math.sin(angle)])
-        frames[numbers] = np.array([[around[0], 0.0, radial[0]], [0.0, 1.0, 0.0], [around[1], 0.0, radial[1]]])
-        free[numbers[:, None], [0, 2]] = False
-        free[numbers[:, None], [1, 3], 2] = False
-    if symmetric:
-        middle = np.abs(nodes[:, 0, 1]) < 1e-12
-        free[middle, 0, 1] = free[middle, 1, 1] = False
-        for k in (2, 3):
-            free[middle, k, 0] = free[middle, k, 2] = False
-    node, slot, local = np.nonzero(free)
-    rows = (12 * node + 3 * slot)[:, None] + np.arange(3)
-    values = frames[node, :, local]
-    columns = np.repeat(np.arange(len(node)), 3)
-    kept = values.ravel() != 0.0
-    shape = (12 * len(nodes), len(node))
-    return csc_array((values.ravel()[kept], (rows.ravel()[kept], columns[kept])), shape=shape)
+                on_rim = rim_plates[first, columns.start : columns.stop]
+                same = np.ones(len(on_rim))
+                tie = TieLine(spring=plates[0], rim=on_rim, offset=offset * same, turning=turning[0] * same)
+                ties.append(tie)
+                ends.append(HubEnd(numbers[-1], plates[-1], station + side * half, turning[1]))

@@ -30,9 +30,11 @@ Mixed = tuple[list[Array], Array, Array]
 
 _TIE_POINTS = 4
 _TIE_STIFFNESS = 1e3
-"""Of a tie, in t E / length of the spring's plate for places and t E length for turns [-]."""
+"""Of a tie, in t E / length of the spring's plate [-]."""
 _REACH = 10e-3
 """Gap up to which a point may touch within one step [m]."""
+_LOWEST = 1e-6
+"""Height above the lowest point up to which points are taken to touch first [m]."""
 _LEAST_WORK = 1e-9
 """Work that residuals are held against at least [N m]."""
 
@@ -100,19 +102,19 @@ class WheelOnPlane:
         at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
         at = 0.5 + 0.5 * at
         rows = [
-            np.stack([shape_tables(_size(plates.sizes[k]), 0.0 * at, at)[:, :3] for k in which])
+            np.stack([shape_tables(plates.sizes[k], 0.0 * at, at)[:, :3] for k in which])
             for which in (ties.spring, ties.rim)
         ]
         self._ties = ties.spring, ties.rim, ties.offset, rows[0], rows[1]
         layers = [plates.layers[k][0] for k in ties.spring]
         stiff = _TIE_STIFFNESS * np.array([layer.material.young_modulus * layer.thickness for layer in layers])
         length, width = plates.sizes[ties.spring].T
-        share = 0.5 * weight[None] * (stiff * width)[:, None]
-        self._weights = share / length[:, None], share * length[:, None]
+        share = 0.5 * weight[None] * width[:, None]
+        self._weights = share * (stiff / length)[:, None], share * ties.turning[:, None]
         tables = np.empty((len(ground.plate), 3, 16))
         for k in np.unique(ground.plate):
             of = ground.plate == k
-            tables[of] = shape_tables(_size(plates.sizes[k]), *ground.at[of].T)[:, :3]
+            tables[of] = shape_tables(plates.sizes[k], *ground.at[of].T)[:, :3]
         self._ground = ground.plate, ground.height, ground.area, tables
         self._tie_numbers = np.concatenate([plates.numbers[ties.spring], plates.numbers[ties.rim]], axis=1)
         self._find_pattern()
@@ -135,7 +137,7 @@ class WheelOnPlane:
         mixed: Mixed = *self._extrapolated(free, np.zeros_like(free)), start.pressed
         while True:
             system = self._linearised(free, deflection, mixed)
-            touching = system.gaps < 0.0
+            touching = system.gaps < 0.0 if residuals else self._touching(system, start)
             G = system.slopes[np.flatnonzero(touching)]
             matrix = csc_array(system.tangent + G.T @ csr_array(G * system.stiffness[touching, None]))
             try:
@@ -167,6 +169,11 @@ class WheelOnPlane:
             mixed = *self._extrapolated(free, step), pressed
             free = free + step
 
+    def _touching(self, system: _System, start: Equilibrium) -> NDArray[np.bool_]:
+        """First guess: what touched before; at first touch the lowest points (nearly all gaps are negative there)."""
+        before = start.pressed[system.near] > 0.0
+        return before if before.any() else np.asarray(system.gaps < system.gaps.min() + _LOWEST)
+
     def _gaps(self, q: Array, pressed: Array | None = None, blocks: Array | None = None) -> tuple[Array, Array]:
         count = len(self._ground[0])
         found = np.empty(count), np.empty((count, 16, 3))
@@ -194,14 +201,15 @@ class WheelOnPlane:
         total += np.bincount(self._tie_numbers.ravel(), weights=tie_force.ravel(), minlength=plates.size)
         data = np.bincount(self._place, weights=np.concatenate([blocks.ravel(), tie_blocks.ravel()]))
         matrix = csc_array((data, self._indices, self._starts), shape=(plates.size, plates.size))
+        held = self.wheel.held @ free
         return _System(
-            residual=T.T @ total,
-            tangent=csc_array(T.T @ matrix @ T),
+            residual=T.T @ total + held,
+            tangent=csc_array(T.T @ matrix @ T + self.wheel.held),
             gaps=gaps[near],
             slopes=csr_array(G @ T),
             stiffness=self._penalty * self._ground[2][near],
             near=near,
-            energy=energy,
+            energy=energy + 0.5 * float(free @ held),
         )
 
     def _extrapolated(self, free: Array, step: Array) -> tuple[list[Array], Array]:
@@ -220,10 +228,6 @@ class WheelOnPlane:
         found, self._place = np.unique(columns * size + rows, return_inverse=True)
         self._indices = (found % size).astype(np.int32)
         self._starts = np.concatenate([[0], np.cumsum(np.bincount(found // size, minlength=size))]).astype(np.int32)
-
-
-def _size(lengths: Array) -> tuple[float, float]:
-    return float(lengths[0]), float(lengths[1])
 
 
 def press(problem: WheelOnPlane, deflections: Sequence[float], smallest_step: float = 1e-5) -> Iterator[Equilibrium]:
