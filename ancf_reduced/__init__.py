@@ -6,6 +6,7 @@ surfaces again. contact: what touches the ground.
 motion: what ties a network to a body, balances it and moves it: `motion.equilibrium`, `motion.explicit`,
 `motion.implicit`.
 tire: the airless tire, a client of the above.
+thin_plates, wheel: plates without director, and a wheel's own design as a network of them, pressed on the ground.
 fit: its parameters from measured or computed curves.
 verification: benchmarks with known answers.
 """

@@ -230,8 +230,15 @@ class WheelOnPlane:
         self._starts = np.concatenate([[0], np.cumsum(np.bincount(found // size, minlength=size))]).astype(np.int32)
 
 
-def press(problem: WheelOnPlane, deflections: Sequence[float], smallest_step: float = 1e-5) -> Iterator[Equilibrium]:
+def press(
+    problem: WheelOnPlane,
+    deflections: Sequence[float],
+    smallest_step: float = 1e-5,
+    history: list[IncrementRecord] | None = None,
+) -> Iterator[Equilibrium]:
     """Equilibria at increasing deflections [m], each from the one before; increments that fail are halved.
+
+    history : every increment is added to it, converged or not
 
     Raises
     ------
@@ -243,7 +250,7 @@ def press(problem: WheelOnPlane, deflections: Sequence[float], smallest_step: fl
     if not all(a < b for a, b in zip((0.0, *deflections), deflections, strict=False)):
         told = ", ".join(f"{1e3 * d:g}" for d in deflections)
         raise InputError("deflections", f"{told} mm", "must increase from above zero", "sort them")
-    state, history = problem.unloaded(), list[IncrementRecord]()
+    state, history = problem.unloaded(), [] if history is None else history
     for target in deflections:
         step = target - state.deflection
         while state.deflection < target:

@@ -129,3 +129,27 @@ def test_bad_input_is_refused() -> None:
         ThinPlates(nodes[:, 0], plates, sizes, LAYERS)
     with pytest.raises(InputError, match="thickness"):
         ThinPlates(nodes, plates, sizes, [[Layer(material=METAL, thickness=0.0)]])
+
+
+def test_bonded_layers_bend_as_a_laminate() -> None:
+    """Sheets t1, t2 as one plate, stretch free: rigidity A2 - A1^2 / A0 of the moments of E over the height.
+
+    Sheets that slide on one another would have the sum of their own, a fifth of it.
+    """
+    t1, t2, length, curvature = 1e-3, 0.6e-3, 40e-3, 1e-5
+    metal = replace(METAL, poisson_ratio=0.0)
+    height = 0.5 * (t1 + t2)
+    layers = [Layer(material=metal, thickness=t1), Layer(material=metal, thickness=t2, height=height)]
+    nodes, plates, sizes = flat((4, 1), (length, 10e-3))
+    network = ThinPlates(nodes, plates, sizes, [layers] * len(plates))
+    E = metal.young_modulus
+    A0, A1, A2 = E * (t1 + t2), E * t2 * height, E * (t2 * height**2 + (t1**3 + t2**3) / 12.0)
+    stretch = A1 / A0 * curvature  # of the surface: no force along the strip
+    x = nodes[:, 0, 0].copy()
+    q = nodes.copy()
+    q[:, 0, 0], q[:, 1, 0] = x * (1.0 + stretch), 1.0 + stretch
+    q[:, 0, 2], q[:, 1, 2] = 0.5 * curvature * x**2, curvature * x
+    expected = 0.5 * (A2 - A1**2 / A0) * curvature**2 * length * 10e-3
+    assert network.energy(q) == pytest.approx(expected, rel=1e-4)
+    q[:, 0, 2], q[:, 1, 2] = -q[:, 0, 2], -q[:, 1, 2]  # away from the second sheet: with this stretch far stiffer
+    assert network.energy(q) > 2.0 * expected

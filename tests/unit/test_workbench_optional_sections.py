@@ -34,6 +34,7 @@ ADDED = {
     "brush": set(),
     "mesh_study": {"mesh_study"},
     "hub_study": {"hub"},
+    "ancf_wheel": {"ancf_wheel"},
     "penalty_study": {"contact"},
     "input_uncertainty": {"input_uncertainty"},
     "verification": {"multibody", "verification", "speed"},

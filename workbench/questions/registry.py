@@ -6,6 +6,7 @@ from workbench.questions.ancf.question import ANCF
 from workbench.questions.ancf_dynamics.question import ANCF_DYNAMICS
 from workbench.questions.ancf_fit.question import ANCF_FIT
 from workbench.questions.ancf_mesh.question import ANCF_MESH
+from workbench.questions.ancf_wheel.question import ANCF_WHEEL
 from workbench.questions.contact.question import CONTACT
 from workbench.questions.crosscheck.question import CROSSCHECK
 from workbench.questions.environment.question import ENVIRONMENT
@@ -44,6 +45,7 @@ QUESTIONS: tuple[Question, ...] = (
     MESH_STUDY,
     CONTACT,
     SECTION,
+    ANCF_WHEEL,
     INPUT_UNCERTAINTY,
     HUB,
     ENVIRONMENT,

@@ -92,7 +92,7 @@ class Answers:
         """The third in one sentence."""
         may, open_ = ([m for m in self.models if m.decision == d] for d in ("yes", "undecided"))
         average = [m for m in self.models if m.decision == "no" and m.on_average == "yes"]
-        told = [", ".join(f"{m.name}, {m.range}" for m in may)] if may else []
+        told = [f"{m.name}, {m.range}" for m in may]
         told += [
             f"{words}: {_listed(found)}"
             for words, found in (("not decided", open_), ("on average alone", average))

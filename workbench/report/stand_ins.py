@@ -15,6 +15,7 @@ import numpy as np
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.ancf_fit.question import ANCF_FIT
+from workbench.questions.ancf_wheel.question import ANCF_WHEEL
 from workbench.questions.comparison import Comparison
 from workbench.questions.models.agreement import Agreement, verdict
 from workbench.questions.models.metrics import compare_curves
@@ -93,7 +94,7 @@ class StandIn:
 
 
 def stand_ins(found: Comparison) -> list[StandIn]:
-    """The thesis' tires, the section model, the fitted tires: those that the study has and that share a range."""
+    """The thesis' tires, section model, ANCF wheel, fitted tires: those the study has that share a range."""
     models = found.answers[MODELS.name]
     assert isinstance(models, ComparedModels)
     judged = []
@@ -109,6 +110,10 @@ def stand_ins(found: Comparison) -> list[StandIn]:
         judged.append(
             _stand_in(models, ("section", "Section model", "section"), section.average, section.by_orientation)
         )
+    if (runs := found.answers.get(ANCF_WHEEL.name)) is not None:
+        wheel = runs.ancf
+        named = "ancf_wheel", "ANCF wheel", "ancf_wheel"
+        judged.append(_stand_in(models, named, wheel.average, wheel.by_orientation))
     fits = found.answers.get(ANCF_FIT.name)
     for tire in () if fits is None else fits.fitted:
         words = f"fitted ANCF tire ({tire.name.replace('_', ' ')})"

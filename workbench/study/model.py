@@ -12,6 +12,7 @@ from typing import Annotated
 from pydantic import Field, PrivateAttr
 
 from contracts.errors import InputError
+from workbench.study.ancf_wheel import AncfWheelSection
 from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
@@ -52,6 +53,7 @@ class Study(WheelStudy):
     name, title : short name (file names, summary) and title of the report
     wheel, materials, mesh, fe : the wheel, its materials by name, its mesh, the continuum runs; every study has these
     ancf, brush : the reduced tires
+    ancf_wheel : the wheel itself as ANCF plates
     environment : other temperatures
     mesh_study : the meshes that give the numerical uncertainty of the FE curves
     full : what `workbench report --full` takes instead of the study's orientations and mesh
@@ -81,6 +83,7 @@ class Study(WheelStudy):
     ground: GroundSection = GroundSection()
     ancf: AncfSection | None = None
     ancf_fit: AncfFitSection | None = None
+    ancf_wheel: AncfWheelSection | None = None
     brush: BrushSection | None = None
     sweep: SweepSection | None = None
     input_uncertainty: InputUncertaintySection | None = None

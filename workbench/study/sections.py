@@ -205,6 +205,10 @@ class ToleranceSection(Section):
     """STEP surfaces of the ANCF tire against its plates [m]."""
     section_agreement: Annotated[Number, Positive] = 0.05
     """Planar against solid model, relative [-]."""
+    ancf_wheel_largest: Annotated[Number, Positive] = 0.02
+    """Load of the ANCF wheel against the solid model, largest at any orientation and point, relative [-]."""
+    ancf_wheel_mean: Annotated[Number, Positive] = 0.01
+    """The same, mean over orientations and points [-]."""
     model_agreement: Annotated[Number, Positive] = 0.10
     """ANCF, brush and the curves of [reference] against FE: relative L2 difference [-]."""
     orientation_spread: Annotated[Number, Positive] = 0.50

@@ -1,0 +1,58 @@
+"""Tasks of the ANCF wheel. Verified by tests/unit/test_workbench_ancf_wheel.py."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from workbench.execution.task import Task
+from workbench.questions.fe.graph import curve_deflections
+from workbench.questions.wheel.graph import wheel_inputs
+from workbench.study.model import Study, stated
+from workbench.study.orientation import degrees, orientation_name
+
+__all__ = ["ancf_wheel_tasks", "every_second", "has_ancf_wheel"]
+
+
+def has_ancf_wheel(study: Study) -> bool:
+    """Whether it is asked for, and the solid model's load case is one that the ANCF wheel has."""
+    fe = study.fe
+    return (
+        study.ancf_wheel is not None
+        and study.wheel.sidewall_springs is None
+        and fe.hub == "rigid"
+        and fe.friction == 0.0
+        and fe.obstacle.shape == "plane"
+        and not fe.turned
+        and fe.material_law == "st_venant_kirchhoff"
+    )
+
+
+def every_second(deflections: Sequence[float]) -> list[float]:
+    """Every second of the solid curves' points, the last one among them."""
+    return list(deflections[::-1][::2][::-1])
+
+
+def ancf_wheel_tasks(study: Study) -> list[Task]:
+    """One task an orientation of the FE runs, ``ancf_wheel_phi015``."""
+    section = stated(study.ancf_wheel, "ancf_wheel")
+    shared = {
+        "wheel": wheel_inputs(study),
+        "options": {
+            "element_size": section.element_size,
+            "axial_size": section.axial_size,
+            "half_width": study.mesh.half_width,
+        },
+        "deflections": every_second(curve_deflections(study)),
+        "max_load": study.fe.max_load,
+        "contact_stiffness": study.fe.contact_stiffness,
+    }
+    function = "workbench.questions.ancf_wheel.task:solve_orientation"
+    return [
+        Task(
+            name=orientation_name("ancf_wheel", o),
+            function=function,
+            inputs={**shared, "orientation_deg": o},
+            cost=25.0,
+        )
+        for o in map(degrees, study.fe.orientations)
+    ]

@@ -1,0 +1,66 @@
+"""Task of the ANCF wheel: its curve at one orientation. Verified by tests/end_to_end/test_report.py."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ancf_reduced.wheel.mesh import build_ancf_wheel
+from ancf_reduced.wheel.static import Equilibrium, WheelOnPlane, press
+from contracts.curves import StiffnessCurve, write_curve
+from contracts.errors import ConvergenceError, IncrementRecord
+from workbench.execution.result_files import FAILURE, write_result
+from workbench.study.wheel_design import design_from
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
+
+__all__ = ["solve_orientation"]
+
+
+def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """``curve.csv`` up to the load or deflection asked for, and ``result.json``; returns the unknowns."""
+    wheel = build_ancf_wheel(design_from(inputs["wheel"]), **inputs["options"])
+    orientation, deflections, largest = inputs["orientation_deg"], inputs["deflections"], inputs["max_load"]
+    problem = WheelOnPlane(wheel, math.radians(orientation), inputs["contact_stiffness"])
+    start, failure = time.perf_counter(), None
+    states, history = [problem.unloaded()], list[IncrementRecord]()
+    try:
+        for state in press(problem, deflections, history=history):
+            states.append(state)
+            progress(max(state.deflection / deflections[-1], state.load / largest))
+            if state.load >= largest:
+                break
+    except ConvergenceError as error:
+        failure = str(error)
+    write_curve(_curve(states, wheel.basis.shape[1], orientation, partial=failure is not None), out / "curve.csv")
+    numbers = {
+        "dofs": wheel.basis.shape[1],
+        "cells": len(wheel.plates.plates),
+        "solve_s": time.perf_counter() - start,
+        "increments": [asdict(record) for record in history],
+        FAILURE: failure,
+    }
+    write_result(out, numbers)
+    return wheel.basis.shape[1]
+
+
+def _curve(states: list[Equilibrium], unknowns: int, orientation: float, *, partial: bool) -> StiffnessCurve:
+    return StiffnessCurve(
+        model="ancf_wheel",
+        orientation_deg=orientation,
+        deflection=np.array([s.deflection for s in states]),
+        load=np.array([s.load for s in states]),
+        columns={
+            "stored_energy_J": np.array([s.energy for s in states]),
+            "negative_pivots": np.array([float(s.negative) for s in states]),
+        },
+        source=f"thin ANCF plates of the wheel, {unknowns} unknowns, deflection from first touch",
+        partial=partial,
+    )
