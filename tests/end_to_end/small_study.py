@@ -38,6 +38,7 @@ CHANGES = {
     r'on_ancf_tires = "short"': 'on_ancf_tires = "none"',
     r"\[tolerances\]": '[tolerances]\nreach_deflection = "6 mm"\nfe_energy = 0.1\nstress_uncertainty = 0.9',
     r"mesh_uncertainty = \S+": "mesh_uncertainty = 0.5",
+    r"ancf_wheel_mean = \S+": "ancf_wheel_mean = 0.02",
 }
 """Pattern in the built-in study -> what the small study has; the first match only, which is the FE's."""
 
