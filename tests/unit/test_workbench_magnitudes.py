@@ -222,11 +222,12 @@ def test_loosened_gates_are_told_in_the_verdict(tmp_path: Path) -> None:
         "tolerances.reach_deflection = 0.006 is looser than the project's own 0.03",
         "tolerances.fe_energy = 0.1 is looser than the project's own 0.01",
         "tolerances.mesh_uncertainty = 0.5 is looser than the project's own 0.05",
+        "tolerances.ancf_wheel_mean = 0.02 is looser than the project's own 0.01",
     )
-    assert "3 tolerances are the study's own: tolerances.reach_deflection = 0.006" in verdict([], loosened(study))
+    assert "4 tolerances are the study's own: tolerances.reach_deflection = 0.006" in verdict([], loosened(study))
     assert set(loosened(study)) <= set(warnings_of(study))
     other = study.model_copy(update={"reference": None})
-    assert len(loosened(other)) == 2  # reach is not asked of another wheel
+    assert len(loosened(other)) == 3  # reach is not asked of another wheel
     stricter = ToleranceSection(min_scaled_jacobian=0.3, fe_energy=1e-3, reach_load="400 N")
     assert loosened(study.model_copy(update={"tolerances": stricter})) == ()
     easier = ToleranceSection(min_scaled_jacobian=0.1)
