@@ -22,7 +22,7 @@ from workbench.study.magnitudes import GATES
 from workbench.verdict.statements import statement_of
 
 TASKS = {
-    *("mesh", "mesh_whole", "fe_phi000"),
+    *("mesh", "mesh_whole", "fe_phi000", "ancf_wheel_phi000"),
     *(f"words_{reading.name}_phi{orientation:03.0f}" for reading in READINGS for orientation in (0, 45)),
     *(f"words_hoops{which}_phi{orientation:03d}" for which in ("", "_twin") for orientation in (0, 15, 30, 45, 60)),
     "rover_still",
@@ -85,7 +85,8 @@ def test_junit_holds_the_same_checks(first_report: Finished, workspace: Path) ->
 
 def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished, workspace: Path) -> None:
     folder = workspace / "report" / "curves"
-    names = {"fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
+    names = {"ancf_wheel_phi000.csv", "ancf_wheel_average.csv",
+             "fe_phi000.csv", "fe_average.csv", "ancf_phi000.csv", "ancf_phi045.csv", "ancf_average.csv",
              "brush_average.csv", "section_phi000.csv", "section_average.csv", "words_band_average.csv",
              "fe_-40C_phi000.csv", "fe_x1.5_phi000.csv", "fe_x2_phi000.csv"}  # fmt: skip
     names |= {f"ancf_{fit}_{place}.csv" for fit in ("four_spokes", "six_spokes") for place in ("phi000", "average")}
@@ -249,7 +250,7 @@ def test_a_second_run_reuses_everything_and_a_wheel_that_fails_exits_1_if_asked(
 def test_gates_that_the_study_loosened_are_named_beside_the_verdict(first_report: Finished, workspace: Path) -> None:
     """On the page, on the terminal, in summary.md and summary.json; and every gate's tolerance is known as one."""
     words = (
-        "3 tolerances are the study's own: tolerances.reach_deflection = 0.006 is looser than the project's own 0.03"
+        "4 tolerances are the study's own: tolerances.reach_deflection = 0.006 is looser than the project's own 0.03"
     )
     folder = workspace / "report"
     page, markdown = ((folder / name).read_text(encoding="utf-8") for name in ("report.html", "summary.md"))
@@ -257,6 +258,6 @@ def test_gates_that_the_study_loosened_are_named_beside_the_verdict(first_report
     assert words in html.unescape(page)
     assert words in markdown
     assert words in " ".join(first_report.stdout.split())
-    assert len(summary["warnings"]) == 3
+    assert len(summary["warnings"]) == 4
     gates = [statement_of(c["id"], c["quantity"], c["title"]).setting for c in summary["checks"] if c["role"] == "gate"]
     assert set(gates) - {""} <= GATES.keys()
