@@ -11,6 +11,7 @@ import pytest
 from contracts.materials import TI_6AL_4V
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task, task_keys
+from workbench.questions.ancf_wheel.graph import ancf_wheel_tasks
 from workbench.questions.multibody.question import MULTIBODY
 from workbench.questions.registry import QUESTIONS
 from workbench.questions.rover.question import ROVER
@@ -102,7 +103,7 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
     closed = (VERIFICATION, MULTIBODY, ROVER, ROVER_ANCF, ROVER_CLOSER)
     verified = {task.name for question in closed for task in question.tasks(study)}
     kept = {"ancf_phi000", "ancf_phi045", "brush", "ancf_surfaces"} | refined | verified
-    kept |= {task.name for task in [*reading_tasks(study), *hoops_tasks()]}
+    kept |= {task.name for task in [*reading_tasks(study), *hoops_tasks(), *ancf_wheel_tasks(study)]}
     assert kept == set(task_keys(before)) - _new_keys(before, mesh)
 
 
