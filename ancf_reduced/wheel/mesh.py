@@ -19,6 +19,7 @@ from scipy.interpolate import CubicSpline
 from scipy.sparse import csc_array
 
 from ancf_reduced.thin_plates.plates import Layer, ThinPlates
+from ancf_reduced.wheel.ground import GroundPoints, ground_points
 from ancf_reduced.wheel.joints import RIGID_RATIO, turning_stiffness
 from ancf_reduced.wheel.supports import HubEnd, free_basis, hub_stiffness
 from contracts.errors import InputError
@@ -27,17 +28,12 @@ from geometry.resolution import MeshSize, Ring, axial_bands, axial_levels, rim_r
 from geometry.springs import leg_sides, polar, spring_leg, station_angles, weld_angle
 from geometry.wheel import WheelDesign
 
-__all__ = ["AncfWheel", "GroundPoints", "TieLine", "build_ancf_wheel"]
+__all__ = ["AncfWheel", "TieLine", "build_ancf_wheel"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 _AXLE = np.array([0.0, 1.0, 0.0])
 _LEAST_PER_LEG = 8
-_ACROSS = 4
-"""Contact points of a plate along the axle."""
-_APART = 1.5e-3
-"""Largest distance of contact points around the rim [m]."""
-_LOBATTO = np.array([-1.0, 0.0, 1.0]), np.array([1.0, 4.0, 1.0]) / 6.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -55,24 +51,6 @@ class TieLine:
     rim: Index
     offset: Array
     turning: Array
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class GroundPoints:
-    """Points that may touch the ground.
-
-    Attributes
-    ----------
-    plate : (n,) plates
-    at : (n, 2) places (u, v) in them
-    height : (n,) above the plate's middle, along its normal [m]
-    area : (n,) [m^2]
-    """
-
-    plate: Index
-    at: Array
-    height: Array
-    area: Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -229,7 +207,7 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Ind
                 fin = (Layer(material=fins.material, thickness=fins.height, height=height),)
             draft.layers.append((own, *welds.get((int(i), j), ()), *fin))
     ground = [
-        _ground_points(design, plates[row], draft.sizes[-1].reshape(*plates.shape, 2)[row], int(i) in inside)
+        ground_points(design, plates[row], draft.sizes[-1].reshape(*plates.shape, 2)[row], int(i) in inside)
         for row, i in enumerate(of)
     ]
     fields = {name: np.concatenate([getattr(g, name) for g in ground]) for name in GroundPoints.__slots__}
@@ -249,31 +227,6 @@ def _weld_layers(draft: _Draft, design: WheelDesign, ring: Ring) -> dict[tuple[i
                 for columns in _columns(draft, springs.bands):
                     found |= {(i, j): (*found.get((i, j), ()), layer) for j in columns}
     return found
-
-
-def _ground_points(design: WheelDesign, plates: Index, sizes: Array, fin: bool) -> GroundPoints:
-    """Points of one row of the rim's plates: on its outer face, or on the tip of a grouser."""
-    tire, fins = design.tire, design.grousers
-    middle = 0.5 * (tire.inner_radius + tire.outer_radius)
-    length = float(sizes[0, 0])
-    if fin and fins is not None:
-        height, around = 0.5 * tire.thickness + fins.height, _LOBATTO
-    else:
-        n = max(1, math.ceil(length / _APART))
-        height, around = 0.5 * tire.thickness, ((2.0 * np.arange(n) + 1.0) / n - 1.0, np.full(n, 1.0 / n))
-    y, w = np.polynomial.legendre.leggauss(_ACROSS)
-    place = np.stack(np.meshgrid(0.5 + 0.5 * around[0], 0.5 + 0.5 * y, indexing="ij"), axis=-1).reshape(-1, 2)
-    share = np.outer(around[1], 0.5 * w).ravel()
-    along = fins.thickness if fin and fins is not None else length * tire.outer_radius / middle
-    if fin and fins is not None:  # the tip is as wide as the foot, the rays between them are not
-        place[:, 0] = 0.5 + (place[:, 0] - 0.5) * fins.thickness / length * middle / (tire.outer_radius + fins.height)
-    count = len(share)
-    return GroundPoints(
-        plate=np.repeat(plates, count),
-        at=np.tile(place, (len(plates), 1)),
-        height=np.full(count * len(plates), -height),
-        area=np.concatenate([share * along * b for b in sizes[:, 1]]),
-    )
 
 
 def _add_springs(

@@ -12,6 +12,7 @@ from scipy.optimize import minimize
 from scipy.sparse import csr_array
 
 from ancf_reduced.wheel.contact_step import settle
+from ancf_reduced.wheel.kernels import tie_terms
 from ancf_reduced.wheel.mesh import build_ancf_wheel
 from ancf_reduced.wheel.static import Equilibrium, WheelOnPlane, press
 from contracts.errors import InputError
@@ -117,3 +118,26 @@ def test_bad_input_is_refused(problem: WheelOnPlane) -> None:
         WheelOnPlane(problem.wheel, 0.0, contact_stiffness=0.0)
     with pytest.raises(InputError, match="must increase"):
         next(press(problem, [2e-3, 1e-3]))
+
+
+def test_half_of_the_wheel_counts_twice(pressed: list[Equilibrium]) -> None:
+    """The whole width carries what its half with a plane of symmetry says, in load and energy."""
+    whole = build_ancf_wheel(small(), element_size=40e-3, axial_size=60e-3, half_width=False)
+    (found,) = press(WheelOnPlane(whole, 0.0), [pressed[0].deflection])
+    assert found.load == pytest.approx(pressed[0].load, rel=1e-6)
+    assert found.energy == pytest.approx(pressed[0].energy, rel=1e-6)
+
+
+def test_a_tied_edge_turns_against_its_welds_stiffness(problem: WheelOnPlane) -> None:
+    """First edges of springs turned by a small angle, all else at rest: half of stiffness, width and its square."""
+    plates, ties, angle = problem.wheel.plates, problem.wheel.ties, 1e-3
+    q = plates.reference.copy()
+    for spring, rim in zip(ties.spring, ties.rim, strict=True):
+        for corner in (0, 1):
+            _, a, b, _ = plates.reference[plates.plates[rim, corner]]
+            place = plates.plates[spring, corner]
+            q[place, 1] = plates.reference[place, 1] + angle * np.cross(a, b)
+    force, none = np.zeros((len(ties.spring), 32, 3)), np.zeros((0, 32, 3, 32, 3))
+    energy = tie_terms(q, plates.plates, problem._ties, problem._weights, np.zeros((0, 4, 4)), force, none)
+    expected = 0.5 * float((ties.turning * plates.sizes[ties.spring, 1]).sum()) * angle**2
+    assert energy == pytest.approx(expected, rel=1e-6)

@@ -14,6 +14,7 @@ from workbench.questions.ancf_wheel.question import ANCF_WHEEL
 from workbench.questions.ancf_wheel.results import AncfWheelRuns, differences
 from workbench.questions.fe.graph import curve_deflections
 from workbench.questions.model_curves import ModelCurves, RunNumbers
+from workbench.study.magnitudes import warnings_of
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
@@ -106,4 +107,6 @@ def test_what_its_model_does_not_have_is_not_asked(study: Study, section: str, k
     changed = study.model_copy(update={section: getattr(study, section).model_copy(update={key: value})})
     assert ANCF_WHEEL.applies(study)
     assert not ANCF_WHEEL.applies(changed)
+    assert [told for told in warnings_of(changed) if told.startswith("[ancf_wheel] has no effect")]
+    assert not [told for told in warnings_of(study) if "ancf_wheel" in told]
     assert not ANCF_WHEEL.applies(study.model_copy(update={"ancf_wheel": None}))

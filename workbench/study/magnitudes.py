@@ -17,6 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from contracts.errors import InputError
 from contracts.ranges import Key, Oddity, RangeTable, dotted, oddities, range_table
+from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.key_units import nameless
 from workbench.study.model import DATA, Study
 from workbench.study.quantities import to_si
@@ -132,6 +133,8 @@ def _idle(study: Study) -> Iterator[str]:
     for key in sorted(study.tolerances.model_fields_set):
         if not _asked(study, key):
             yield f"tolerances.{key} has no effect: its check needs {_NEEDED[key]}"
+    if study.ancf_wheel is not None and (lacking := without_ancf_wheel(study)) is not None:
+        yield f"[ancf_wheel] has no effect: its model does not have {lacking}; remove it, or the other"
     tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None
     if study.of_the_thesis and not (tires and len(study.wheel.springs) > 1):
         needs = "[ancf] with thesis_preset, [brush] and two sets of springs"

@@ -10,21 +10,7 @@ from workbench.questions.wheel.graph import wheel_inputs
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
 
-__all__ = ["ancf_wheel_tasks", "every_second", "has_ancf_wheel"]
-
-
-def has_ancf_wheel(study: Study) -> bool:
-    """Whether it is asked for, and the solid model's load case is one that the ANCF wheel has."""
-    fe = study.fe
-    return (
-        study.ancf_wheel is not None
-        and study.wheel.sidewall_springs is None
-        and fe.hub == "rigid"
-        and fe.friction == 0.0
-        and fe.obstacle.shape == "plane"
-        and not fe.turned
-        and fe.material_law == "st_venant_kirchhoff"
-    )
+__all__ = ["ancf_wheel_tasks", "every_second"]
 
 
 def every_second(deflections: Sequence[float]) -> list[float]:

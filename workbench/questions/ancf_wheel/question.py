@@ -14,10 +14,11 @@ import numpy as np
 from contracts.curves import StiffnessCurve
 from contracts.records import Check, Role
 from workbench.questions.ancf_wheel.figures import ancf_wheel_figures
-from workbench.questions.ancf_wheel.graph import ancf_wheel_tasks, has_ancf_wheel
+from workbench.questions.ancf_wheel.graph import ancf_wheel_tasks
 from workbench.questions.ancf_wheel.results import AncfWheelRuns
 from workbench.questions.model_curves import model_curves
 from workbench.questions.question import Question
+from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_most
@@ -70,5 +71,5 @@ ANCF_WHEEL = Question(
     checks=_checks,
     figures=ancf_wheel_figures,
     curves=_curves,
-    applies=has_ancf_wheel,
+    applies=lambda study: study.ancf_wheel is not None and without_ancf_wheel(study) is None,
 )
