@@ -12,7 +12,6 @@ from typing import Annotated
 from pydantic import Field, PrivateAttr
 
 from contracts.errors import InputError
-from workbench.study.ancf_wheel import AncfWheelSection
 from workbench.study.contact import PenaltyStudySection
 from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
@@ -21,6 +20,7 @@ from workbench.study.input_uncertainty import InputUncertaintySection
 from workbench.study.reference import INITIAL, CurveReference, ReferenceSection, told
 from workbench.study.sections import (
     AncfSection,
+    AncfWheelSection,
     BrushSection,
     FeSection,
     GroundSection,

@@ -31,6 +31,7 @@ from workbench.study.section import Positive, Section, in_key
 
 __all__ = [
     "AncfSection",
+    "AncfWheelSection",
     "BrushSection",
     "Drop",
     "Factor",
@@ -213,6 +214,19 @@ class ToleranceSection(Section):
     """ANCF, brush and the curves of [reference] against FE: relative L2 difference [-]."""
     orientation_spread: Annotated[Number, Positive] = 0.50
     """(Largest - smallest) / mean load over the orientations [-]."""
+
+
+class AncfWheelSection(Section):
+    """The wheel as thin ANCF plates, held against the solid model at ``fe.orientations``.
+
+    Asked on a plane, without friction and camber, with a rigid hub, without sidewall springs and with the law of
+    St. Venant and Kirchhoff.
+    """
+
+    element_size: Annotated[Length, Positive] = 16e-3
+    """Largest length of a plate along strips and around the rim [m]; a leg has eight plates at least."""
+    axial_size: Annotated[Length, Positive] = 18e-3
+    """Largest length of a plate along the axle [m]."""
 
 
 class GroundSection(Section):
