@@ -1,4 +1,4 @@
-"""Compiled energy, force and tangent of ties and of the ground. Verified by tests/unit/test_ancf_wheel_static.py."""
+"""Compiled energy, force and tangent of ties. Verified by tests/unit/test_ancf_wheel_static.py."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from ancf_reduced.compiled import compiled
 from ancf_reduced.thin_plates.kernels import normal_second, unit_normal
 
-__all__ = ["find_tie_forces", "ground_gaps", "tie_terms"]
+__all__ = ["find_tie_forces", "spread", "tie_terms", "vectors"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 
 @compiled
-def _vectors(q: Array, nodes: Index, tables: Array, out: Array) -> None:
+def vectors(q: Array, nodes: Index, tables: Array, out: Array) -> None:
     """r, a_1, a_2 (3, 3) at a point of a plate with rows tables (3, 16)."""
     for d in range(3):
         for i in range(3):
@@ -54,8 +54,8 @@ def tie_terms(
     weight, gap, held, rows = np.empty(4), np.empty(4), np.empty(4), np.zeros((5, 32))
     for t in range(springs.shape[0]):
         for p in range(by_place.shape[1]):
-            _vectors(q, plates[springs[t]], of_spring[t, p], s)
-            _vectors(q, plates[rims[t]], of_rim[t, p], m)
+            vectors(q, plates[springs[t]], of_spring[t, p], s)
+            vectors(q, plates[rims[t]], of_rim[t, p], m)
             n, J = unit_normal(m[1:])
             normal[:] = n
             d = offsets[t]
@@ -102,12 +102,12 @@ def tie_terms(
                     for j in range(6):
                         H[3 + i, 9 + j] += held[3] * turn[i, j]
                         H[9 + j, 3 + i] += held[3] * turn[i, j]
-                _spread(H, rows, tangent[t])
+                spread(H, rows, tangent[t])
     return energy
 
 
 @compiled
-def _spread(H: Array, rows: Array, out: Array) -> None:
+def spread(H: Array, rows: Array, out: Array) -> None:
     """Add rows^T H rows: H (3 n, 3 n) by vectors, rows (n, m), out (m, 3, m, 3)."""
     n, m = rows.shape
     half = np.zeros((n, 3, m, 3))
@@ -128,52 +128,6 @@ def _spread(H: Array, rows: Array, out: Array) -> None:
 
 
 @compiled
-def ground_gaps(
-    q: Array,
-    plates: Index,
-    points: tuple[Index, Array, Array, Array],
-    plane: tuple[Array, float],
-    forces: Array,
-    found: tuple[Array, Array],
-    tangent: Array,
-) -> None:
-    """Distances of points from a plane, their slopes, and what forces there add to the tangent.
-
-    Parameters
-    ----------
-    points : plates (n,), heights (n,) [m], areas (n,) [m^2], rows r, r_1, r_2 (n, 3, 16)
-    plane : unit normal to the wheel (3,), level of the plane along it [m]
-    forces : (n,) [N] of the ground on the wheel
-    found : gaps (n,) [m], negative inside the ground, and their derivatives by the plate's vectors (n, 16, 3)
-    tangent : (n_plates, 16, 3, 16, 3) added to
-    """
-    which, heights, _, tables = points
-    normal, level = plane
-    gaps, slopes = found
-    v, slope, H = np.empty((3, 3)), np.empty(9), np.zeros((9, 9))
-    second, turn = np.empty((6, 6)), np.empty((3, 6))
-    for p in range(which.shape[0]):
-        e, height = which[p], heights[p]
-        _vectors(q, plates[e], tables[p], v)
-        n, J = unit_normal(v[1:])
-        gaps[p] = -level
-        for i in range(3):
-            gaps[p] += normal[i] * (v[0, i] + height * n[i])
-        normal_second(v[1:], n, J, normal, second, turn)
-        slope[:3] = normal
-        for j in range(6):
-            slope[3 + j] = height * (normal[0] * turn[0, j] + normal[1] * turn[1, j] + normal[2] * turn[2, j])
-        for k in range(16):
-            for i in range(3):
-                slopes[p, k, i] = 0.0
-                for d in range(3):
-                    slopes[p, k, i] += slope[3 * d + i] * tables[p, d, k]
-        if forces[p] > 0.0 and tangent.shape[0]:
-            H[3:, 3:] = -forces[p] * height * second
-            _spread(H, tables[p], tangent[e])
-
-
-@compiled
 def find_tie_forces(
     q: Array,
     step: Array,
@@ -188,10 +142,10 @@ def find_tie_forces(
     second, turn, c = np.empty((6, 6)), np.empty((3, 6)), np.zeros(3)
     for t in range(springs.shape[0]):
         for p in range(out.shape[1]):
-            _vectors(q, plates[springs[t]], of_spring[t, p], s)
-            _vectors(q, plates[rims[t]], of_rim[t, p], m)
-            _vectors(step, plates[springs[t]], of_spring[t, p], ds)
-            _vectors(step, plates[rims[t]], of_rim[t, p], dm)
+            vectors(q, plates[springs[t]], of_spring[t, p], s)
+            vectors(q, plates[rims[t]], of_rim[t, p], m)
+            vectors(step, plates[springs[t]], of_spring[t, p], ds)
+            vectors(step, plates[rims[t]], of_rim[t, p], dm)
             n, J = unit_normal(m[1:])
             normal_second(m[1:], n, J, c, second, turn)
             h = 0.0

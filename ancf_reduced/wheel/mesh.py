@@ -19,7 +19,7 @@ from scipy.interpolate import CubicSpline
 from scipy.sparse import csc_array
 
 from ancf_reduced.thin_plates.plates import Layer, ThinPlates
-from ancf_reduced.wheel.ground import GroundPoints, ground_points
+from ancf_reduced.wheel.faces import FacePoints, Strips, ground_points, inner_points
 from ancf_reduced.wheel.joints import RIGID_RATIO, turning_stiffness
 from ancf_reduced.wheel.supports import HubEnd, free_basis, hub_stiffness
 from contracts.errors import InputError
@@ -62,7 +62,10 @@ class AncfWheel:
     plates : the network
     parts : (n_plates,) name of each plate's part
     ties : springs on the rim
+    strips : the strip of each plate
     ground : what may touch the ground
+    faces : what may touch the hub and other parts of the wheel
+    hub : radius and half width of the cylinder that springs may touch [m]
     basis : (12 n_nodes, n_free) coordinates less their reference by the free ones: supports leave no others
     held : (n_free, n_free) stiffness of the hub's welds against turning [N m/m^2 and alike]
     sides : 2 for half a wheel, whose loads count twice; else 1
@@ -71,7 +74,10 @@ class AncfWheel:
     plates: ThinPlates
     parts: NDArray[np.str_]
     ties: TieLine
-    ground: GroundPoints
+    strips: Strips
+    ground: FacePoints
+    faces: FacePoints
+    hub: tuple[float, float]
     basis: csc_array
     held: csc_array
     sides: float
@@ -89,13 +95,18 @@ class _Draft:
     sizes: list[Array] = field(default_factory=list)
     layers: list[tuple[Layer, ...]] = field(default_factory=list)
     parts: list[str] = field(default_factory=list)
+    strips: list[int] = field(default_factory=list)
+    facing: list[float] = field(default_factory=list)
     count: int = 0
     plate_count: int = 0
 
-    def add_strip(self, part: str, line: tuple[Array, Array], steps: Array, columns: range) -> tuple[Index, Index]:
+    def add_strip(
+        self, part: str, line: tuple[Array, Array], steps: Array, columns: range, front: Array
+    ) -> tuple[Index, Index]:
         """A strip along ``line``, points and unit tangents (m, 2) in the section; closed if it has as many steps.
 
-        columns : axial intervals it covers. Returns numbers of its nodes (m, n + 1) and plates (steps, n).
+        columns : axial intervals it covers; front : normal (2,) of its front at its beginning. Returns numbers of its
+        nodes (m, n + 1) and plates (steps, n).
         """
         points, tangents = line
         y = self.levels[columns.start : columns.stop + 1]
@@ -113,6 +124,8 @@ class _Draft:
         self.sizes.append(np.stack(grid, axis=-1).reshape(-1, 2))
         plates = self.plate_count + np.arange(len(steps) * (n - 1)).reshape(len(steps), n - 1)
         self.parts += [part] * plates.size
+        self.strips += [self.strips[-1] + 1 if self.strips else 0] * plates.size
+        self.facing += [float(np.sign(tangents[0, 0] * front[1] - tangents[0, 1] * front[0]))] * plates.size
         self.count += m * n
         self.plate_count += plates.size
         return numbers, plates
@@ -157,12 +170,20 @@ def build_ancf_wheel(
         _add_springs(draft, design, springs, size, (ring, breaks, rim_plates), (ties, ends))
     nodes = np.concatenate(draft.nodes)
     plates = ThinPlates(nodes, np.concatenate(draft.plates), np.concatenate(draft.sizes), draft.layers)
+    strips = Strips(
+        strip=np.array(draft.strips),
+        facing=np.array(draft.facing),
+        bare=np.array([all(layer.height <= 0.0 for layer in layers) for layers in draft.layers]),
+    )
     basis = free_basis(nodes, ends, symmetric=half_width)
     return AncfWheel(
         plates=plates,
         parts=np.array(draft.parts),
         ties=TieLine(**{name: np.concatenate([getattr(tie, name) for tie in ties]) for name in TieLine.__slots__}),
+        strips=strips,
         ground=ground,
+        faces=inner_points(strips, plates.sizes, np.array([layers[0].thickness for layers in draft.layers])),
+        hub=(design.outer_hub.outer_radius, 0.5 * design.outer_hub.width),
         basis=basis,
         held=csc_array(basis.T @ hub_stiffness(plates, ends) @ basis),
         sides=2.0 if half_width else 1.0,
@@ -180,7 +201,7 @@ def _columns(draft: _Draft, bands: Iterable[tuple[float, float]]) -> list[range]
     return found
 
 
-def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Index, GroundPoints]:
+def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Index, FacePoints]:
     """Returns the rim's first row of plates after each break of the ring, all its plates, and the ground's points."""
     tire, fins = design.tire, design.grousers
     middle = 0.5 * (tire.inner_radius + tire.outer_radius)
@@ -190,7 +211,7 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Ind
     points = np.array([polar(middle, a) for a in angles])
     tangents = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     columns = range(len(draft.levels) - 1)
-    _, plates = draft.add_strip("tire", (points, tangents), middle * steps, columns)
+    _, plates = draft.add_strip("tire", (points, tangents), middle * steps, columns, -points[0])
     welds = _weld_layers(draft, design, ring)
     inside = dict[int, float]()
     if fins is not None:
@@ -210,9 +231,9 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Ind
         ground_points(design, plates[row], draft.sizes[-1].reshape(*plates.shape, 2)[row], int(i) in inside)
         for row, i in enumerate(of)
     ]
-    fields = {name: np.concatenate([getattr(g, name) for g in ground]) for name in GroundPoints.__slots__}
+    fields = {name: np.concatenate([getattr(g, name) for g in ground]) for name in FacePoints.__slots__}
     first = np.concatenate([[0], np.cumsum(ring.counts)[:-1]])
-    return first, plates, GroundPoints(**fields)
+    return first, plates, FacePoints(**fields)
 
 
 def _weld_layers(draft: _Draft, design: WheelDesign, ring: Ring) -> dict[tuple[int, int], tuple[Layer, ...]]:
@@ -260,7 +281,7 @@ def _add_springs(
             first = breaks[ring.index(station + side * half)]
             for columns in _columns(draft, springs.bands):
                 steps = np.full(count, leg.length / count)
-                numbers, plates = draft.add_strip(springs.name, (line(at), tangents), steps, columns)
+                numbers, plates = draft.add_strip(springs.name, (line(at), tangents), steps, columns, leg.normals[0])
                 draft.layers += [(layer,)] * plates.size
                 on_rim = rim_plates[first, columns.start : columns.stop]
                 same = np.ones(len(on_rim))

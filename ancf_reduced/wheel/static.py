@@ -17,7 +17,8 @@ from scipy.sparse.linalg import splu
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.contact_step import settle
-from ancf_reduced.wheel.kernels import find_tie_forces, ground_gaps, tie_terms
+from ancf_reduced.wheel.contacts import GroundContact, inner_contacts, joined
+from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
 from ancf_reduced.wheel.mesh import AncfWheel
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.frames import ground_direction_h
@@ -26,13 +27,11 @@ __all__ = ["Equilibrium", "WheelOnPlane", "press"]
 
 Array = NDArray[np.float64]
 Mixed = tuple[list[Array], Array, Array]
-"""Stresses of plates, forces of ties and of the ground's points [N]."""
+"""Stresses of plates, forces of ties and of contacts [N]."""
 
 _TIE_POINTS = 4
 _TIE_STIFFNESS = 1e3
 """Of a tie, in t E / length of the spring's plate [-]."""
-_REACH = 10e-3
-"""Gap up to which a point may touch within one step [m]."""
 _LOWEST = 1e-6
 """Height above the lowest point up to which points are taken to touch first [m]."""
 _LEAST_WORK = 1e-9
@@ -50,6 +49,7 @@ class Equilibrium:
     energy : strain energy of plates and ties, of the whole wheel [J]
     free : (n_free,) coordinates
     pressed : (n_ground,) force at each of the ground's points [N]
+    inner : (n_inner,) force at each pair of a point on a spring's or the rim's face and what it may touch [N]
     negative : negative eigenvalues of the tangent, the contact's stiffness included: none where the wheel stands
     residuals : work of the residual in each step, over load times deflection [-]
     """
@@ -59,6 +59,7 @@ class Equilibrium:
     energy: float
     free: Array
     pressed: Array
+    inner: Array
     negative: int
     residuals: tuple[float, ...]
 
@@ -89,16 +90,28 @@ class WheelOnPlane:
     wheel : from `ancf_reduced.wheel.mesh.build_ancf_wheel`
     orientation : circumferential position that faces the ground [rad]
     contact_stiffness : penalty of the ground [N/m^3]
+    inner_contact_stiffness : penalty of springs, rim and hub against each other [N/m^3]; 0: they pass through
     """
 
-    def __init__(self, wheel: AncfWheel, orientation: float, contact_stiffness: float = 1e11) -> None:
+    def __init__(
+        self,
+        wheel: AncfWheel,
+        orientation: float,
+        contact_stiffness: float = 1e11,
+        inner_contact_stiffness: float = 1e11,
+    ) -> None:
         if not np.isfinite(orientation):
             raise InputError("orientation", f"{orientation} rad", "must be finite", "give an angle such as 0.785 rad")
         if not (np.isfinite(contact_stiffness) and contact_stiffness > 0.0):
             raise InputError("contact stiffness", f"{contact_stiffness:g} N/m^3", "must be > 0", "1e11 N/m^3 is usual")
+        if not (np.isfinite(inner_contact_stiffness) and inner_contact_stiffness >= 0.0):
+            told = f"{inner_contact_stiffness:g} N/m^3"
+            raise InputError("inner contact stiffness", told, "must be >= 0", "1e11 N/m^3 is usual, 0 is without")
         self.wheel = wheel
-        plates, ties, ground = wheel.plates, wheel.ties, wheel.ground
-        self._normal, self._penalty = -ground_direction_h(orientation), contact_stiffness
+        plates, ties = wheel.plates, wheel.ties
+        self._ground = GroundContact(wheel, -ground_direction_h(orientation), contact_stiffness)
+        self._inner = inner_contacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else []
+        self._counts = [contact.count for contact in (self._ground, *self._inner)]
         at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
         at = 0.5 + 0.5 * at
         rows = [
@@ -111,20 +124,14 @@ class WheelOnPlane:
         length, width = plates.sizes[ties.spring].T
         share = 0.5 * weight[None] * width[:, None]
         self._weights = share * (stiff / length)[:, None], share * ties.turning[:, None]
-        tables = np.empty((len(ground.plate), 3, 16))
-        for k in np.unique(ground.plate):
-            of = ground.plate == k
-            tables[of] = shape_tables(plates.sizes[k], *ground.at[of].T)[:, :3]
-        self._ground = ground.plate, ground.height, ground.area, tables
         self._tie_numbers = np.concatenate([plates.numbers[ties.spring], plates.numbers[ties.rim]], axis=1)
         self._find_pattern()
-        self._touch = 0.0
-        self._touch = float(self._gaps(plates.reference)[0].min())
 
     def unloaded(self) -> Equilibrium:
         """The wheel at first touch."""
-        free, pressed = np.zeros(self.wheel.basis.shape[1]), np.zeros(len(self._ground[0]))
-        return Equilibrium(deflection=0.0, load=0.0, energy=0.0, free=free, pressed=pressed, negative=0, residuals=())
+        zeros = [np.zeros(n) for n in (self.wheel.basis.shape[1], self._ground.count, sum(self._counts[1:]))]
+        state = {"free": zeros[0], "pressed": zeros[1], "inner": zeros[2]}
+        return Equilibrium(deflection=0.0, load=0.0, energy=0.0, negative=0, residuals=(), **state)
 
     def solve(
         self, deflection: float, start: Equilibrium, tolerance: float = 1e-12, limit: int = 25
@@ -134,7 +141,7 @@ class WheelOnPlane:
         tolerance : work of the residual in the next step over load times deflection; limit : steps
         """
         free, residuals = start.free, list[float]()
-        mixed: Mixed = *self._extrapolated(free, np.zeros_like(free)), start.pressed
+        mixed: Mixed = *self._extrapolated(free, np.zeros_like(free)), np.concatenate([start.pressed, start.inner])
         while True:
             system = self._linearised(free, deflection, mixed)
             touching = system.gaps < 0.0 if residuals else self._touching(system, start)
@@ -150,16 +157,18 @@ class WheelOnPlane:
             step, forces = settle(factors.solve, system.tangent.dot, system.residual, contact, touching)
             held = -system.stiffness * np.minimum(system.gaps, 0.0)
             work = abs(float((system.residual - system.slopes.T @ held) @ step))
-            residuals.append(work / max(held.sum() * deflection, _LEAST_WORK))
-            pressed = np.zeros(len(start.pressed))
+            load = float(held[system.near < self._ground.count].sum())
+            residuals.append(work / max(load * deflection, _LEAST_WORK))
+            pressed = np.zeros(sum(self._counts))
             if residuals[-1] < tolerance:
                 pressed[system.near] = held
                 return Equilibrium(
                     deflection=deflection,
-                    load=self.wheel.sides * float(held.sum()),
+                    load=self.wheel.sides * load,
                     energy=self.wheel.sides * system.energy,
                     free=free,
-                    pressed=pressed,
+                    pressed=pressed[: self._ground.count],
+                    inner=pressed[self._ground.count :],
                     negative=int((factors.U.diagonal() < 0.0).sum()),
                     residuals=tuple(residuals),
                 )
@@ -171,17 +180,8 @@ class WheelOnPlane:
 
     def _touching(self, system: _System, start: Equilibrium) -> NDArray[np.bool_]:
         """First guess: what touched before; at first touch the lowest points (nearly all gaps are negative there)."""
-        before = start.pressed[system.near] > 0.0
+        before = np.concatenate([start.pressed, start.inner])[system.near] > 0.0
         return before if before.any() else np.asarray(system.gaps < system.gaps.min() + _LOWEST)
-
-    def _gaps(self, q: Array, pressed: Array | None = None, blocks: Array | None = None) -> tuple[Array, Array]:
-        count = len(self._ground[0])
-        found = np.empty(count), np.empty((count, 16, 3))
-        forces = np.zeros(count) if pressed is None else pressed
-        added = np.empty((0, 16, 3, 16, 3)) if blocks is None else blocks
-        plates = self.wheel.plates.plates
-        ground_gaps(q, plates, self._ground, (self._normal, self._touch), forces, found, added)
-        return found
 
     def _linearised(self, free: Array, deflection: float, mixed: Mixed) -> _System:
         """The wheel about free coordinates."""
@@ -192,23 +192,24 @@ class WheelOnPlane:
         count = len(tied)
         tie_force, tie_blocks = np.zeros((count, 32, 3)), np.zeros((count, 32, 3, 32, 3))
         energy += tie_terms(q, plates.plates, self._ties, self._weights, tied, tie_force, tie_blocks)
-        gaps, slopes = self._gaps(q, pressed, blocks)
-        gaps = gaps - deflection
-        near = np.flatnonzero(gaps < _REACH)
-        columns, starts = plates.numbers[self._ground[0][near]], 48 * np.arange(len(near) + 1)
-        G = csr_array((slopes[near].ravel(), columns.ravel(), starts), shape=(len(near), plates.size))
+        shares = np.split(pressed, np.cumsum(self._counts)[:-1])
+        found = [self._ground.near(q, deflection, shares[0], blocks)]
+        found += [contact.near(q, share, blocks) for contact, share in zip(self._inner, shares[1:], strict=True)]
+        near = joined(found, self._counts)
         total = np.bincount(plates.numbers.ravel(), weights=force.ravel(), minlength=plates.size)
         total += np.bincount(self._tie_numbers.ravel(), weights=tie_force.ravel(), minlength=plates.size)
         data = np.bincount(self._place, weights=np.concatenate([blocks.ravel(), tie_blocks.ravel()]))
         matrix = csc_array((data, self._indices, self._starts), shape=(plates.size, plates.size))
+        if near.tangent is not None:
+            matrix = matrix + near.tangent
         held = self.wheel.held @ free
         return _System(
             residual=T.T @ total + held,
             tangent=csc_array(T.T @ matrix @ T + self.wheel.held),
-            gaps=gaps[near],
-            slopes=csr_array(G @ T),
-            stiffness=self._penalty * self._ground[2][near],
-            near=near,
+            gaps=near.gaps,
+            slopes=csr_array(near.slopes @ T),
+            stiffness=near.stiffness,
+            near=near.points,
             energy=energy + 0.5 * float(free @ held),
         )
 

@@ -23,8 +23,7 @@ def ancf_wheel_figures(study: Study, runs: AncfWheelRuns) -> dict[str, str]:
     for i, (curve, solid) in enumerate(runs.pairs):
         other = (i + i // 6) % 6  # the colours repeat: with other dashes and symbols
         try:
-            at, found = differences(curve, solid, touching=True)
-            free = len(differences(curve, solid)[0])
+            at, found = differences(curve, solid)
         except InputError:
             continue
         figure.add_scatter(
@@ -33,7 +32,7 @@ def ancf_wheel_figures(study: Study, runs: AncfWheelRuns) -> dict[str, str]:
             name=f"{curve.orientation_deg:g}°",
             mode="lines+markers",
             line={"color": ORIENTATION_COLOURS[i % 6], "dash": DASHES[other]},
-            marker={"symbol": [MARKERS[other] + "-open" * (k >= free) for k in range(len(at))], "size": 8},
+            marker={"symbol": MARKERS[other], "size": 8},
             hovertemplate="%{y:.2f} %",
         )
     limit = 100.0 * study.tolerances.ancf_wheel_largest

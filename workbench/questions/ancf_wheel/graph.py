@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from workbench.execution.task import Task
-from workbench.questions.fe.graph import curve_deflections
+from workbench.questions.fe.graph import INNER_STIFFNESS, curve_deflections
 from workbench.questions.wheel.graph import wheel_inputs
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
@@ -31,6 +31,7 @@ def ancf_wheel_tasks(study: Study) -> list[Task]:
         "deflections": every_second(curve_deflections(study)),
         "max_load": study.fe.max_load,
         "contact_stiffness": study.fe.contact_stiffness,
+        "inner_contact_stiffness": INNER_STIFFNESS if study.fe.inner_contact else 0.0,
     }
     function = "workbench.questions.ancf_wheel.task:solve_orientation"
     return [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,44 +12,46 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves, RunNumbers
 
-__all__ = ["AncfWheelRow", "AncfWheelRuns", "differences"]
+__all__ = ["AncfWheelRow", "AncfWheelRuns", "differences", "energy_differences"]
 
 Array = NDArray[np.float64]
-_INNER = "inner_penetration_m"
-"""Of the solid model's own parts: the ANCF wheel has no contact of springs with rim and hub."""
+_ENERGY = "stored_energy_J"
 
 
-def differences(curve: StiffnessCurve, solid: StiffnessCurve, *, touching: bool = False) -> tuple[Array, Array]:
+def differences(curve: StiffnessCurve, solid: StiffnessCurve) -> tuple[Array, Array]:
     """Deflections [m] of the ANCF wheel's points and F / F_solid - 1 there [-].
-
-    touching : also where parts of the solid model touch each other; else before they first do
 
     Raises
     ------
     InputError
-        If no such point is left.
+        If no point is common to both.
     """
-    inner = solid.columns.get(_INNER)
-    free = np.ones_like(solid.load) if inner is None or touching else np.cumprod(inner <= 0.0)
-    end = float((free * solid.deflection).max())
-    common = (curve.deflection > 0.0) & (curve.deflection <= end + 1e-12)
+    common = (curve.deflection > 0.0) & (curve.deflection <= solid.deflection[-1] + 1e-12)
     if not common.any():
-        rule = "share no point with a load before springs touch rim or hub"
-        raise InputError("curves", "ancf_wheel, fe", rule, "compute them further, or closer")
+        raise InputError("curves", "ancf_wheel, fe", "share no point with a load", "compute them further, or closer")
     at = curve.deflection[common]
     return at, curve.load[common] / solid.load_at(np.minimum(at, solid.deflection[-1])) - 1.0
 
 
+def energy_differences(curve: StiffnessCurve, solid: StiffnessCurve) -> Array:
+    """The same of the strain energy, W / W_solid - 1 [-]; raises InputError where a curve does not have it."""
+    at, _ = differences(curve, solid)
+    if not all(_ENERGY in one.columns for one in (curve, solid)):
+        raise InputError("curves", "ancf_wheel, fe", f"do not both have {_ENERGY}", "compute them anew")
+    energy = [np.interp(at, one.deflection, one.columns[_ENERGY]) for one in (curve, solid)]
+    return np.asarray(energy[0] / energy[1] - 1.0)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AncfWheelRow:
-    """One orientation: runs of both models; largest difference, its sign kept [-], and up to where [m]; then of all."""
+    """One orientation: runs of both models; largest differences of load and energy, their signs kept [-]."""
 
     orientation: float
     ancf: RunNumbers
     fe: RunNumbers
     difference: float | None
     end: float | None
-    whole: float | None
+    energy: float | None
     negative: int
 
 
@@ -65,9 +68,10 @@ class AncfWheelRuns:
         solid = self.fe.loaded
         return [(curve, solid[o]) for o, curve in self.ancf.loaded.items() if o in solid]
 
-    def all_differences(self, *, touching: bool = False) -> Array:
-        """At every point of every orientation; raises InputError if one has none, or no orientation is common."""
-        found = [differences(*pair, touching=touching)[1] for pair in self.pairs]
+    def all_differences(self, of: Callable[[StiffnessCurve, StiffnessCurve], Array] | None = None) -> Array:
+        """Of load, or of what else, at every point of every orientation; InputError if one has none."""
+        find = of or (lambda curve, solid: differences(curve, solid)[1])
+        found = [find(*pair) for pair in self.pairs]
         if len(found) < len(self.ancf.by_orientation) or not found:
             raise InputError("curves", "ancf_wheel, fe", "are not there at every orientation", "see their runs")
         return np.concatenate(found)
@@ -79,22 +83,25 @@ class AncfWheelRuns:
 
     def _row(self, curve: StiffnessCurve, solid: StiffnessCurve) -> AncfWheelRow:
         assert curve.orientation_deg is not None
-        before, whole = _largest(curve, solid, touching=False), _largest(curve, solid, touching=True)
+        at = _or_none(lambda: differences(curve, solid)[0])
         return AncfWheelRow(
             orientation=curve.orientation_deg,
             ancf=self.ancf.runs[curve.orientation_deg],
             fe=self.fe.runs[curve.orientation_deg],
-            difference=None if before is None else before[0],
-            end=None if before is None else before[1],
-            whole=None if whole is None else whole[0],
+            difference=_largest(_or_none(lambda: differences(curve, solid)[1])),
+            end=None if at is None else float(at[-1]),
+            energy=_largest(_or_none(lambda: energy_differences(curve, solid))),
             negative=int(curve.columns["negative_pivots"].max()) if "negative_pivots" in curve.columns else 0,
         )
 
 
-def _largest(curve: StiffnessCurve, solid: StiffnessCurve, *, touching: bool) -> tuple[float, float] | None:
-    """Largest difference [-] and the last deflection [m]; None where nothing is in common."""
+def _or_none(find: Callable[[], Array]) -> Array | None:
+    """What is found; None where nothing is in common."""
     try:
-        at, found = differences(curve, solid, touching=touching)
+        return find()
     except InputError:
         return None
-    return float(found[np.abs(found).argmax()]), float(at[-1])
+
+
+def _largest(found: Array | None) -> float | None:
+    return None if found is None else float(found[np.abs(found).argmax()])

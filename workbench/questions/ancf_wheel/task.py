@@ -28,7 +28,8 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
     """``curve.csv`` up to the load or deflection asked for, and ``result.json``; returns the unknowns."""
     wheel = build_ancf_wheel(design_from(inputs["wheel"]), **inputs["options"])
     orientation, deflections, largest = inputs["orientation_deg"], inputs["deflections"], inputs["max_load"]
-    problem = WheelOnPlane(wheel, math.radians(orientation), inputs["contact_stiffness"])
+    stiffness = inputs["contact_stiffness"], inputs["inner_contact_stiffness"]
+    problem = WheelOnPlane(wheel, math.radians(orientation), *stiffness)
     start, failure = time.perf_counter(), None
     states, history = [problem.unloaded()], list[IncrementRecord]()
     try:

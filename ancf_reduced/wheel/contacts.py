@@ -1,0 +1,233 @@
+"""Contact of an ANCF wheel: rim and grousers with the ground; springs, rim and hub with each other.
+
+Each contact is a row: a gap, its slopes, a penalty. Points on the faces of springs are held off the rim's inside, off
+the hub, and off the springs beside them, with one penalty stiffness as in the solid model. Verified by
+tests/unit/test_ancf_wheel_contacts.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csc_array, csr_array, vstack
+
+from ancf_reduced.thin_plates.shape_functions import shape_tables
+from ancf_reduced.wheel.closest import PlateFace
+from ancf_reduced.wheel.contact_kernels import Faces, face_points, plate_gaps, rigid_gaps
+from ancf_reduced.wheel.faces import FacePoints
+from ancf_reduced.wheel.mesh import AncfWheel
+
+__all__ = ["GroundContact", "HubContact", "Near", "PlateContact", "inner_contacts", "joined"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+_REACH = 10e-3
+"""Gap up to which a point may touch the ground within one step [m]."""
+_INNER_REACH = 2e-3
+"""The same between parts of the wheel [m]."""
+_LEAST_GAP = 10e-6
+"""Points closer than this to a face at the beginning, beside a weld, are left out [m]."""
+_DEPTH = 5e-3
+"""How far behind a face a point is still held off [m]."""
+_FACING = 0.5
+"""Largest cosine between the normals of a point's face and of the one it touches [-]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Near:
+    """Points that may touch within a step: their numbers, gaps [m], slopes (n, size), penalties [N/m], tangent."""
+
+    points: Index
+    gaps: Array
+    slopes: csr_array
+    stiffness: Array
+    tangent: csc_array | None = None
+
+
+def joined(parts: Sequence[Near], counts: Sequence[int]) -> Near:
+    """All of them, with numbers that follow one another."""
+    starts = np.concatenate([[0], np.cumsum(counts)])[:-1]
+    tangents = [part.tangent for part in parts if part.tangent is not None]
+    return Near(
+        points=np.concatenate([part.points + start for part, start in zip(parts, starts, strict=True)]),
+        gaps=np.concatenate([part.gaps for part in parts]),
+        slopes=csr_array(vstack([part.slopes for part in parts], format="csr")),
+        stiffness=np.concatenate([part.stiffness for part in parts]),
+        tangent=csc_array(sum(tangents[1:], tangents[0])) if tangents else None,
+    )
+
+
+class _Points:
+    """Points on faces, as kernels take them."""
+
+    def __init__(self, wheel: AncfWheel, points: FacePoints) -> None:
+        self.plates = wheel.plates
+        self.area = points.area
+        tables = shape_tables(wheel.plates.sizes[points.plate].T, *points.at.T)[:, :3]
+        self.faces: Faces = points.plate, points.height, np.ascontiguousarray(tables)
+
+    def of(self, which: Index) -> Faces:
+        """Some of them."""
+        plate, height, tables = self.faces
+        return plate[which], height[which], tables[which]
+
+    def at(self, q: Array, which: Index | None = None) -> tuple[Array, Array]:
+        """Places (n, 3) [m] and outward normals (n, 3)."""
+        faces = self.faces if which is None else self.of(which)
+        places, normals = np.empty((len(faces[0]), 3)), np.empty((len(faces[0]), 3))
+        face_points(q, self.plates.plates, faces, places, normals)
+        return places, normals
+
+    def rigid(
+        self, q: Array, near: Index, gaps: Array, surface: tuple[Array, Array], held: tuple[float, Array, Array]
+    ) -> Near:
+        """Contacts of points ``near`` with a rigid surface; held: penalty [N/m^3], forces of all points, blocks."""
+        penalty, forces, blocks = held
+        slopes = np.empty((len(near), 16, 3))
+        rigid_gaps(q, self.plates.plates, self.of(near), surface, forces[near], slopes, blocks)
+        columns, starts = self.plates.numbers[self.faces[0][near]], 48 * np.arange(len(near) + 1)
+        G = csr_array((slopes.ravel(), columns.ravel(), starts), shape=(len(near), self.plates.size))
+        return Near(near, gaps, G, penalty * self.area[near])
+
+
+class GroundContact:
+    """Rim and grousers on a rigid plane with unit normal to the wheel (3,); level 0 is the first touch."""
+
+    def __init__(self, wheel: AncfWheel, normal: Array, penalty: float) -> None:
+        self._points, self._normal, self._penalty = _Points(wheel, wheel.ground), normal, penalty
+        self.count = len(wheel.ground.plate)
+        self._touch = float((self._points.at(wheel.plates.reference)[0] @ normal).min())
+
+    def near(self, q: Array, level: float, forces: Array, blocks: Array) -> Near:
+        """Points within reach of the plane ``level`` [m] above the first touch; adds to blocks what forces add."""
+        gaps = self._points.at(q)[0] @ self._normal - self._touch - level
+        near = np.flatnonzero(gaps < _REACH)
+        surface = np.tile(self._normal, (len(near), 1)), np.zeros((len(near), 3, 3))
+        return self._points.rigid(q, near, gaps[near], surface, (self._penalty, forces, blocks))
+
+
+class HubContact:
+    """Springs and rim on the hub: a cylinder about the axle."""
+
+    def __init__(self, wheel: AncfWheel, penalty: float) -> None:
+        self._points, self._radius, self._penalty = _Points(wheel, wheel.faces), wheel.hub[0], penalty
+        self.count = len(wheel.faces.plate)
+        places = self._points.at(wheel.plates.reference)[0]
+        self._asked = np.flatnonzero((self._gaps(places) > _LEAST_GAP) & (np.abs(places[:, 1]) <= wheel.hub[1]))
+
+    def _gaps(self, places: Array) -> Array:
+        return np.asarray(np.hypot(places[:, 0], places[:, 2]) - self._radius)
+
+    def near(self, q: Array, forces: Array, blocks: Array) -> Near:
+        places, _ = self._points.at(q, self._asked)
+        gaps = self._gaps(places)
+        kept = np.flatnonzero((gaps < _INNER_REACH) & (gaps > -_DEPTH))
+        outwards = places[kept] * [1.0, 0.0, 1.0]
+        rho = np.linalg.norm(outwards, axis=1)
+        normals = outwards / rho[:, None]
+        flat = np.diag([1.0, 0.0, 1.0]) - normals[:, :, None] * normals[:, None, :]
+        surface = normals, flat / rho[:, None, None]
+        held = self._penalty, forces, blocks
+        return self._points.rigid(q, self._asked[kept], gaps[kept], surface, held)
+
+
+class PlateContact:
+    """Some points on the faces of some plates.
+
+    Parameters
+    ----------
+    points : numbers of the faces' points
+    face : what they may touch
+    """
+
+    def __init__(self, wheel: AncfWheel, points: Index, face: PlateFace, penalty: float) -> None:
+        self._points, self._of, self._face, self._penalty = _Points(wheel, wheel.faces), points, face, penalty
+        self.count = len(points)
+        self._asked = np.arange(len(points))
+        numbers, gaps = self._found(wheel.plates.reference, _LEAST_GAP)[:2]
+        self._asked = np.setdiff1d(self._asked, numbers[gaps < _LEAST_GAP])
+
+    def _found(self, q: Array, reach: float) -> tuple[Index, Array, Index, Array]:
+        """Numbers among the points, gaps, plates and their rows of what is nearer than ``reach`` [m]."""
+        face, plates = self._face, self._points.plates
+        which = self._of[self._asked]
+        places, normals = self._points.at(q, which)
+        thickest = float(np.abs(face.heights[face.which]).max(initial=0.0))
+        span = float(np.linalg.norm(plates.sizes[face.which].max(axis=0, initial=0.0))) / 4.0
+        number, plate, rows = face.closest(q, places, max(reach, _DEPTH) + thickest + span)
+        local = q[plates.plates[plate]].reshape(len(plate), 16, 3)
+        r, r1, r2 = np.moveaxis(np.einsum("ndk,nki->ndi", rows[:, :3], local), 1, 0)
+        N = np.cross(r1, r2) * np.sign(face.heights[plate])[:, None]
+        N /= np.linalg.norm(N, axis=1)[:, None]
+        gaps = ((places[number] - r) * N).sum(axis=1) - np.abs(face.heights[plate])
+        cosine = (normals[number] * N).sum(axis=1)
+        kept = (gaps < reach) & (gaps > -_DEPTH) & (cosine < _FACING)
+        return self._asked[number[kept]], gaps[kept], plate[kept], rows[kept]
+
+    def near(self, q: Array, forces: Array, blocks: Array) -> Near:
+        """Contacts within reach, with the tangent of two plates each that forces (count,) add."""
+        plates, points = self._points.plates, self._points.of(self._of)
+        numbers, gaps, other, rows = self._found(q, _INNER_REACH)
+        own = points[0][numbers]
+        pairs, block = np.unique(np.stack([own, other], axis=-1).reshape(-1, 2), axis=0, return_inverse=True)
+        slopes, tangent = np.empty((len(numbers), 32, 3)), np.zeros((len(pairs), 32, 3, 32, 3))
+        masters = other, self._face.heights[other], rows
+        plate_gaps(
+            q,
+            plates.plates,
+            (own, points[1][numbers], points[2][numbers]),
+            masters,
+            forces[numbers],
+            block.ravel(),
+            (gaps, slopes),
+            tangent,
+        )
+        columns = np.concatenate([plates.numbers[own], plates.numbers[other]], axis=1)
+        G = coo_array(
+            (slopes.ravel(), (np.repeat(np.arange(len(own)), 96), columns.ravel())), shape=(len(own), plates.size)
+        )
+        area = self._points.area[self._of[numbers]]
+        return Near(numbers, gaps, csr_array(G), self._penalty * area, self._assembled(pairs, tangent))
+
+    def _assembled(self, pairs: Index, blocks: Array) -> csc_array:
+        plates = self._points.plates
+        held = blocks.any(axis=(1, 2, 3, 4))
+        numbers = np.concatenate([plates.numbers[pairs[held, 0]], plates.numbers[pairs[held, 1]]], axis=1)
+        rows, columns = np.repeat(numbers, 96, axis=1).ravel(), np.tile(numbers, (1, 96)).ravel()
+        return csc_array(coo_array((blocks[held].ravel(), (rows, columns)), shape=(plates.size, plates.size)))
+
+
+def inner_contacts(wheel: AncfWheel, penalty: float) -> list[HubContact | PlateContact]:
+    """Springs on the hub, on the rim, and fronts and backs of springs on those of the strips beside them."""
+    strips, faces, plates = wheel.strips, wheel.faces, wheel.plates
+    thickness = np.array([layers[0].thickness for layers in plates.layers])
+    front = 0.5 * thickness * strips.facing
+    strip = strips.strip[faces.plate]
+    in_front = faces.height * strips.facing[faces.plate] > 0.0
+    rim = PlateFace(plates, np.flatnonzero((strips.strip == 0) & strips.bare), front)
+    found: list[HubContact | PlateContact] = [
+        HubContact(wheel, penalty),
+        PlateContact(wheel, np.flatnonzero(in_front & (strip > 0)), rim, penalty),
+    ]
+    for one, others in _beside(wheel):
+        for side in (1.0, -1.0):
+            face = PlateFace(plates, np.flatnonzero(np.isin(strips.strip, others)), side * front)
+            points = np.flatnonzero((strip == one) & (in_front == (side > 0.0)))
+            found.append(PlateContact(wheel, points, face, penalty))
+    return found
+
+
+def _beside(wheel: AncfWheel) -> list[tuple[int, list[int]]]:
+    """Springs' strips, each with those of higher number that lie in one part of the width with it."""
+    plates, strip = wheel.plates, wheel.strips.strip
+    width = {}
+    for k in range(1, int(strip.max()) + 1):
+        y = plates.reference[plates.plates[strip == k], 0, 1]
+        width[k] = float(y.min()) + 1e-9, float(y.max()) - 1e-9
+    found = [
+        (a, [b for b in width if b > a and width[a][0] < width[b][1] and width[b][0] < width[a][1]]) for a in width
+    ]
+    return [(a, others) for a, others in found if others]
