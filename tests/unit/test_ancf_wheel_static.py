@@ -34,19 +34,25 @@ def problem() -> WheelOnPlane:
 
 
 @pytest.fixture(scope="module")
+def open_problem(problem: WheelOnPlane) -> WheelOnPlane:
+    """Its parts pass through each other: their contact is in test_ancf_wheel_contacts.py."""
+    return WheelOnPlane(problem.wheel, 0.0, inner_contact_stiffness=0.0)
+
+
+@pytest.fixture(scope="module")
 def pressed(problem: WheelOnPlane) -> list[Equilibrium]:
     return list(press(problem, [2e-3, 4e-3, 6e-3]))
 
 
-def test_residual_and_tangent_are_derivatives(problem: WheelOnPlane) -> None:
+def test_residual_and_tangent_are_derivatives(open_problem: WheelOnPlane) -> None:
     """Of plates, ties and gaps at a state that balances nothing; forces of the present state, not of a step's."""
     random = np.random.default_rng(1)
-    size = problem.wheel.basis.shape[1]
+    size = open_problem.wheel.basis.shape[1]
     free, direction = 1e-4 * random.standard_normal(size), random.standard_normal(size)
-    none = np.zeros(len(problem.wheel.ground.plate))
+    none = np.zeros(len(open_problem.wheel.ground.plate))
 
     def at(x: Array) -> tuple[float, Array, Array, Array]:
-        found = problem._linearised(x, 5e-3, (*problem._extrapolated(x, 0.0 * x), none))
+        found = open_problem._linearised(x, 5e-3, (*open_problem._extrapolated(x, 0.0 * x), none))
         return found.energy, found.residual, found.gaps, found.tangent @ direction
 
     step = 1e-7
@@ -54,25 +60,25 @@ def test_residual_and_tangent_are_derivatives(problem: WheelOnPlane) -> None:
     assert here[1] @ direction == pytest.approx((ahead[0] - behind[0]) / (2.0 * step), rel=1e-6)
     slope = (ahead[1] - behind[1]) / (2.0 * step)
     np.testing.assert_allclose(here[3], slope, atol=1e-6 * np.abs(slope).max())
-    system = problem._linearised(free, 5e-3, (*problem._extrapolated(free, 0.0 * free), none))
+    system = open_problem._linearised(free, 5e-3, (*open_problem._extrapolated(free, 0.0 * free), none))
     np.testing.assert_allclose(system.slopes @ direction, (ahead[2] - behind[2]) / (2.0 * step), rtol=1e-5, atol=1e-6)
 
 
-def test_what_forces_add_to_the_tangent_is_the_slopes_derivative(problem: WheelOnPlane) -> None:
+def test_what_forces_add_to_the_tangent_is_the_slopes_derivative(open_problem: WheelOnPlane) -> None:
     """G^T f with constant f, by differences: the ground's part of the tangent, minus sign included."""
     random = np.random.default_rng(2)
-    size = problem.wheel.basis.shape[1]
+    size = open_problem.wheel.basis.shape[1]
     free, direction = 1e-4 * random.standard_normal(size), random.standard_normal(size)
-    forces = random.random(len(problem.wheel.ground.plate))
-    stresses, tied = problem._extrapolated(free, 0.0 * free)
+    forces = random.random(len(open_problem.wheel.ground.plate))
+    stresses, tied = open_problem._extrapolated(free, 0.0 * free)
 
     def pull(x: Array) -> Array:
-        found = problem._linearised(x, 0.5, (stresses, tied, 0.0 * forces))
+        found = open_problem._linearised(x, 0.5, (stresses, tied, 0.0 * forces))
         return -(found.slopes.T @ forces[found.near])
 
     step = 1e-7
     slope = (pull(free + step * direction) - pull(free - step * direction)) / (2.0 * step)
-    loaded, bare = (problem._linearised(free, 0.5, (stresses, tied, k * forces)).tangent for k in (1.0, 0.0))
+    loaded, bare = (open_problem._linearised(free, 0.5, (stresses, tied, k * forces)).tangent for k in (1.0, 0.0))
     np.testing.assert_allclose((loaded - bare) @ direction, slope, atol=1e-5 * np.abs(slope).max())
 
 
