@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from ancf_reduced.thin_plates.plates import ThinPlates
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 
-__all__ = ["PlateFace"]
+__all__ = ["PlateFace", "neighbours"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -36,17 +36,17 @@ class PlateFace:
 
     def __init__(self, plates: ThinPlates, which: Index, heights: Array) -> None:
         self.which, self.heights = which, heights
-        self._plates = plates
+        self.plates = plates
         at = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
         self._starts = np.stack(np.meshgrid(at, at, indexing="ij"), axis=-1).reshape(-1, 2)
         self._tables = shape_tables(
             np.repeat(plates.sizes[which], len(self._starts), axis=0).T, *np.tile(self._starts, (len(which), 1)).T
         )[:, 0].reshape(len(which), len(self._starts), 16)
-        self._beside = _neighbours(plates.plates, which)
+        self._beside = neighbours(plates.plates, which)
 
     def samples(self, q: Array) -> Array:
         """Points (n, 3) [m] all over the middle surface at nodes q (n_nodes, 4, 3)."""
-        local = q[self._plates.plates[self.which]].reshape(len(self.which), 16, 3)
+        local = q[self.plates.plates[self.which]].reshape(len(self.which), 16, 3)
         return np.asarray(np.einsum("esk,eki->esi", self._tables, local).reshape(-1, 3))
 
     def closest(self, q: Array, points: Array, reach: float) -> tuple[Index, Index, Array]:
@@ -58,10 +58,10 @@ class PlateFace:
         found = np.flatnonzero(np.isfinite(far))
         count = len(self._starts)
         plate, place = self.which[sample[found] // count], self._starts[sample[found] % count].copy()
-        x, sizes = points[found], self._plates.sizes
+        x, sizes = points[found], self.plates.sizes
         for _ in range(_WALK):
             tables = shape_tables(sizes[plate].T, *place.T)
-            local = q[self._plates.plates[plate]].reshape(len(plate), 16, 3)
+            local = q[self.plates.plates[plate]].reshape(len(plate), 16, 3)
             r, r1, r2, r11, r12, r22 = np.moveaxis(np.einsum("ndk,nki->ndi", tables, local), 1, 0)
             off = x - r
             slope = np.stack([(off * a).sum(-1) for a in (r1, r2)], axis=-1)
@@ -85,7 +85,7 @@ class PlateFace:
 
     def _walk(self, plate: Index, place: Array) -> tuple[Index, Array]:
         """On to the neighbour where a place has left its plate; to the edge's margin where there is none."""
-        sizes = self._plates.sizes
+        sizes = self.plates.sizes
         for axis in (0, 1):
             for end in (0, 1):
                 out = place[:, axis] > 1.0 if end else place[:, axis] < 0.0
@@ -97,7 +97,7 @@ class PlateFace:
         return plate, np.clip(place, -2.0 * _BEYOND, 1.0 + 2.0 * _BEYOND)
 
 
-def _neighbours(nodes: Index, which: Index) -> Index:
+def neighbours(nodes: Index, which: Index) -> Index:
     """Plates of ``which`` beyond the edges u = 0, u = 1, v = 0, v = 1 of every plate (n_plates, 4); -1 for none."""
     ends = ((0, 1), (2, 3)), ((0, 2), (1, 3))
     beside = np.full((len(nodes), 4), -1)

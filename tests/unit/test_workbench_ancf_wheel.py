@@ -19,6 +19,7 @@ from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
 D = np.linspace(0.0, 0.03, 16)
+ORIENTATIONS = (0.0, 15.0, 25.0, 40.0, 60.0, 80.0, 95.0, 105.0)
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +34,11 @@ def curves(model: str, factor: float) -> ModelCurves:
             orientation_deg=o,
             deflection=D,
             load=factor * (8e3 + 10.0 * o) * D,
-            columns={"stored_energy_J": 0.5 * factor * (8e3 + 10.0 * o) * D**2},
+            columns={
+                "stored_energy_J": 0.5 * factor * (8e3 + 10.0 * o) * D**2,
+                "inner_penetration_m": np.where(D > 0.0161, 1e-6, 0.0),
+                "max_linearised_springs_outer_Pa": factor * 2e10 * D,
+            },
         )
         for o in (0.0, 22.5)
     }
@@ -43,8 +48,9 @@ def curves(model: str, factor: float) -> ModelCurves:
 
 def _statuses(study: Study, ancf: ModelCurves, fe: ModelCurves) -> dict[str, str]:
     checks = ANCF_WHEEL.checks(study, AncfWheelRuns(ancf=ancf, fe=fe))
-    assert [c.role for c in checks] == ["gate", "gate", "gate"]
-    return {c.id.removeprefix("ancf_wheel."): c.status for c in checks}
+    found = {c.id.removeprefix("ancf_wheel."): c for c in checks}
+    assert [name for name, c in found.items() if c.role != "gate"] == ["spring_stress_touching"]
+    return {name: found[name].status for name in ("load_largest", "load_mean", "energy_largest")}
 
 
 @pytest.mark.parametrize("factor", [0.97, 1.03])
@@ -77,15 +83,56 @@ def test_an_energy_that_is_off_shows_alone(study: Study) -> None:
     """Loads equal, energies three per cent apart; without the column it is an error."""
     fe, ancf = curves("fe", 1.0), curves("ancf_wheel", 1.0)
     for column, status in (({"stored_energy_J": 1.03 * 4e3 * D**2}, "fail"), ({}, "error")):
-        changed = {o: replace(c, columns=column) for o, c in ancf.by_orientation.items()}
+        changed = {
+            o: replace(c, columns={k: v for k, v in c.columns.items() if k != "stored_energy_J"} | column)
+            for o, c in ancf.by_orientation.items()
+        }
         found = _statuses(study, replace(ancf, by_orientation=changed), fe)
         assert found == {"load_largest": "pass", "load_mean": "pass", "energy_largest": status}
 
 
+def test_stresses_are_judged_before_and_after_the_first_touch(study: Study) -> None:
+    """Six per cent off at the points before, or at those after: one check sees it each, the other does not."""
+    fe, ancf = curves("fe", 1.0), curves("ancf_wheel", 1.0)
+    for factor, expected in (
+        (np.where(D > 0.0161, 1.0, 1.06), ["fail", "pass"]),
+        (np.where(D > 0.0161, 0.94, 1.0), ["pass", "fail"]),
+    ):
+        name = "max_linearised_springs_outer_Pa"
+        off = {
+            o: replace(c, columns={**c.columns, name: factor * c.columns[name]}) for o, c in ancf.by_orientation.items()
+        }
+        checks = ANCF_WHEEL.checks(study, AncfWheelRuns(ancf=replace(ancf, by_orientation=off), fe=fe))
+        assert [c.status for c in checks if "spring_stress" in c.id] == expected
+    never = {o: replace(c, columns={**c.columns, "inner_penetration_m": 0.0 * D}) for o, c in fe.by_orientation.items()}
+    checks = ANCF_WHEEL.checks(study, AncfWheelRuns(ancf=ancf, fe=replace(fe, by_orientation=never)))
+    assert "ancf_wheel.spring_stress_touching" not in [c.id for c in checks]
+
+
+def test_a_shape_that_is_off_breaks_its_gate(study: Study) -> None:
+    """One part at one point 0.11 mm away; no row is an error; where the solid keeps no points nothing is asked."""
+    fe, ancf = curves("fe", 1.0), curves("ancf_wheel", 1.0)
+    row = {"orientation_deg": 0.0, "deflection_m": 0.01, "rms_tire_m": 2e-5, "rms_springs_outer_m": 5e-5}
+
+    def shape(rows: list[dict[str, float]] | None) -> list[str]:
+        checks = ANCF_WHEEL.checks(study, AncfWheelRuns(ancf=ancf, fe=fe, shapes=rows))
+        return [c.status for c in checks if c.id == "ancf_wheel.shape"]
+
+    assert shape([row, row]) == ["pass"]
+    assert shape([row, row | {"rms_springs_outer_m": 1.1e-4}]) == ["fail"]
+    assert shape([]) == ["error"]
+    assert shape(None) == []
+
+
 def test_one_task_an_orientation_at_every_second_point(study: Study) -> None:
     points = curve_deflections(study)
-    tasks = ANCF_WHEEL.tasks(study)
+    tasks = list(ANCF_WHEEL.tasks(study))
+    shape = tasks.pop()
     assert len(tasks) == len(study.fe.orientations)
+    assert shape.name == "ancf_wheel_shape"
+    assert set(shape.needs) == {"mesh", *(f"{m}_phi{o:03.0f}" for m in ("ancf_wheel", "fe") for o in ORIENTATIONS)}
+    bare = study.model_copy(update={"fe": study.fe.model_copy(update={"keep_points": False})})
+    assert len(ANCF_WHEEL.tasks(bare)) == len(tasks)
     assert {task.name for task in tasks} >= {"ancf_wheel_phi000", "ancf_wheel_phi105"}
     assert all(task.inputs["deflections"] == every_second(points) for task in tasks)
     assert tasks[0].inputs["inner_contact_stiffness"] == INNER_STIFFNESS

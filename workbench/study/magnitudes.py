@@ -46,7 +46,7 @@ _OF_THE_THESIS = {"reach_deflection": -1.0, "reach_load": -1.0}
 GATES = _OF_THE_THESIS | {
     **{"ancf_preset": 1.0, "flexible_mass": 1.0, "mesh_mass": 1.0, "min_scaled_jacobian": -1.0},
     **{"fe_energy": 1.0, "mesh_uncertainty": 1.0, "surface_distance": 1.0},
-    **{"ancf_wheel_largest": 1.0, "ancf_wheel_mean": 1.0},
+    **{"ancf_wheel_largest": 1.0, "ancf_wheel_mean": 1.0, "ancf_wheel_stress": 1.0, "ancf_wheel_shape": 1.0},
 }
 """Tolerances of gates, and of what the wheel is asked for -> 1 where a larger number is easier to meet, else -1."""
 
@@ -59,6 +59,8 @@ _NEEDED = {
         "ancf_fit": "ancf_fit",
         "ancf_wheel_largest": "ancf_wheel",
         "ancf_wheel_mean": "ancf_wheel",
+        "ancf_wheel_stress": "ancf_wheel",
+        "ancf_wheel_shape": "ancf_wheel",
     },
 }
 """Tolerances of checks that only some studies ask for -> the section or key that does."""

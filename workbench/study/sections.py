@@ -210,6 +210,10 @@ class ToleranceSection(Section):
     """Load of the ANCF wheel against the solid model, largest at any orientation and point, relative [-]."""
     ancf_wheel_mean: Annotated[Number, Positive] = 0.01
     """The same, mean over orientations and points [-]."""
+    ancf_wheel_stress: Annotated[Number, Positive] = 0.05
+    """Largest stress of its springs against the solid model, at any orientation and point, relative [-]."""
+    ancf_wheel_shape: Annotated[Length, Positive] = 1e-4
+    """Distance of its deformed middle surfaces from the solid model's, root of the mean square [m]."""
     model_agreement: Annotated[Number, Positive] = 0.10
     """ANCF, brush and the curves of [reference] against FE: relative L2 difference [-]."""
     orientation_spread: Annotated[Number, Positive] = 0.50

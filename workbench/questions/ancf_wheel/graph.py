@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from workbench.execution.task import Task
 from workbench.questions.fe.graph import INNER_STIFFNESS, curve_deflections
@@ -19,7 +20,7 @@ def every_second(deflections: Sequence[float]) -> list[float]:
 
 
 def ancf_wheel_tasks(study: Study) -> list[Task]:
-    """One task an orientation of the FE runs, ``ancf_wheel_phi015``."""
+    """One task an orientation of the FE runs, ``ancf_wheel_phi015``; the shapes where the solid keeps its points."""
     section = stated(study.ancf_wheel, "ancf_wheel")
     shared = {
         "wheel": wheel_inputs(study),
@@ -30,11 +31,12 @@ def ancf_wheel_tasks(study: Study) -> list[Task]:
         },
         "deflections": every_second(curve_deflections(study)),
         "max_load": study.fe.max_load,
+        "keep_points": study.fe.keep_points,
         "contact_stiffness": study.fe.contact_stiffness,
         "inner_contact_stiffness": INNER_STIFFNESS if study.fe.inner_contact else 0.0,
     }
     function = "workbench.questions.ancf_wheel.task:solve_orientation"
-    return [
+    curves = [
         Task(
             name=orientation_name("ancf_wheel", o),
             function=function,
@@ -43,3 +45,18 @@ def ancf_wheel_tasks(study: Study) -> list[Task]:
         )
         for o in map(degrees, study.fe.orientations)
     ]
+    return [*curves, _shape_task(study, shared)] if study.fe.keep_points else curves
+
+
+def _shape_task(study: Study, shared: Mapping[str, Any]) -> Task:
+    names = [
+        (degrees(o), orientation_name("ancf_wheel", degrees(o)), orientation_name("fe", degrees(o)))
+        for o in study.fe.orientations
+    ]
+    return Task(
+        name="ancf_wheel_shape",
+        function="workbench.questions.ancf_wheel.shape_task:compare_shapes",
+        inputs={"wheel": shared["wheel"], "options": shared["options"], "mesh": "mesh", "pairs": names},
+        needs=("mesh", *(name for row in names for name in row[1:])),
+        cost=15.0,
+    )

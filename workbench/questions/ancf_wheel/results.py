@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,10 +12,10 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves, RunNumbers
 
-__all__ = ["AncfWheelRow", "AncfWheelRuns", "differences", "energy_differences"]
+__all__ = ["AncfWheelRow", "AncfWheelRuns", "differences", "energy_differences", "stress_differences"]
 
 Array = NDArray[np.float64]
-_ENERGY = "stored_energy_J"
+_ENERGY, _INNER, _STRESS = "stored_energy_J", "inner_penetration_m", "max_linearised_springs_"
 
 
 def differences(curve: StiffnessCurve, solid: StiffnessCurve) -> tuple[Array, Array]:
@@ -42,9 +42,27 @@ def energy_differences(curve: StiffnessCurve, solid: StiffnessCurve) -> Array:
     return np.asarray(energy[0] / energy[1] - 1.0)
 
 
+def stress_differences(curve: StiffnessCurve, solid: StiffnessCurve, *, touching: bool) -> Array:
+    """The same of the largest stress of each spring set, one thickness from welds on, (points x sets,) [-].
+
+    touching : where springs of the solid lie on rim, hub or each other; else before they first do
+    """
+    at, _ = differences(curve, solid)
+    names = [name for name in curve.columns if name.startswith(_STRESS)]
+    if not names or any(name not in solid.columns for name in (*names, _INNER)):
+        raise InputError("curves", "ancf_wheel, fe", f"do not both have {_STRESS}...", "compute them anew")
+    inner = np.interp(at, solid.deflection, np.cumsum(solid.columns[_INNER]))
+    chosen = (inner > 0.0) == touching
+    both = [[np.interp(at, one.deflection, one.columns[n]) for one in (curve, solid)] for n in names]
+    return np.concatenate([(a[chosen] / b[chosen] - 1.0) for a, b in both])
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AncfWheelRow:
-    """One orientation: runs of both models; largest differences of load and energy, their signs kept [-]."""
+    """One orientation: runs of both models; largest differences, their signs kept [-].
+
+    Of load and energy; of the springs' stress before they first touch rim or hub, and after.
+    """
 
     orientation: float
     ancf: RunNumbers
@@ -52,15 +70,35 @@ class AncfWheelRow:
     difference: float | None
     end: float | None
     energy: float | None
+    stress: float | None
+    stress_touching: float | None
     negative: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AncfWheelRuns:
-    """Curves of both models."""
+    """Curves of both models, and distances of their shapes: rows of ``ancf_wheel_shape``, None where not asked for."""
 
     ancf: ModelCurves
     fe: ModelCurves
+    shapes: Sequence[Mapping[str, float]] | None = None
+
+    @property
+    def shape_parts(self) -> list[str]:
+        """Parts whose middle surfaces are compared."""
+        first = self.shapes[0] if self.shapes else {}
+        return [name.removeprefix("rms_").removesuffix("_m") for name in first if name.startswith("rms_")]
+
+    @property
+    def last_shapes(self) -> list[Mapping[str, float]]:
+        """The row of each orientation's last point."""
+        return list({row["orientation_deg"]: row for row in self.shapes or ()}.values())
+
+    def shape_distance(self) -> float:
+        """Largest root of the mean square of any part at any orientation and point [m]; InputError if there is none."""
+        if not self.shapes:
+            raise InputError("shapes", "ancf_wheel, fe", "have no point in common", "see the runs of both")
+        return max(row[f"rms_{part}_m"] for row in self.shapes for part in self.shape_parts)
 
     @property
     def pairs(self) -> list[tuple[StiffnessCurve, StiffnessCurve]]:
@@ -91,6 +129,8 @@ class AncfWheelRuns:
             difference=_largest(_or_none(lambda: differences(curve, solid)[1])),
             end=None if at is None else float(at[-1]),
             energy=_largest(_or_none(lambda: energy_differences(curve, solid))),
+            stress=_largest(_or_none(lambda: stress_differences(curve, solid, touching=False))),
+            stress_touching=_largest(_or_none(lambda: stress_differences(curve, solid, touching=True))),
             negative=int(curve.columns["negative_pivots"].max()) if "negative_pivots" in curve.columns else 0,
         )
 
@@ -104,4 +144,4 @@ def _or_none(find: Callable[[], Array]) -> Array | None:
 
 
 def _largest(found: Array | None) -> float | None:
-    return None if found is None else float(found[np.abs(found).argmax()])
+    return None if found is None or not len(found) else float(found[np.abs(found).argmax()])

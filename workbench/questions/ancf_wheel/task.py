@@ -11,17 +11,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf_reduced.wheel.mesh import build_ancf_wheel
+from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
 from ancf_reduced.wheel.static import Equilibrium, WheelOnPlane, press
+from ancf_reduced.wheel.stress import largest_spring_stress
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, IncrementRecord
 from workbench.execution.result_files import FAILURE, write_result
+from workbench.questions.model_curves import CURVE
 from workbench.study.wheel_design import design_from
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
 
-__all__ = ["solve_orientation"]
+__all__ = ["STATES", "solve_orientation"]
+
+STATES = "states.npz"
+"""Deflections and free coordinates at the points of a curve, in a task's folder."""
 
 
 def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
@@ -40,7 +45,10 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
                 break
     except ConvergenceError as error:
         failure = str(error)
-    write_curve(_curve(states, wheel.basis.shape[1], orientation, partial=failure is not None), out / "curve.csv")
+    write_curve(_curve(states, wheel, orientation, partial=failure is not None), out / CURVE)
+    if inputs["keep_points"]:
+        deflection, free = np.array([s.deflection for s in states]), np.array([s.free for s in states])
+        np.savez_compressed(out / STATES, allow_pickle=False, deflection=deflection, free=free)
     numbers = {
         "dofs": wheel.basis.shape[1],
         "cells": len(wheel.plates.plates),
@@ -52,7 +60,8 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
     return wheel.basis.shape[1]
 
 
-def _curve(states: list[Equilibrium], unknowns: int, orientation: float, *, partial: bool) -> StiffnessCurve:
+def _curve(states: list[Equilibrium], wheel: AncfWheel, orientation: float, *, partial: bool) -> StiffnessCurve:
+    stresses = [largest_spring_stress(wheel, wheel.coordinates(s.free)) for s in states]
     return StiffnessCurve(
         model="ancf_wheel",
         orientation_deg=orientation,
@@ -61,7 +70,8 @@ def _curve(states: list[Equilibrium], unknowns: int, orientation: float, *, part
         columns={
             "stored_energy_J": np.array([s.energy for s in states]),
             "negative_pivots": np.array([float(s.negative) for s in states]),
+            **{f"max_linearised_{part}_Pa": np.array([s[part] for s in stresses]) for part in stresses[0]},
         },
-        source=f"thin ANCF plates of the wheel, {unknowns} unknowns, deflection from first touch",
+        source=f"thin ANCF plates of the wheel, {wheel.basis.shape[1]} unknowns, deflection from first touch",
         partial=partial,
     )
