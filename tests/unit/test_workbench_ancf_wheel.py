@@ -110,16 +110,16 @@ def test_stresses_are_judged_before_and_after_the_first_touch(study: Study) -> N
 
 
 def test_a_shape_that_is_off_breaks_its_gate(study: Study) -> None:
-    """One part at one point 0.11 mm away; no row is an error; where the solid keeps no points nothing is asked."""
+    """One point 0.11 mm away; no row is an error; where the solid keeps no points nothing is asked."""
     fe, ancf = curves("fe", 1.0), curves("ancf_wheel", 1.0)
-    row = {"orientation_deg": 0.0, "deflection_m": 0.01, "rms_tire_m": 2e-5, "rms_springs_outer_m": 5e-5}
+    row = {"orientation_deg": 0.0, "deflection_m": 0.01, "rms_m": 3e-5, "rms_tire_m": 2e-5, "rms_springs_outer_m": 5e-5}
 
     def shape(rows: list[dict[str, float]] | None) -> list[str]:
         checks = ANCF_WHEEL.checks(study, AncfWheelRuns(ancf=ancf, fe=fe, shapes=rows))
         return [c.status for c in checks if c.id == "ancf_wheel.shape"]
 
     assert shape([row, row]) == ["pass"]
-    assert shape([row, row | {"rms_springs_outer_m": 1.1e-4}]) == ["fail"]
+    assert shape([row, row | {"rms_m": 1.1e-4}]) == ["fail"]
     assert shape([]) == ["error"]
     assert shape(None) == []
 

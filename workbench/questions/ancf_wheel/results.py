@@ -87,7 +87,11 @@ class AncfWheelRuns:
     def shape_parts(self) -> list[str]:
         """Parts whose middle surfaces are compared."""
         first = self.shapes[0] if self.shapes else {}
-        return [name.removeprefix("rms_").removesuffix("_m") for name in first if name.startswith("rms_")]
+        return [
+            name.removeprefix("rms_").removesuffix("_m")
+            for name in first
+            if name.startswith("rms_") and name != "rms_m"
+        ]
 
     @property
     def last_shapes(self) -> list[Mapping[str, float]]:
@@ -95,10 +99,10 @@ class AncfWheelRuns:
         return list({row["orientation_deg"]: row for row in self.shapes or ()}.values())
 
     def shape_distance(self) -> float:
-        """Largest root of the mean square of any part at any orientation and point [m]; InputError if there is none."""
+        """Of all parts together, largest at any orientation and point [m]; InputError if there is none."""
         if not self.shapes:
             raise InputError("shapes", "ancf_wheel, fe", "have no point in common", "see the runs of both")
-        return max(row[f"rms_{part}_m"] for row in self.shapes for part in self.shape_parts)
+        return max(row["rms_m"] for row in self.shapes)
 
     @property
     def pairs(self) -> list[tuple[StiffnessCurve, StiffnessCurve]]:

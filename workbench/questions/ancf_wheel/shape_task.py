@@ -42,11 +42,13 @@ def compare_shapes(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Pa
     for i, (orientation, ancf, fe) in enumerate(inputs["pairs"]):
         for deflection, q, moved in _common_points(wheel, needs[ancf], needs[fe]):
             row: dict[str, Any] = {"orientation_deg": orientation, "deflection_m": deflection}
+            every = list[NDArray[np.float64]]()
             for part, (surface, points) in surfaces.items():
                 apart = surface.distances(q, points + moved[_nodes_of(mesh, part)])
+                every.append(apart)
                 row[f"rms_{part}_m"] = float(np.sqrt((apart**2).mean()))
                 row[f"largest_{part}_m"] = float(apart.max())
-            rows.append(row)
+            rows.append(row | {"rms_m": float(np.sqrt((np.concatenate(every) ** 2).mean()))})
         progress((i + 1.0) / len(inputs["pairs"]))
     write_result(out, {"rows": rows, "nodes": {part: len(one.nodes) for part, (one, _) in surfaces.items()}})
     return len(rows)
