@@ -62,7 +62,8 @@ def stiffness(
     Parameters
     ----------
     study : what `read_study` returned
-    model : ``"fe"`` (solid finite elements), ``"section"`` (planar finite elements), ``"ancf"`` or ``"brush"``
+    model : ``"fe"`` (solid finite elements), ``"section"`` (planar ones), ``"ancf_wheel"`` (the wheel itself as
+        thin ANCF plates), ``"ancf"`` (the reduced tire) or ``"brush"``
     orientation : what faces the ground, from the lowest point towards the front [deg], any finite number; None is the
         average over the study's orientations of this model. The brush is the same at every orientation
     store : folder where results are kept and found again; ``$WORKBENCH_STORE`` or ``build/store`` if left out

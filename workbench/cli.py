@@ -149,7 +149,9 @@ def mesh(
 @app.command()
 def stiffness(
     study: StudyArgument,
-    model: Annotated[str, typer.Option(help="fe, section (the planar model), ancf or brush.")] = "fe",
+    model: Annotated[
+        str, typer.Option(help="fe, section (planar), ancf_wheel (the wheel as plates), ancf (the tire) or brush.")
+    ] = "fe",
     orientation: Annotated[
         list[float] | None, typer.Option(help="Degrees; may be given several times. Default: those of the study.")
     ] = None,

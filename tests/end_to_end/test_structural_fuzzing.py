@@ -45,7 +45,7 @@ FREE = {
 }
 """Numbers that may be scaled without a word, and why."""
 COMMANDS = [
-    *(["stiffness", "FILE", "--model", model] for model in ("fe", "section", "ancf", "brush")),
+    *(["stiffness", "FILE", "--model", model] for model in ("fe", "section", "ancf_wheel", "ancf", "brush")),
     *(["report", "FILE"], ["mesh", "FILE"], ["calibrate", "FILE"], ["calibrate", "ancf", "FILE"], ["sweep", "FILE"]),
 ]
 _WARNING = "workbench: warning: "

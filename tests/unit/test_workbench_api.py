@@ -96,7 +96,7 @@ def test_what_is_unusual_is_warned_of(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("given", "text"),
     [
-        ({"model": "magic"}, "model = 'magic': is not known; give one of fe, section, ancf, brush"),
+        ({"model": "magic"}, "model = 'magic': is not known; give one of fe, section, ancf_wheel, ancf, brush"),
         ({"model": ["fe"]}, "is not known"),
         ({"orientation": float("nan")}, "orientation = nan: must be a finite number"),
         ({"orientation": -float("inf")}, "orientation = -inf: must be a finite number"),

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from workbench.execution.task import Task
 from workbench.questions.ancf.question import ancf_curve_tasks
+from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks
 from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import fe_curve_tasks
 from workbench.questions.models.graph import brush_task
@@ -16,7 +17,7 @@ from workbench.study.model import Study
 
 __all__ = ["MODELS", "mesh_tasks", "report_tasks", "stiffness_tasks"]
 
-MODELS = ("fe", "section", "ancf", "brush")
+MODELS = ("fe", "section", "ancf_wheel", "ancf", "brush")
 
 
 def report_tasks(study: Study) -> tuple[Task, ...]:
@@ -60,6 +61,8 @@ def stiffness_tasks(study: Study, model: str, orientations_deg: Sequence[float])
         return foreseen((wheel_meshes(study)[0], *fe_curve_tasks(study, orientations_deg)))
     if model == "section":
         return foreseen(section_tasks(study, orientations_deg))
+    if model == "ancf_wheel":
+        return tuple(ancf_wheel_curve_tasks(study, orientations_deg))
     if model == "ancf":
         return tuple(ancf_curve_tasks(study, orientations_deg))
     return (brush_task(study),)

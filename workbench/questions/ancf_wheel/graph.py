@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from contracts.errors import InputError
 from workbench.execution.task import Task
 from workbench.questions.fe.graph import INNER_STIFFNESS, curve_deflections
 from workbench.questions.wheel.graph import wheel_inputs
+from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
+from workbench.study.sections import AncfWheelSection
 
-__all__ = ["ancf_wheel_tasks", "every_second"]
+__all__ = ["ancf_wheel_curve_tasks", "ancf_wheel_tasks", "every_second"]
 
 
 def every_second(deflections: Sequence[float]) -> list[float]:
@@ -22,6 +25,26 @@ def every_second(deflections: Sequence[float]) -> list[float]:
 def ancf_wheel_tasks(study: Study) -> list[Task]:
     """One task an orientation of the FE runs, ``ancf_wheel_phi015``; the shapes where the solid keeps its points."""
     section = stated(study.ancf_wheel, "ancf_wheel")
+    curves = _curve_tasks(study, section, [degrees(o) for o in study.fe.orientations])
+    return [*curves, _shape_task(study, curves[0].inputs)] if study.fe.keep_points else curves
+
+
+def ancf_wheel_curve_tasks(study: Study, orientations_deg: Sequence[float] = ()) -> list[Task]:
+    """A curve at each orientation [deg]; none means those of the FE runs. Without the section its defaults hold.
+
+    Raises
+    ------
+    InputError
+        If the study has what the model has not.
+    """
+    if (lacking := without_ancf_wheel(study)) is not None:
+        rule = "is not in the ANCF model of the wheel"
+        raise InputError(f"{study.name}: {lacking}", "", rule, "take it out of the study, or ask for another model")
+    asked = orientations_deg or [degrees(o) for o in study.fe.orientations]
+    return _curve_tasks(study, study.ancf_wheel or AncfWheelSection(), asked)
+
+
+def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequence[float]) -> list[Task]:
     shared = {
         "wheel": wheel_inputs(study),
         "options": {
@@ -36,16 +59,15 @@ def ancf_wheel_tasks(study: Study) -> list[Task]:
         "inner_contact_stiffness": INNER_STIFFNESS if study.fe.inner_contact else 0.0,
     }
     function = "workbench.questions.ancf_wheel.task:solve_orientation"
-    curves = [
+    return [
         Task(
             name=orientation_name("ancf_wheel", o),
             function=function,
             inputs={**shared, "orientation_deg": o},
             cost=25.0,
         )
-        for o in map(degrees, study.fe.orientations)
+        for o in orientations_deg
     ]
-    return [*curves, _shape_task(study, shared)] if study.fe.keep_points else curves
 
 
 def _shape_task(study: Study, shared: Mapping[str, Any]) -> Task:

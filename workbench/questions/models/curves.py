@@ -29,5 +29,5 @@ def stiffness_curves(study: Study, model: str, folders: Mapping[str, Path]) -> l
     """
     if model == "brush":
         return [brush_curve(study, folders["brush"])]
-    found = model_curves(model, folders, around(study) if model in ("fe", "section") else None)
+    found = model_curves(model, folders, around(study) if model in ("fe", "section", "ancf_wheel") else None)
     return [*found.by_orientation.values(), found.average]

@@ -60,7 +60,8 @@ class PeakStress:
     part : name of the part
     used : that stress over yield strength [-]
     strength : yield strength [Pa]
-    local : largest von Mises stress anywhere in the part [Pa], which near a weld's end has no limit under refinement
+    local : largest von Mises stress anywhere in the part [Pa], which near a weld's end has no limit under refinement;
+        the judged one of a curve that has no other
     """
 
     load: float
@@ -92,7 +93,7 @@ def peak_stresses(curve: StiffnessCurve, yield_strength: Mapping[str, float], lo
             part=part,
             used=float(np.interp(at, d, used)),
             strength=yield_strength[part],
-            local=float(np.interp(at, d, curve.columns[f"max_von_mises_{part}_Pa"])),
+            local=float(np.interp(at, d, curve.columns.get(f"max_von_mises_{part}_Pa", used * yield_strength[part]))),
         )
         for part, used in utilisation(curve, yield_strength).items()
     ]
