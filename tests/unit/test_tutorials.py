@@ -20,7 +20,7 @@ def run_blocks(name: str, capsys: pytest.CaptureFixture[str]) -> str:
 
 def test_every_tutorial_is_run_here() -> None:
     with_code = [path for path in TUTORIALS.glob("*.md") if "```python\n" in path.read_text(encoding="utf-8")]
-    assert sorted(path.name for path in with_code) == ["ancf_tire.md", "multibody.md", "rover.md"]
+    assert sorted(path.name for path in with_code) == ["ancf_tire.md", "ancf_wheel.md", "multibody.md", "rover.md"]
 
 
 def test_ancf_tire(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
@@ -33,6 +33,17 @@ def test_ancf_tire(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pyte
     assert min(loads) > 20.0
     assert float(re.findall(r"open by ([\d.]+) %", printed)[0]) < 1.0
     assert (tmp_path / "leaning_tire_20mm.step").stat().st_size > 1000
+
+
+def test_ancf_wheel(capsys: pytest.CaptureFixture[str]) -> None:
+    """The shipped hoops carry 18 and 37 N, stand, and their lowest node goes up by what the hub drops, nearly."""
+    printed = run_blocks("ancf_wheel.md", capsys)
+    print(printed)
+    rows = [[float(v) for v in re.findall(r"-?[\d.]+", line)] for line in printed.splitlines()]
+    assert [(d, negative) for d, _, negative, _ in rows] == [(2.0, 0.0), (4.0, 0.0)]
+    assert rows[0][1] == pytest.approx(19.0, rel=0.1)
+    assert rows[1][1] == pytest.approx(37.0, rel=0.1)
+    assert rows[1][3] - rows[0][3] == pytest.approx(2.0, abs=0.3)
 
 
 def test_multibody(capsys: pytest.CaptureFixture[str]) -> None:
