@@ -53,11 +53,13 @@ def add_terms(q: Array, plates: Index, points: Points, mixed: Array, force: Arra
     which, tables, metric, curvature, stretch, beta, stiffness = points
     energy, local, all_v, strain = 0.0, np.empty((16, 3)), np.empty((5, 3)), np.empty(3)
     measure, stress, geometric = np.empty(3), np.empty(3), np.empty(3)
-    first, H, half = np.empty((3, 5, 3)), np.empty((5, 3, 5, 3)), np.empty((5, 3, 16, 3))
-    rows = np.empty((3, 15))
+    first, H, rows = np.empty((3, 5, 3)), np.empty((5, 3, 5, 3)), np.empty((3, 15))
+    most, product = 5 * tables.shape[1], np.empty((16, 144))
+    all_half, all_shapes = np.empty((most, 144)), np.empty((most, 16))
     for s in range(which.shape[0]):
         e, b = which[s], beta[s]
         count = 2 if b == 0.0 else 5
+        half, shapes = all_half[: count * tables.shape[1]], all_shapes[: count * tables.shape[1]]
         v = all_v[:count]
         _gather(q, plates[e], local)
         for p in range(tables.shape[1]):
@@ -105,7 +107,10 @@ def add_terms(q: Array, plates: Index, points: Points, mixed: Array, force: Arra
                             for j in range(3):
                                 for r in range(3):
                                     H[d, i, c, j] += first[r, d, i] * rows[r, 3 * c + j]
-                _pull_back(H, N, count, half, tangent[e])
+                _across(H, N, count, half[p * count : (p + 1) * count].reshape(count, 3, 3, 16))
+                shapes[p * count : (p + 1) * count] = N[1 : 1 + count]
+        if tangent.shape[0]:
+            _add_product(shapes, half, product, tangent[e])
     return energy
 
 
@@ -136,23 +141,28 @@ def find_stress(q: Array, step: Array, plates: Index, points: Points, out: Array
 
 
 @compiled
-def _pull_back(H: Array, N: Array, count: int, half: Array, tangent: Array) -> None:
-    """Add N^T H N to ``tangent`` (16, 3, 16, 3); innermost loops run along memory."""
+def _across(H: Array, N: Array, count: int, half: Array) -> None:
+    """H N of one point into ``half`` (count, 3, 3, 16): row vector and component, column component and function."""
+    half[:count] = 0.0
     for d in range(count):
         for i in range(3):
-            half[d, i] = 0.0
-            for c in range(count):
-                for m in range(16):
-                    shape = N[1 + c, m]
-                    for j in range(3):
-                        half[d, i, m, j] += H[d, i, c, j] * shape
+            for j in range(3):
+                out = half[d, i, j]
+                for c in range(count):
+                    value, shapes = H[d, i, c, j], N[1 + c]
+                    for m in range(16):
+                        out[m] += value * shapes[m]
+
+
+@compiled
+def _add_product(shapes: Array, half: Array, product: Array, tangent: Array) -> None:
+    """Add N^T H N summed over the points of a plate to its tangent (16, 3, 16, 3), from all their rows of N and H N."""
+    np.dot(shapes.T, half, product)
     for k in range(16):
         for i in range(3):
-            row = tangent[k, i].reshape(48)
-            for d in range(count):
-                shape, part = N[1 + d, k], half[d, i].reshape(48)
-                for m in range(48):
-                    row[m] += shape * part[m]
+            for j in range(3):
+                for m in range(16):
+                    tangent[k, i, m, j] += product[k, 48 * i + 16 * j + m]
 
 
 @compiled
@@ -261,7 +271,14 @@ def normal_second(v: Array, n: Array, J: float, c: Array, out: Array, turn: Arra
     for i in range(3):
         for j in range(3):
             second[i, j] = -(f[i] * n[j] + n[i] * f[j]) / J - along * P[i, j] / J**2
-    out[:], turn[:] = D.T @ second @ D, P @ D / J
+    half = np.empty((3, 6))
+    for i in range(3):
+        for j in range(6):
+            half[i, j] = second[i, 0] * D[0, j] + second[i, 1] * D[1, j] + second[i, 2] * D[2, j]
+            turn[i, j] = (P[i, 0] * D[0, j] + P[i, 1] * D[1, j] + P[i, 2] * D[2, j]) / J
+    for i in range(6):
+        for j in range(6):
+            out[i, j] = D[0, i] * half[0, j] + D[1, i] * half[1, j] + D[2, i] * half[2, j]
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
         out[j, 3 + k] += f[i]  # f . (da_1 x da_2)

@@ -50,11 +50,15 @@ class PlateFace:
         return np.asarray(np.einsum("esk,eki->esi", self._tables, local).reshape(-1, 3))
 
     def closest(self, q: Array, points: Array, reach: float) -> tuple[Index, Index, Array]:
-        """Closest points of those points (n, 3) that have one within ``reach`` [m] of the middle surface, about.
+        """Closest points of those points (n, 3) that have one within ``reach`` [m] of the middle surface, and more.
 
         Returns numbers of the points (m,), plates (m,), and rows (m, 6, 16) of `shape_tables` there.
         """
-        far, sample = (np.asarray(a) for a in cKDTree(self.samples(q)).query(points, distance_upper_bound=reach))
+        if not len(points) or not len(self.which):
+            return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), np.empty((0, 6, 16))
+        beside = 0.7 * float(np.linalg.norm(self.plates.sizes[self.which].max(axis=0))) / _SAMPLES
+        tree = cKDTree(self.samples(q))
+        far, sample = (np.asarray(a) for a in tree.query(points, distance_upper_bound=reach + beside))
         found = np.flatnonzero(np.isfinite(far))
         count = len(self._starts)
         plate, place = self.which[sample[found] // count], self._starts[sample[found] % count].copy()

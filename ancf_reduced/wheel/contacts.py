@@ -32,6 +32,8 @@ _LEAST_GAP = 10e-6
 """Points closer than this to a face at the beginning, beside a weld, are left out [m]."""
 _DEPTH = 5e-3
 """How far behind a face a point is still held off [m]."""
+_BOW = 10e-3
+"""How far plates may bow out of the box around their nodes, both sides together [m]."""
 _FACING = 0.5
 """Largest cosine between the normals of a point's face and of the one it touches [-]."""
 
@@ -147,6 +149,8 @@ class PlateContact:
         self._points, self._of, self._face, self._penalty = _Points(wheel, wheel.faces), points, face, penalty
         self.count = len(points)
         self._asked = np.arange(len(points))
+        plates = wheel.plates.plates
+        self._nodes = [np.unique(plates[k]) for k in (wheel.faces.plate[points], face.which)]
         numbers, gaps = self._found(wheel.plates.reference, _LEAST_GAP)[:2]
         self._asked = np.setdiff1d(self._asked, numbers[gaps < _LEAST_GAP])
 
@@ -154,10 +158,11 @@ class PlateContact:
         """Numbers among the points, gaps, plates and their rows of what is nearer than ``reach`` [m]."""
         face, plates = self._face, self._points.plates
         which = self._of[self._asked]
+        if self._far_apart(q, max(reach, _DEPTH)):
+            which = which[:0]
         places, normals = self._points.at(q, which)
         thickest = float(np.abs(face.heights[face.which]).max(initial=0.0))
-        span = float(np.linalg.norm(plates.sizes[face.which].max(axis=0, initial=0.0))) / 4.0
-        number, plate, rows = face.closest(q, places, max(reach, _DEPTH) + thickest + span)
+        number, plate, rows = face.closest(q, places, max(reach, _DEPTH) + thickest)
         local = q[plates.plates[plate]].reshape(len(plate), 16, 3)
         r, r1, r2 = np.moveaxis(np.einsum("ndk,nki->ndi", rows[:, :3], local), 1, 0)
         N = np.cross(r1, r2) * np.sign(face.heights[plate])[:, None]
@@ -166,6 +171,11 @@ class PlateContact:
         cosine = (normals[number] * N).sum(axis=1)
         kept = (gaps < reach) & (gaps > -_DEPTH) & (cosine < _FACING)
         return self._asked[number[kept]], gaps[kept], plate[kept], rows[kept]
+
+    def _far_apart(self, q: Array, reach: float) -> bool:
+        """Whether boxes around both sides' nodes say that nothing is within reach [m]."""
+        (low, high), (other_low, other_high) = ((q[n, 0].min(axis=0), q[n, 0].max(axis=0)) for n in self._nodes)
+        return bool((np.maximum(low - other_high, other_low - high) > reach + _BOW).any())
 
     def near(self, q: Array, forces: Array, blocks: Array) -> Near:
         """Contacts within reach, with the tangent of two plates each that forces (count,) add."""
