@@ -121,7 +121,7 @@ def test_mass_and_second_moments_are_the_solids(design: WheelDesign) -> None:
     """
     assert design.grousers is not None
     wheel = build_ancf_wheel(design)
-    mesh = build_mesh(design, element_size=8e-3, axial_size=20e-3, parts="flexible")
+    mesh = build_mesh(design, element_size=12e-3, axial_size=40e-3, parts="flexible")
     parts = {"tire": design.tire.material, "grousers": design.grousers.material}
     parts |= {springs.name: springs.material for springs in design.spring_sets}
     density = np.zeros(len(mesh.cells))

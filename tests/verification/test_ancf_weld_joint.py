@@ -40,9 +40,9 @@ def _cells(first: Array) -> Array:
 
 def _lap(below: float, bonded: float, finest: float) -> mesh.Mesh:
     """Quadrilaterals of both strips; the upper one is one thick."""
-    left, right = -_graded(bonded, finest, 0.25)[::-1], _graded(_FREE, finest, 0.25)
+    left, right = -_graded(bonded, finest, 0.25 * max(1.0, below / 4.0))[::-1], _graded(_FREE, finest, 0.25)
     x, tip = np.concatenate([left, right[1:]]), len(left) - 1
-    heights = -_graded(below, finest, 0.2)[::-1], _graded(1.0, finest, 0.2)
+    heights = -_graded(below, finest, 0.2 * max(1.0, below / 4.0))[::-1], _graded(1.0, finest, 0.2)
     points = [np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1) for y in heights]
     lower = np.arange(points[0][..., 0].size).reshape(points[0].shape[:2])
     upper = lower.size + np.arange(points[1][..., 0].size).reshape(points[1].shape[:2])
