@@ -13,15 +13,17 @@ from typing import TYPE_CHECKING
 
 from contracts.errors import InputError
 from contracts.input_file import input_text
-from workbench.commands.computing import read_and_warn, tell_kept
+from workbench.commands.computing import read_and_warn, tell_kept, warn
 from workbench.execution.errors import RunError
 from workbench.execution.progress import RunDisplay
+from workbench.execution.result_files import read_result
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.task import Task
 from workbench.execution.terminal import console, empty_table
 from workbench.questions.ancf_fit.fit import FittedTire, read_fit
-from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks
+from workbench.questions.ancf_fit.graph import AS_IT_IS, fit_name, fit_tasks, stand_name, stand_task
+from workbench.questions.ancf_fit.stand_task import reasons_against
 from workbench.questions.study_graph import report_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish, to_json
@@ -43,7 +45,10 @@ _COUNTS = ("circumferential_plates", "spokes")
 
 
 def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, store: Path, computing: Computing) -> int:
-    """Fit the study's tires, or one of them; 0 if the kept one follows the FE average within the study's tolerance."""
+    """Fit the study's tires, or one of them; 0 if the kept one is to be trusted.
+
+    It follows the FE average within the study's tolerance, stands, and carries nearly the same on twice as many plates.
+    """
     from workbench.questions.ancf_fit.records import Fitted, Held
 
     path = study_path or built_in_study()
@@ -53,16 +58,20 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     check_folder(out)
     name = f"{path.stem}_fitted.toml"
     check_targets(out, ("ancf_fit.json", name))
-    tasks = _with_needs(fit_tasks(study), report_tasks(study))
+    checks = [stand_task(study, t.name) for t in section.tires]
+    tasks = [*_with_needs(fit_tasks(study), report_tasks(study)), *checks]
     with RunDisplay(console, tasks) as display:
         entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
     own = read_fit("own", entries[AS_IT_IS].path, Held, around(study))
     tires = [read_fit(t.name, entries[fit_name(t.name)].path, Fitted, around(study)) for t in section.tires]
     kept = next(t for t in tires if t.name == section.kept.name)
+    against = {t.name: reasons_against(read_result(entries[stand_name(t.name)].path)) for t in section.tires}
     note = f"ANCF tire fitted to the FE curves by workbench calibrate ancf: {kept.name}"
+    if against[kept.name]:
+        note += f". Not to be trusted: {against[kept.name][0]}"
     text = rewritten_study(input_text(path, "study file"), {}, note, path.parent)
     summary = {"schema": 1, "study": study.name, "kept": kept.name, "own": asdict(own.numbers)}
-    summary["tires"] = [{"name": t.name, **asdict(t.numbers)} for t in tires]
+    summary["tires"] = [{"name": t.name, **asdict(t.numbers), "not_to_be_trusted": against[t.name]} for t in tires]
     curves = [curve for t in tires for curve in (*t.curves.values(), t.average)]
     text = rewritten_table(text, "ancf", _values(kept), without=["surfaces"])
     files = {"ancf_fit.json": to_json(summary)}
@@ -72,8 +81,11 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     finally:  # a study that says something else is not written, but what was found is
         tell_kept(publish(out, "calibrate ancf", files, curves))
     _print([own, *tires], kept)
+    for name, reasons in against.items():
+        warn(path, [f"{name}: {reason}" for reason in reasons])
     console.print(f"study: {out / name}", soft_wrap=True)
-    return 0 if abs(kept.numbers.average.largest) <= study.tolerances.ancf_fit else 1
+    follows = abs(kept.numbers.average.largest) <= study.tolerances.ancf_fit
+    return 0 if follows and not against[kept.name] else 1
 
 
 def _chosen(study: Study, tire: str | None) -> Study:

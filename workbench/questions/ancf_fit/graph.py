@@ -13,7 +13,7 @@ from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_tire, fit_start
 from workbench.study.orientation import degrees, orientation_name
 
-__all__ = ["AS_IT_IS", "fit_name", "fit_tasks"]
+__all__ = ["AS_IT_IS", "fit_name", "fit_tasks", "stand_name", "stand_task"]
 
 AS_IT_IS = "ancf_as_it_is"
 """Task that holds the study's own tire against the FE curves."""
@@ -22,6 +22,24 @@ AS_IT_IS = "ancf_as_it_is"
 def fit_name(tire: str) -> str:
     """Name of the task that fits one of the study's tires."""
     return f"ancf_fit_{tire}"
+
+
+def stand_name(tire: str) -> str:
+    """Name of the task that asks whether it stands."""
+    return f"ancf_stands_{tire}"
+
+
+def stand_task(study: Study, tire: str) -> Task:
+    """Whether a fitted tire stands at every orientation; the doubled mesh at the first and the middle one."""
+    orientations = [degrees(o) for o in study.fe.orientations]
+    doubled = list(dict.fromkeys([orientations[0], orientations[len(orientations) // 2]]))
+    return Task(
+        name=stand_name(tire),
+        function="workbench.questions.ancf_fit.stand_task:stands",
+        inputs={"doubled_at_deg": doubled},
+        needs=(fit_name(tire),),
+        cost=60.0,
+    )
 
 
 def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) -> list[Task]:
