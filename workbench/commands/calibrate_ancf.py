@@ -81,8 +81,8 @@ def run_calibrate_ancf(study_path: Path | None, tire: str | None, out: Path, sto
     finally:  # a study that says something else is not written, but what was found is
         tell_kept(publish(out, "calibrate ancf", files, curves))
     _print([own, *tires], kept)
-    for name, reasons in against.items():
-        warn(path, [f"{name}: {reason}" for reason in reasons])
+    for fitted, reasons in against.items():
+        warn(path, [f"{fitted}: {reason}" for reason in reasons])
     console.print(f"study: {out / name}", soft_wrap=True)
     follows = abs(kept.numbers.average.largest) <= study.tolerances.ancf_fit
     return 0 if follows and not against[kept.name] else 1
