@@ -22,7 +22,7 @@ from workbench.study.magnitudes import GATES
 from workbench.verdict.statements import statement_of
 
 TASKS = {
-    *("mesh", "mesh_whole", "fe_phi000", "ancf_wheel_phi000"),
+    *("mesh", "mesh_whole", "fe_phi000", "ancf_wheel_phi000", "ancf_wheel_shape"),
     *(f"words_{reading.name}_phi{orientation:03.0f}" for reading in READINGS for orientation in (0, 45)),
     *(f"words_hoops{which}_phi{orientation:03d}" for which in ("", "_twin") for orientation in (0, 15, 30, 45, 60)),
     "rover_still",
