@@ -22,6 +22,8 @@ __all__ = ["settle"]
 
 Array = NDArray[np.float64]
 _LIMIT = 60
+_MOST_CHANGED = 2000
+"""Points that may change from the factored set: each costs a solve and a row of unknowns."""
 
 
 def settle(
@@ -30,8 +32,8 @@ def settle(
     residual: Array,
     contact: tuple[Array, csr_array, Array],
     factored: NDArray[np.bool_],
-) -> tuple[Array, Array]:
-    """Step (n,) and forces of the contact points (m,).
+) -> tuple[Array, Array] | None:
+    """Step (n,) and forces of the contact points (m,); None where more points change than one factorisation serves.
 
     Parameters
     ----------
@@ -48,12 +50,14 @@ def settle(
     at = base_gap
     for _ in range(_LIMIT):
         changed = np.flatnonzero((at < 0.0) != factored)
+        if len(changed) > _MOST_CHANGED or not np.isfinite(at).all():
+            return None
         goal = _with_changes(columns, (base, base_gap), (G, k), changed, factored)
         if not np.array_equal(goal, step):
             share = _search(residual + tangent(step), tangent, goal - step, (at, G, k))
             step = step + share * (goal - step)
         new = gap + G @ step
-        settled = np.array_equal(new < 0.0, at < 0.0) and np.abs(new - at).max() <= 1e-9 * np.abs(gap).max()
+        settled = np.array_equal(new < 0.0, at < 0.0) and np.abs(new - at).max(initial=0.0) <= 1e-9 * np.abs(gap).max(initial=0.0)
         at = new
         if settled:
             break

@@ -114,8 +114,8 @@ class GroundContact:
 class HubContact:
     """Springs and rim on the hub: a cylinder about the axle."""
 
-    def __init__(self, wheel: AncfWheel, penalty: float) -> None:
-        self._points, self._radius, self._penalty = _Points(wheel, wheel.faces), wheel.hub[0], penalty
+    def __init__(self, wheel: AncfWheel, faces: _Points, penalty: float) -> None:
+        self._points, self._radius, self._penalty = faces, wheel.hub[0], penalty
         self.count = len(wheel.faces.plate)
         places = self._points.at(wheel.plates.reference)[0]
         self._asked = np.flatnonzero((self._gaps(places) > _LEAST_GAP) & (np.abs(places[:, 1]) <= wheel.hub[1]))
@@ -141,12 +141,13 @@ class PlateContact:
 
     Parameters
     ----------
-    points : numbers of the faces' points
+    faces : points on all faces
+    points : their numbers
     face : what they may touch
     """
 
-    def __init__(self, wheel: AncfWheel, points: Index, face: PlateFace, penalty: float) -> None:
-        self._points, self._of, self._face, self._penalty = _Points(wheel, wheel.faces), points, face, penalty
+    def __init__(self, wheel: AncfWheel, faces: _Points, points: Index, face: PlateFace, penalty: float) -> None:
+        self._points, self._of, self._face, self._penalty = faces, points, face, penalty
         self.count = len(points)
         self._asked = np.arange(len(points))
         plates = wheel.plates.plates
@@ -179,16 +180,16 @@ class PlateContact:
 
     def near(self, q: Array, forces: Array, blocks: Array) -> Near:
         """Contacts within reach, with the tangent of two plates each that forces (count,) add."""
-        plates, points = self._points.plates, self._points.of(self._of)
+        plates = self._points.plates
         numbers, gaps, other, rows = self._found(q, _INNER_REACH)
-        own = points[0][numbers]
+        own, heights, tables = self._points.of(self._of[numbers])
         pairs, block = np.unique(np.stack([own, other], axis=-1).reshape(-1, 2), axis=0, return_inverse=True)
         slopes, tangent = np.empty((len(numbers), 32, 3)), np.zeros((len(pairs), 32, 3, 32, 3))
         masters = other, self._face.heights[other], rows
         plate_gaps(
             q,
             plates.plates,
-            (own, points[1][numbers], points[2][numbers]),
+            (own, heights, tables),
             masters,
             forces[numbers],
             block.ravel(),
@@ -217,16 +218,17 @@ def inner_contacts(wheel: AncfWheel, penalty: float) -> list[HubContact | PlateC
     front = 0.5 * thickness * strips.facing
     strip = strips.strip[faces.plate]
     in_front = faces.height * strips.facing[faces.plate] > 0.0
+    points = _Points(wheel, faces)
     rim = PlateFace(plates, np.flatnonzero((strips.strip == 0) & strips.bare), front)
     found: list[HubContact | PlateContact] = [
-        HubContact(wheel, penalty),
-        PlateContact(wheel, np.flatnonzero(in_front & (strip > 0)), rim, penalty),
+        HubContact(wheel, points, penalty),
+        PlateContact(wheel, points, np.flatnonzero(in_front & (strip > 0)), rim, penalty),
     ]
     for one, others in _beside(wheel):
         for side in (1.0, -1.0):
             face = PlateFace(plates, np.flatnonzero(np.isin(strips.strip, others)), side * front)
-            points = np.flatnonzero((strip == one) & (in_front == (side > 0.0)))
-            found.append(PlateContact(wheel, points, face, penalty))
+            of = np.flatnonzero((strip == one) & (in_front == (side > 0.0)))
+            found.append(PlateContact(wheel, points, of, face, penalty))
     return found
 
 

@@ -92,18 +92,26 @@ def inner_points(strips: Strips, sizes: Array, thickness: Array) -> FacePoints:
     return FacePoints(**{name: np.concatenate([getattr(f, name) for f in found]) for name in FacePoints.__slots__})
 
 
-def ground_points(design: WheelDesign, plates: Index, sizes: Array, fin: bool) -> FacePoints:
-    """Points of one row of the rim's plates: on its outer face, or on the tip of a grouser."""
+def ground_points(
+    design: WheelDesign, plates: Index, sizes: Array, fin: tuple[float, float] | None = None
+) -> FacePoints:
+    """Points of one row of the rim's plates: on its outer face, or on the tip of a grouser.
+
+    fin : where the row begins, from the grouser's middle on, and how far it goes [rad]
+    """
     tire, fins = design.tire, design.grousers
     middle = 0.5 * (tire.inner_radius + tire.outer_radius)
     length = float(sizes[0, 0])
-    if fin and fins is not None:
+    if fin is not None and fins is not None:
         height, (place, share) = 0.5 * tire.thickness + fins.height, _product(_LOBATTO)
+        low, high = (tire.outer_radius * math.sin(a) for a in (fin[0], fin[0] + fin[1]))
+        # The tip is as wide as the foot; the rays between them are not, and could leave a plate that holds a part.
+        rays = (low + (high - low) * place[:, 0]) / (tire.outer_radius + fins.height)
+        place[:, 0] = np.clip((rays - fin[0]) / fin[1], 0.0, 1.0)
+        along = high - low
     else:
         height, (place, share) = 0.5 * tire.thickness, _grid(length)
-    along = fins.thickness if fin and fins is not None else length * tire.outer_radius / middle
-    if fin and fins is not None:  # the tip is as wide as the foot, the rays between them are not
-        place[:, 0] = 0.5 + (place[:, 0] - 0.5) * fins.thickness / length * middle / (tire.outer_radius + fins.height)
+        along = length * tire.outer_radius / middle
     count = len(share)
     return FacePoints(
         plate=np.repeat(plates, count),

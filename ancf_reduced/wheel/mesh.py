@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from ancf_reduced.wheel.faces import FacePoints, Strips, ground_points, inner_po
 from ancf_reduced.wheel.joints import RIGID_RATIO, turning_stiffness
 from ancf_reduced.wheel.supports import HubEnd, free_basis, hub_stiffness
 from contracts.errors import InputError
+from geometry.build import mesh_size
 from geometry.parts import SpringSet
 from geometry.resolution import MeshSize, Ring, axial_bands, axial_levels, rim_ring
 from geometry.springs import leg_sides, polar, spring_leg, station_angles, weld_angle
@@ -34,6 +35,8 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 _AXLE = np.array([0.0, 1.0, 0.0])
 _LEAST_PER_LEG = 8
+_LEAST_WIDTH = 0.5
+"""Of a plate, in thicknesses: narrower ones are beams, and badly conditioned."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -152,16 +155,18 @@ def build_ancf_wheel(
     Raises
     ------
     InputError
-        For sidewall springs, and bands that are not symmetric where half of the wheel is asked for.
+        For sidewall springs, bands that are not symmetric where half of the wheel is asked for, sizes that are not
+        positive, and bands so narrow that plates between them were narrower than they are thick.
     """
     if design.sidewall_springs is not None:
         rule = "stand in planes of their own: the wheel has no ANCF model yet"
         raise InputError("sidewall springs", design.sidewall_springs.name, rule, "use the solid model")
-    size = MeshSize(
-        element_size=element_size, axial_size=axial_size, thickness_elements=1, refinement={}, factor=factor
-    )
+    if not (math.isfinite(factor) and factor >= 1.0):
+        raise InputError("factor", f"{factor:g}", "must be >= 1", "1 is the mesh of the sizes given")
+    size = replace(mesh_size(design, element_size, axial_size, 1, None), factor=factor)
     bands = axial_bands(design, size, axial_levels(design, "flexible", half_width))
     levels = np.concatenate([[bands[0][0]], *(np.linspace(a, b, n + 1)[1:] for a, b, n in bands)])
+    _require_wide(design, levels)
     draft = _Draft(levels=levels)
     ring = rim_ring(design, size)
     breaks, rim_plates, ground = _add_rim(draft, design, ring)
@@ -190,6 +195,16 @@ def build_ancf_wheel(
     )
 
 
+def _require_wide(design: WheelDesign, levels: Array) -> None:
+    """Refuse edges of bands that lie so close that a plate between them is none."""
+    thinnest = min(design.tire.thickness, *(springs.thickness for springs in design.spring_sets))
+    k = int(np.diff(levels).argmin())
+    low, high = 1e3 * levels[k : k + 2]
+    if high - low < 1e3 * _LEAST_WIDTH * thinnest:
+        rule = f"leave {high - low:.3g} mm between them, less than {_LEAST_WIDTH:g} of a thickness {1e3 * thinnest:g} mm"
+        raise InputError("edges of bands", f"at y = {low:.6g} and {high:.6g} mm", rule, "make them equal or move one")
+
+
 def _columns(draft: _Draft, bands: Iterable[tuple[float, float]]) -> list[range]:
     """Axial intervals of every band that lies in the drawn width."""
     found = []
@@ -210,7 +225,7 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Ind
     of = np.repeat(np.arange(len(ring.angles)), ring.counts)
     points = np.array([polar(middle, a) for a in angles])
     tangents = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    columns = range(len(draft.levels) - 1)
+    (columns,) = _columns(draft, [(-0.5 * tire.width, 0.5 * tire.width)])
     _, plates = draft.add_strip("tire", (points, tangents), middle * steps, columns, -points[0])
     welds = _weld_layers(draft, design, ring)
     inside = dict[int, float]()
@@ -228,12 +243,22 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Ind
                 fin = (Layer(material=fins.material, thickness=fins.height, height=height),)
             draft.layers.append((own, *welds.get((int(i), j), ()), *fin))
     ground = [
-        ground_points(design, plates[row], draft.sizes[-1].reshape(*plates.shape, 2)[row], int(i) in inside)
+        ground_points(
+            design,
+            plates[row],
+            draft.sizes[-1].reshape(*plates.shape, 2)[row],
+            (_turned(angles[row] - inside[int(i)]), steps[row]) if int(i) in inside else None,
+        )
         for row, i in enumerate(of)
     ]
     fields = {name: np.concatenate([getattr(g, name) for g in ground]) for name in FacePoints.__slots__}
     first = np.concatenate([[0], np.cumsum(ring.counts)[:-1]])
     return first, plates, FacePoints(**fields)
+
+
+def _turned(angle: float) -> float:
+    """An angle in [-pi, pi) [rad]."""
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
 
 
 def _weld_layers(draft: _Draft, design: WheelDesign, ring: Ring) -> dict[tuple[int, int], tuple[Layer, ...]]:
@@ -260,6 +285,7 @@ def _add_springs(
 ) -> None:
     ring, breaks, rim_plates = rim
     ties, ends = found
+    (rim_columns,) = _columns(draft, [(-0.5 * design.tire.width, 0.5 * design.tire.width)])
     gap = design.outer_hub.outer_radius, design.tire.inner_radius
     half = 0.5 * weld_angle(springs, design.tire.inner_radius)
     offset = 0.5 * (design.tire.thickness + springs.thickness)
@@ -283,7 +309,7 @@ def _add_springs(
                 steps = np.full(count, leg.length / count)
                 numbers, plates = draft.add_strip(springs.name, (line(at), tangents), steps, columns, leg.normals[0])
                 draft.layers += [(layer,)] * plates.size
-                on_rim = rim_plates[first, columns.start : columns.stop]
+                on_rim = rim_plates[first, columns.start - rim_columns.start : columns.stop - rim_columns.start]
                 same = np.ones(len(on_rim))
                 tie = TieLine(spring=plates[0], rim=on_rim, offset=offset * same, turning=turning[0] * same)
                 ties.append(tie)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -125,6 +126,7 @@ class WheelOnPlane:
         share = 0.5 * weight[None] * width[:, None]
         self._weights = share * (stiff / length)[:, None], share * ties.turning[:, None]
         self._tie_numbers = np.concatenate([plates.numbers[ties.spring], plates.numbers[ties.rim]], axis=1)
+        self._farthest = float(np.linalg.norm(plates.reference[:, 0], axis=1).max())
         self._find_pattern()
 
     def unloaded(self) -> Equilibrium:
@@ -154,7 +156,10 @@ class WheelOnPlane:
             except RuntimeError:  # singular
                 return (*residuals, float("inf"))
             contact = system.gaps, system.slopes, system.stiffness
-            step, forces = settle(factors.solve, system.tangent.dot, system.residual, contact, touching)
+            found = settle(factors.solve, system.tangent.dot, system.residual, contact, touching)
+            if found is None or self._moved(found[0]) > self._farthest:
+                return (*residuals, float("inf"))
+            step, forces = found
             held = -system.stiffness * np.minimum(system.gaps, 0.0)
             work = abs(float((system.residual - system.slopes.T @ held) @ step))
             load = float(held[system.near < self._ground.count].sum())
@@ -178,10 +183,15 @@ class WheelOnPlane:
             mixed = *self._extrapolated(free, step), pressed
             free = free + step
 
+    def _moved(self, step: Array) -> float:
+        """Longest way of a node in a step [m]."""
+        change = (self.wheel.basis @ step).reshape(self.wheel.plates.reference.shape)
+        return float(np.linalg.norm(change[:, 0], axis=1).max())
+
     def _touching(self, system: _System, start: Equilibrium) -> NDArray[np.bool_]:
         """First guess: what touched before; at first touch the lowest points (nearly all gaps are negative there)."""
         before = np.concatenate([start.pressed, start.inner])[system.near] > 0.0
-        return before if before.any() else np.asarray(system.gaps < system.gaps.min() + _LOWEST)
+        return before if before.any() else np.asarray(system.gaps < system.gaps.min(initial=np.inf) + _LOWEST)
 
     def _linearised(self, free: Array, deflection: float, mixed: Mixed) -> _System:
         """The wheel about free coordinates."""
@@ -244,13 +254,15 @@ def press(
     Raises
     ------
     InputError
-        For deflections that do not increase from above zero.
+        For deflections that do not increase from above zero, and a smallest step that is not positive.
     ConvergenceError
         If an increment fails whose half is below ``smallest_step`` [m]; with the history of increments.
     """
-    if not all(a < b for a, b in zip((0.0, *deflections), deflections, strict=False)):
+    if not (all(a < b for a, b in pairwise((0.0, *deflections))) and np.isfinite(deflections).all()):
         told = ", ".join(f"{1e3 * d:g}" for d in deflections)
-        raise InputError("deflections", f"{told} mm", "must increase from above zero", "sort them")
+        raise InputError("deflections", f"{told} mm", "must be finite and increase from above zero", "sort them")
+    if not (np.isfinite(smallest_step) and smallest_step > 0.0):
+        raise InputError("smallest step", f"{smallest_step:g} m", "must be > 0", "1e-5 m is usual")
     state, history = problem.unloaded(), [] if history is None else history
     for target in deflections:
         step = target - state.deflection

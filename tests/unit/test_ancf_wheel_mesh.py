@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from ancf_reduced.wheel.joints import RIGID_RATIO, turning_stiffness
 from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
+from contracts.errors import InputError
 from geometry.build import build_mesh
 from geometry.hexahedra import gauss_points, jacobians, reference_nodes
 from geometry.parts import SpringSet
@@ -111,6 +113,60 @@ def test_the_grounds_points_lie_on_the_outer_face(wheel: AncfWheel) -> None:
     half = math.asin(0.5 * fins.thickness / design.tire.outer_radius)
     rest = (2.0 * math.pi - fins.count * 2.0 * half) * design.tire.outer_radius * 0.5 * design.tire.width
     assert ground.area[~tips].sum() == pytest.approx(rest)
+
+
+def test_a_grouser_cut_by_a_weld_keeps_its_tip() -> None:
+    """The first outer weld ends inside a grouser's foot: both pieces together have the tip's area and width."""
+    design = WheelDesign()
+    fins, outer = design.grousers, design.spring_sets[0]
+    assert fins is not None
+    end = float(station_angles(outer)[0]) + 0.5 * weld_angle(outer, design.tire.inner_radius)
+    turned = replace(design, grousers=replace(fins, phase=end + 0.2 * fins.thickness / design.tire.outer_radius))
+    wheel = build_ancf_wheel(turned)
+    tips = wheel.ground.height < -fins.height
+    assert wheel.ground.area[tips].sum() == pytest.approx(fins.count * fins.thickness * 0.5 * design.tire.width)
+    assert wheel.ground.at[tips].min() >= 0.0
+    assert wheel.ground.at[tips].max() <= 1.0
+    whole = build_ancf_wheel(design)
+    assert tips.sum() > (whole.ground.height < -fins.height).sum()
+
+
+def test_the_rim_is_as_wide_as_it_is_where_the_hub_is_wider() -> None:
+    design = WheelDesign()
+    hub = replace(design.outer_hub, width=design.tire.width + 30e-3)
+    wheel = build_ancf_wheel(replace(design, outer_hub=hub))
+    middle = 0.5 * (design.tire.inner_radius + design.tire.outer_radius)
+    assert _area(wheel, "tire") == pytest.approx(2.0 * math.pi * middle * 0.5 * design.tire.width, rel=1e-12)
+    plates, ties = wheel.plates, wheel.ties
+    for spring, rim in zip(ties.spring, ties.rim, strict=True):
+        assert plates.reference[plates.plates[spring], 0, 1] == pytest.approx(
+            plates.reference[plates.plates[rim], 0, 1]
+        )
+
+
+@pytest.mark.parametrize(
+    ("sizes", "named"),
+    [
+        ({"element_size": 0.0}, "element size"),
+        ({"axial_size": -1.0}, "axial size"),
+        ({"element_size": math.nan}, "element size"),
+        ({"factor": 0.5}, "factor"),
+        ({"factor": math.nan}, "factor"),
+    ],
+)
+def test_sizes_that_divide_nothing_are_refused(sizes: dict[str, float], named: str) -> None:
+    with pytest.raises(InputError, match=named):
+        build_ancf_wheel(WheelDesign(), **sizes)
+
+
+def test_bands_that_all_but_meet_are_refused() -> None:
+    """Edges a tenth of a millimetre apart: plates narrower than thick; they may coincide."""
+    design = WheelDesign()
+    outer, inner = design.spring_sets
+    edge = outer.bands[1][0]
+    near = replace(inner, bands=((-edge + 1e-4, edge - 1e-4),))
+    with pytest.raises(InputError, match=r"leave 0\.1 mm between them"):
+        build_ancf_wheel(replace(design, spring_sets=(outer, near)))
 
 
 @pytest.mark.parametrize("design", [WheelDesign(), exomars_hoops()], ids=["leaves", "hoops"])

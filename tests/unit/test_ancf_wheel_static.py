@@ -15,7 +15,7 @@ from ancf_reduced.wheel.contact_step import settle
 from ancf_reduced.wheel.kernels import tie_terms
 from ancf_reduced.wheel.mesh import build_ancf_wheel
 from ancf_reduced.wheel.static import Equilibrium, WheelOnPlane, press
-from contracts.errors import InputError
+from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from geometry.wheel import WheelDesign, exomars_hoops
 
 Array = NDArray[np.float64]
@@ -90,7 +90,9 @@ def test_a_touching_set_is_the_minimum_of_the_energy() -> None:
     gap, G, k = 0.1 * random.standard_normal(30), random.standard_normal((30, 12)), 1e3 * random.random(30)
     factored = gap < 0.0
     inverse = np.linalg.inv(K + G.T @ (G * np.where(factored, k, 0.0)[:, None]))
-    step, forces = settle(inverse.__matmul__, K.__matmul__, R, (gap, csr_array(G), k), factored)
+    settled = settle(inverse.__matmul__, K.__matmul__, R, (gap, csr_array(G), k), factored)
+    assert settled is not None
+    step, forces = settled
 
     def energy(s: Array) -> tuple[float, Array]:
         held = np.minimum(gap + G @ s, 0.0)
@@ -122,8 +124,40 @@ def test_bad_input_is_refused(problem: WheelOnPlane) -> None:
         WheelOnPlane(problem.wheel, np.nan)
     with pytest.raises(InputError, match="contact stiffness"):
         WheelOnPlane(problem.wheel, 0.0, contact_stiffness=0.0)
-    with pytest.raises(InputError, match="must increase"):
-        next(press(problem, [2e-3, 1e-3]))
+    for wrong in ([2e-3, 1e-3], [2e-3, np.inf], [np.nan], [0.0]):
+        with pytest.raises(InputError, match="must be finite and increase"):
+            next(press(problem, wrong))
+    for step in (0.0, -1.0, np.nan):
+        with pytest.raises(InputError, match="smallest step"):
+            next(press(problem, [2e-3], smallest_step=step))
+
+
+def test_a_step_without_points_near_is_that_of_the_body_alone() -> None:
+    K, R = np.diag([1.0, 2.0]), np.array([1.0, 1.0])
+    none = np.empty(0), csr_array((0, 2)), np.empty(0)
+    settled = settle(np.linalg.inv(K).__matmul__, K.__matmul__, R, none, np.empty(0, dtype=bool))
+    assert settled is not None
+    np.testing.assert_allclose(settled[0], [-1.0, -0.5])
+
+
+def test_a_step_of_which_all_points_change_is_given_up() -> None:
+    """Three thousand points begin to touch at once: none, so that the increment is halved."""
+    gap, G = np.full(3000, 0.5), csr_array(np.ones((3000, 1)))
+    assert settle(lambda v: v, lambda v: v, np.ones(1), (gap, G, gap), np.zeros(3000, dtype=bool)) is None
+
+
+def test_an_increment_that_goes_astray_is_given_up_at_once(
+    problem: WheelOnPlane, pressed: list[Equilibrium], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The hub a metre through the ground: one step each, no traceback; what was found before is kept."""
+    found, history = list[Equilibrium](), list[IncrementRecord]()
+    with pytest.raises(ConvergenceError, match="no equilibrium found"):  # noqa: PT012
+        for state in press(problem, [pressed[0].deflection, 1.0], smallest_step=0.4, history=history):
+            found.append(state)  # noqa: PERF402
+    assert [s.load for s in found] == pytest.approx([pressed[0].load])
+    failed = [record for record in history if not record.converged]
+    assert failed
+    assert all(len(record.residuals) == 1 and record.residuals[-1] == np.inf for record in failed)
 
 
 def test_half_of_the_wheel_counts_twice(pressed: list[Equilibrium]) -> None:

@@ -133,6 +133,9 @@ def test_one_task_an_orientation_at_every_second_point(study: Study) -> None:
     assert set(shape.needs) == {"mesh", *(f"{m}_phi{o:03.0f}" for m in ("ancf_wheel", "fe") for o in ORIENTATIONS)}
     bare = study.model_copy(update={"fe": study.fe.model_copy(update={"keep_points": False})})
     assert len(ANCF_WHEEL.tasks(bare)) == len(tasks)
+    for changes, asked in ({"order": 1}, False), ({"order": 1, "thickness_elements": 2}, True):
+        meshed = study.model_copy(update={"mesh": study.mesh.model_copy(update=changes)})
+        assert (ANCF_WHEEL.tasks(meshed)[-1].name == "ancf_wheel_shape") is asked
     assert {task.name for task in tasks} >= {"ancf_wheel_phi000", "ancf_wheel_phi105"}
     assert all(task.inputs["deflections"] == every_second(points) for task in tasks)
     assert tasks[0].inputs["inner_contact_stiffness"] == INNER_STIFFNESS
@@ -144,7 +147,13 @@ def test_one_task_an_orientation_at_every_second_point(study: Study) -> None:
 
 @pytest.mark.parametrize(
     ("section", "key", "value"),
-    [("fe", "friction", 0.3), ("fe", "hub", "elastic"), ("fe", "material_law", "neo_hooke")],
+    [
+        ("fe", "friction", 0.3),
+        ("fe", "hub", "elastic"),
+        ("fe", "material_law", "neo_hooke"),
+        ("fe", "contact_stiffness", None),
+        ("fe", "contact_method", "augmented_lagrangian"),
+    ],
 )
 def test_what_its_model_does_not_have_is_not_asked(study: Study, section: str, key: str, value: object) -> None:
     changed = study.model_copy(update={section: getattr(study, section).model_copy(update={key: value})})

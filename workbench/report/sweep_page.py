@@ -16,7 +16,13 @@ from workbench.questions.sweep.words import Column, told_columns
 __all__ = ["sweep_page"]
 
 _TEMPLATES = Path(__file__).parent / "templates"
-_NAMES = {"fe": "solid model", "section": "section model", "ancf": "ANCF tire", "brush": "brush tire"}
+_NAMES = {
+    "fe": "solid model",
+    "section": "section model",
+    "ancf_wheel": "ANCF wheel",
+    "ancf": "ANCF tire",
+    "brush": "brush tire",
+}
 
 
 def sweep_page(title: str, table: SweepTable, found: Sequence[Outcome]) -> str:

@@ -22,6 +22,8 @@ def without_ancf_wheel(study: Study) -> str | None:
         (f"fe.friction = {fe.friction:g}", fe.friction != 0.0),
         (f"fe.obstacle = {fe.obstacle.shape}", fe.obstacle.shape != "plane"),
         ("camber or yaw", fe.turned),
+        ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
+        (f"fe.contact_method = {fe.contact_method}", fe.contact_method != "penalty"),
         (f"fe.material_law = {fe.material_law}", fe.material_law != "st_venant_kirchhoff"),
     )
     return next((name for name, stands in lacks if stands), None)

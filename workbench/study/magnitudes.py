@@ -60,10 +60,10 @@ _NEEDED = {
         "ancf_wheel_largest": "ancf_wheel",
         "ancf_wheel_mean": "ancf_wheel",
         "ancf_wheel_stress": "ancf_wheel",
-        "ancf_wheel_shape": "ancf_wheel",
+        "ancf_wheel_shape": "ancf_wheel and fe.keep_points",
     },
 }
-"""Tolerances of checks that only some studies ask for -> the section or key that does."""
+"""Tolerances of checks that only some studies ask for -> the sections and keys that do."""
 
 
 def study_ranges() -> RangeTable:
@@ -145,9 +145,14 @@ def _idle(study: Study) -> Iterator[str]:
 
 def _asked(study: Study, tolerance: str) -> bool:
     """Whether the report has the check of a tolerance, as far as a section of the study decides it."""
-    section, _, key = _NEEDED.get(tolerance, "fe").partition(".")
-    needed = getattr(study, section)
-    return bool(getattr(needed, key, False)) if key else needed is not None
+    return all(_has(study, name) for name in _NEEDED.get(tolerance, "fe").split(" and "))
+
+
+def _has(study: Study, name: str) -> bool:
+    """Whether a study has a section, or one of its switches is on."""
+    section, _, key = name.partition(".")
+    found = getattr(study, section)
+    return bool(getattr(found, key, False)) if key else found is not None
 
 
 def warnings_of(study: Study) -> tuple[str, ...]:

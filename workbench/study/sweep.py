@@ -30,7 +30,7 @@ __all__ = [
 
 type Value = str | int | float | bool
 """A value as the study file has it, with its unit."""
-SweptModel = Literal["fe", "section", "ancf", "brush"]
+SweptModel = Literal["fe", "section", "ancf_wheel", "ancf", "brush"]
 MOST_POINTS, MOST_PARAMETERS = 10_000, 100
 
 
@@ -197,6 +197,9 @@ class SweepSection(Section):
                 raise in_key("design", "search", "needs two parameters at least", 'use "latin-hypercube" for one')
         if "temperature" in self.parameters and self.models != ("fe",):
             raise in_key("temperature", "given", "acts on the solid model only", 'set models = ["fe"]')
+        for key in self.parameters:
+            if key.startswith("ancf_wheel.") and "ancf_wheel" not in self.models:
+                raise in_key(key, "given", "acts on the ANCF wheel only", 'add "ancf_wheel" to models')
         if len(set(self.models)) < len(self.models):
             raise in_key("models", ", ".join(self.models), "names a model twice", "give each once")
         return self

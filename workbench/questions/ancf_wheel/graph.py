@@ -23,10 +23,14 @@ def every_second(deflections: Sequence[float]) -> list[float]:
 
 
 def ancf_wheel_tasks(study: Study) -> list[Task]:
-    """One task an orientation of the FE runs, ``ancf_wheel_phi015``; the shapes where the solid keeps its points."""
+    """One task an orientation of the FE runs, ``ancf_wheel_phi015``; the shapes where the solid keeps its points.
+
+    And has nodes half way through its strips, as linear cells in odd number have not.
+    """
     section = stated(study.ancf_wheel, "ancf_wheel")
     curves = _curve_tasks(study, section, [degrees(o) for o in study.fe.orientations])
-    return [*curves, _shape_task(study, curves[0].inputs)] if study.fe.keep_points else curves
+    middle = study.mesh.order == 2 or study.mesh.thickness_elements % 2 == 0
+    return [*curves, _shape_task(study, curves[0].inputs)] if study.fe.keep_points and middle else curves
 
 
 def ancf_wheel_curve_tasks(study: Study, orientations_deg: Sequence[float] = ()) -> list[Task]:

@@ -15,7 +15,7 @@ from workbench.questions.model_curves import ModelCurves, RunNumbers
 __all__ = ["AncfWheelRow", "AncfWheelRuns", "differences", "energy_differences", "stress_differences"]
 
 Array = NDArray[np.float64]
-_ENERGY, _INNER, _STRESS = "stored_energy_J", "inner_penetration_m", "max_linearised_springs_"
+_ENERGY, _INNER, _STRESS = "stored_energy_J", "inner_penetration_m", "max_linearised_"
 
 
 def differences(curve: StiffnessCurve, solid: StiffnessCurve) -> tuple[Array, Array]:
@@ -48,7 +48,7 @@ def stress_differences(curve: StiffnessCurve, solid: StiffnessCurve, *, touching
     touching : where springs of the solid lie on rim, hub or each other; else before they first do
     """
     at, _ = differences(curve, solid)
-    names = [name for name in curve.columns if name.startswith(_STRESS)]
+    names = [name for name in curve.columns if name.startswith(_STRESS)]  # the ANCF wheel's: of springs alone
     if not names or any(name not in solid.columns for name in (*names, _INNER)):
         raise InputError("curves", "ancf_wheel, fe", f"do not both have {_STRESS}...", "compute them anew")
     inner = np.interp(at, solid.deflection, np.cumsum(solid.columns[_INNER]))

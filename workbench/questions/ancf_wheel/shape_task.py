@@ -13,8 +13,9 @@ from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
 from ancf_reduced.wheel.shape import MiddleSurface
 from contracts.archive import read_archive
 from contracts.curves import read_curve
+from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
-from workbench.execution.result_files import write_result
+from workbench.execution.result_files import FAILURE, write_result
 from workbench.questions.ancf_wheel.task import STATES
 from workbench.questions.fe.field_file import POINTS_FILE, read_points
 from workbench.questions.model_curves import CURVE
@@ -33,11 +34,15 @@ _LARGEST = 1_000_000_000
 def compare_shapes(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """``result.json``: rows of orientation, deflection and distances of the middle surfaces; returns their number.
 
-    Needs the mesh, and the curves of both models at each orientation. A point counts where both models have it.
+    No row, and the reason, where the solid has no nodes on a middle surface. Needs the mesh, and the curves of both models at each orientation. A point counts where both models have it.
     """
     wheel = build_ancf_wheel(design_from(inputs["wheel"]), **inputs["options"])
     mesh = read_mesh(needs[inputs["mesh"]] / MESH)
-    surfaces = {part: _middle_surface(wheel, mesh, part) for part in dict.fromkeys(wheel.parts.tolist())}
+    try:
+        surfaces = {part: _middle_surface(wheel, mesh, part) for part in dict.fromkeys(wheel.parts.tolist())}
+    except InputError as error:
+        write_result(out, {"rows": [], FAILURE: str(error)})
+        return 0
     rows = list[dict[str, Any]]()
     for i, (orientation, ancf, fe) in enumerate(inputs["pairs"]):
         for deflection, q, moved in _common_points(wheel, needs[ancf], needs[fe]):

@@ -96,8 +96,8 @@ def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str,
 
 
 def _around(run: SweepRun) -> Around | None:
-    """Of a finite element curve; an ANCF tire's orientations count alike."""
-    return around(run.point.study) if run.model in ("fe", "section") else None
+    """Of a curve of the wheel; a fitted ANCF tire's orientations count alike."""
+    return around(run.point.study) if run.model in ("fe", "section", "ancf_wheel") else None
 
 
 def _reach(curves: Sequence[StiffnessCurve]) -> list[str]:
