@@ -26,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT)]
 
 from ancf_reduced.wheel.mesh import build_ancf_wheel  # noqa: E402
-from ancf_reduced.wheel.static import WheelOnPlane, press  # noqa: E402
+from ancf_reduced.wheel.static import WheelOnGround, press  # noqa: E402
 from benchmarks.ancf_rows.clock import multiply_add_rate, row, shortest  # noqa: E402
 from benchmarks.output.run import Run, add_option  # noqa: E402
 from geometry.wheel import exomars  # noqa: E402
@@ -95,7 +95,7 @@ def child(asked: dict[str, Any]) -> dict[str, Any]:
     begun = time.process_time()
     if "plates" in asked:
         wheel = build_ancf_wheel(exomars(), element_size=asked["plates"][0], axial_size=asked["plates"][1])
-        problem = WheelOnPlane(wheel, math.radians(ORIENTATION))
+        problem = WheelOnGround(wheel, math.radians(ORIENTATION))
         load, unknowns = [s.load for s in press(problem, asked["deflections"])], wheel.basis.shape[1]
     else:
         load, unknowns = solid_curve(asked["solid"], asked["deflections"])
@@ -132,7 +132,7 @@ def growth() -> Iterator[dict[str, object]]:
     """Processor time of one step as plates grow."""
     for factor in GROWTH:
         wheel = build_ancf_wheel(exomars(), factor=factor)
-        problem = WheelOnPlane(wheel, math.radians(ORIENTATION))
+        problem = WheelOnGround(wheel, math.radians(ORIENTATION))
         case = f"{len(wheel.plates.plates)} plates"
         begun = os.times().user
         (state,) = press(problem, [5e-3])

@@ -1,4 +1,4 @@
-"""Contact of an ANCF wheel: rim and grousers with the ground; springs, rim and hub with each other.
+"""Contact within an ANCF wheel: springs, rim and hub with each other.
 
 Each contact is a row: a gap, its slopes, a penalty. Points on the faces of springs are held off the rim's inside, off
 the hub, and off the springs beside them, with one penalty stiffness as in the solid model. Verified by
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csc_array, csr_array, vstack
+from scipy.sparse import coo_array, csr_array, vstack
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.closest import PlateFace
@@ -20,14 +20,12 @@ from ancf_reduced.wheel.contact_kernels import Faces, face_points, plate_gaps, r
 from ancf_reduced.wheel.faces import FacePoints
 from ancf_reduced.wheel.mesh import AncfWheel
 
-__all__ = ["GroundContact", "HubContact", "Near", "PlateContact", "inner_contacts", "joined"]
+__all__ = ["HubContact", "Near", "PlateContact", "Points", "inner_contacts", "joined"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-_REACH = 10e-3
-"""Gap up to which a point may touch the ground within one step [m]."""
 _INNER_REACH = 2e-3
-"""The same between parts of the wheel [m]."""
+"""Gap up to which a point may touch within one step [m]."""
 _LEAST_GAP = 10e-6
 """Points closer than this to a face at the beginning, beside a weld, are left out [m]."""
 _DEPTH = 5e-3
@@ -38,15 +36,23 @@ _FACING = 0.5
 """Largest cosine between the normals of a point's face and of the one it touches [-]."""
 
 
+Entries = tuple[Index, Index, Array]
+"""Rows, columns and values of a sparse matrix; those of one place add up."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Near:
-    """Points that may touch within a step: their numbers, gaps [m], slopes (n, size), penalties [N/m], tangent."""
+    """Contacts that may touch within a step: their numbers, gaps [m], slopes (n, size), penalties [N/m].
+
+    And what their forces add to the tangent, and the normals (n, 3) of a rigid surface.
+    """
 
     points: Index
     gaps: Array
     slopes: csr_array
     stiffness: Array
-    tangent: csc_array | None = None
+    tangent: Entries | None = None
+    normals: Array | None = None
 
 
 def joined(parts: Sequence[Near], counts: Sequence[int]) -> Near:
@@ -58,11 +64,16 @@ def joined(parts: Sequence[Near], counts: Sequence[int]) -> Near:
         gaps=np.concatenate([part.gaps for part in parts]),
         slopes=csr_array(vstack([part.slopes for part in parts], format="csr")),
         stiffness=np.concatenate([part.stiffness for part in parts]),
-        tangent=csc_array(sum(tangents[1:], tangents[0])) if tangents else None,
+        tangent=_together(tangents) if tangents else None,
     )
 
 
-class _Points:
+def _together(parts: Sequence[Entries]) -> Entries:
+    rows, columns, values = (np.concatenate(each) for each in zip(*parts, strict=True))
+    return rows, columns, values
+
+
+class Points:
     """Points on faces, as kernels take them."""
 
     def __init__(self, wheel: AncfWheel, points: FacePoints) -> None:
@@ -84,37 +95,30 @@ class _Points:
         return places, normals
 
     def rigid(
-        self, q: Array, near: Index, gaps: Array, surface: tuple[Array, Array], held: tuple[float, Array, Array]
+        self,
+        q: Array,
+        near: tuple[Index, Index],
+        gaps: Array,
+        surface: tuple[Array, Array],
+        held: tuple[float, Array, Array],
     ) -> Near:
-        """Contacts of points ``near`` with a rigid surface; held: penalty [N/m^3], forces of all points, blocks."""
-        penalty, forces, blocks = held
-        slopes = np.empty((len(near), 16, 3))
-        rigid_gaps(q, self.plates.plates, self.of(near), surface, forces[near], slopes, blocks)
-        columns, starts = self.plates.numbers[self.faces[0][near]], 48 * np.arange(len(near) + 1)
-        G = csr_array((slopes.ravel(), columns.ravel(), starts), shape=(len(near), self.plates.size))
-        return Near(near, gaps, G, penalty * self.area[near])
+        """Contacts with a rigid surface.
 
-
-class GroundContact:
-    """Rim and grousers on a rigid plane with unit normal to the wheel (3,); level 0 is the first touch."""
-
-    def __init__(self, wheel: AncfWheel, normal: Array, penalty: float) -> None:
-        self._points, self._normal, self._penalty = _Points(wheel, wheel.ground), normal, penalty
-        self.count = len(wheel.ground.plate)
-        self._touch = float((self._points.at(wheel.plates.reference)[0] @ normal).min())
-
-    def near(self, q: Array, level: float, forces: Array, blocks: Array) -> Near:
-        """Points within reach of the plane ``level`` [m] above the first touch; adds to blocks what forces add."""
-        gaps = self._points.at(q)[0] @ self._normal - self._touch - level
-        near = np.flatnonzero(gaps < _REACH)
-        surface = np.tile(self._normal, (len(near), 1)), np.zeros((len(near), 3, 3))
-        return self._points.rigid(q, near, gaps[near], surface, (self._penalty, forces, blocks))
+        near : points and numbers of the contacts; surface : normals and bends; held : penalty [N/m^3], forces of all
+        contacts, blocks of plates
+        """
+        (points, numbers), (penalty, forces, blocks) = near, held
+        slopes = np.empty((len(points), 16, 3))
+        rigid_gaps(q, self.plates.plates, self.of(points), surface, forces[numbers], slopes, blocks)
+        columns, starts = self.plates.numbers[self.faces[0][points]], 48 * np.arange(len(points) + 1)
+        G = csr_array((slopes.ravel(), columns.ravel(), starts), shape=(len(points), self.plates.size))
+        return Near(numbers, gaps, G, penalty * self.area[points], normals=surface[0])
 
 
 class HubContact:
     """Springs and rim on the hub: a cylinder about the axle."""
 
-    def __init__(self, wheel: AncfWheel, faces: _Points, penalty: float) -> None:
+    def __init__(self, wheel: AncfWheel, faces: Points, penalty: float) -> None:
         self._points, self._radius, self._penalty = faces, wheel.hub[0], penalty
         self.count = len(wheel.faces.plate)
         places = self._points.at(wheel.plates.reference)[0]
@@ -133,7 +137,7 @@ class HubContact:
         flat = np.diag([1.0, 0.0, 1.0]) - normals[:, :, None] * normals[:, None, :]
         surface = normals, flat / rho[:, None, None]
         held = self._penalty, forces, blocks
-        return self._points.rigid(q, self._asked[kept], gaps[kept], surface, held)
+        return self._points.rigid(q, (self._asked[kept], self._asked[kept]), gaps[kept], surface, held)
 
 
 class PlateContact:
@@ -146,7 +150,7 @@ class PlateContact:
     face : what they may touch
     """
 
-    def __init__(self, wheel: AncfWheel, faces: _Points, points: Index, face: PlateFace, penalty: float) -> None:
+    def __init__(self, wheel: AncfWheel, faces: Points, points: Index, face: PlateFace, penalty: float) -> None:
         self._points, self._of, self._face, self._penalty = faces, points, face, penalty
         self.count = len(points)
         self._asked = np.arange(len(points))
@@ -201,14 +205,14 @@ class PlateContact:
             (slopes.ravel(), (np.repeat(np.arange(len(own)), 96), columns.ravel())), shape=(len(own), plates.size)
         )
         area = self._points.area[self._of[numbers]]
-        return Near(numbers, gaps, csr_array(G), self._penalty * area, self._assembled(pairs, tangent))
+        return Near(numbers, gaps, csr_array(G), self._penalty * area, self._entries(pairs, tangent))
 
-    def _assembled(self, pairs: Index, blocks: Array) -> csc_array:
+    def _entries(self, pairs: Index, blocks: Array) -> Entries | None:
         plates = self._points.plates
         held = blocks.any(axis=(1, 2, 3, 4))
         numbers = np.concatenate([plates.numbers[pairs[held, 0]], plates.numbers[pairs[held, 1]]], axis=1)
         rows, columns = np.repeat(numbers, 96, axis=1).ravel(), np.tile(numbers, (1, 96)).ravel()
-        return csc_array(coo_array((blocks[held].ravel(), (rows, columns)), shape=(plates.size, plates.size)))
+        return (rows, columns, blocks[held].ravel()) if held.any() else None
 
 
 def inner_contacts(wheel: AncfWheel, penalty: float) -> list[HubContact | PlateContact]:
@@ -218,7 +222,7 @@ def inner_contacts(wheel: AncfWheel, penalty: float) -> list[HubContact | PlateC
     front = 0.5 * thickness * strips.facing
     strip = strips.strip[faces.plate]
     in_front = faces.height * strips.facing[faces.plate] > 0.0
-    points = _Points(wheel, faces)
+    points = Points(wheel, faces)
     rim = PlateFace(plates, np.flatnonzero((strips.strip == 0) & strips.bare), front)
     found: list[HubContact | PlateContact] = [
         HubContact(wheel, points, penalty),

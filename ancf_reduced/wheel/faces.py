@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from geometry.wheel import WheelDesign
 
-__all__ = ["FacePoints", "Strips", "ground_points", "inner_points"]
+__all__ = ["APART", "FacePoints", "Strips", "ground_points", "inner_points"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 _ACROSS = 4
 """Contact points of a plate along the axle."""
-_APART = 1.5e-3
-"""Largest distance of contact points along strips and around the rim [m]."""
+APART = 1.5e-3
+"""Largest distance of contact points along strips, and around the rim where the ground is flat [m]."""
 _LOBATTO = np.array([-1.0, 0.0, 1.0]), np.array([1.0, 4.0, 1.0]) / 6.0
 
 
@@ -59,9 +59,9 @@ class Strips:
     bare: NDArray[np.bool_]
 
 
-def _grid(length: float) -> tuple[Array, Array]:
+def _grid(length: float, apart: float = APART) -> tuple[Array, Array]:
     """Places (n, 2) in a plate of this length [m] and the shares (n,) of its area they stand for."""
-    n = max(1, math.ceil(length / _APART))
+    n = max(1, math.ceil(length / apart))
     around = ((2.0 * np.arange(n) + 1.0) / n - 1.0, np.full(n, 1.0 / n))
     return _product(around)
 
@@ -93,11 +93,12 @@ def inner_points(strips: Strips, sizes: Array, thickness: Array) -> FacePoints:
 
 
 def ground_points(
-    design: WheelDesign, plates: Index, sizes: Array, fin: tuple[float, float] | None = None
+    design: WheelDesign, plates: Index, sizes: Array, fin: tuple[float, float] | None = None, apart: float = APART
 ) -> FacePoints:
     """Points of one row of the rim's plates: on its outer face, or on the tip of a grouser.
 
     fin : where the row begins, from the grouser's middle on, and how far it goes [rad]
+    apart : largest distance of points around the rim [m]
     """
     tire, fins = design.tire, design.grousers
     middle = 0.5 * (tire.inner_radius + tire.outer_radius)
@@ -110,7 +111,7 @@ def ground_points(
         place[:, 0] = np.clip((rays - fin[0]) / fin[1], 0.0, 1.0)
         along = high - low
     else:
-        height, (place, share) = 0.5 * tire.thickness, _grid(length)
+        height, (place, share) = 0.5 * tire.thickness, _grid(length, apart)
         along = length * tire.outer_radius / middle
     count = len(share)
     return FacePoints(

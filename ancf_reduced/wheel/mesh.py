@@ -19,13 +19,14 @@ from scipy.interpolate import CubicSpline
 from scipy.sparse import csc_array
 
 from ancf_reduced.thin_plates.plates import Layer, ThinPlates
-from ancf_reduced.wheel.faces import FacePoints, Strips, ground_points, inner_points
+from ancf_reduced.wheel.faces import APART, FacePoints, Strips, ground_points, inner_points
 from ancf_reduced.wheel.joints import RIGID_RATIO, turning_stiffness
 from ancf_reduced.wheel.supports import HubEnd, free_basis, hub_stiffness
 from contracts.errors import InputError
 from geometry.build import mesh_size
 from geometry.parts import SpringSet
 from geometry.resolution import MeshSize, Ring, axial_bands, axial_levels, rim_ring
+from geometry.rules import require_positive_length
 from geometry.springs import leg_sides, polar, spring_leg, station_angles, weld_angle
 from geometry.wheel import WheelDesign
 
@@ -141,6 +142,7 @@ def build_ancf_wheel(
     axial_size: float = 18e-3,
     half_width: bool = True,
     factor: float = 1.0,
+    ground_spacing: float = APART,
 ) -> AncfWheel:
     """Divide a wheel into thin plates, its outer hub rigid.
 
@@ -151,6 +153,8 @@ def build_ancf_wheel(
     axial_size : largest length along the axle [m]
     half_width : the half y >= 0, symmetry at y = 0
     factor : at least 1; counts along strips and along the axle are multiplied by it and rounded up
+    ground_spacing : largest distance around the rim of points that may touch the ground [m]; ground of radius R between
+        two that are s apart is s^2 / (8 R) deeper than they tell
 
     Raises
     ------
@@ -163,13 +167,14 @@ def build_ancf_wheel(
         raise InputError("sidewall springs", design.sidewall_springs.name, rule, "use the solid model")
     if not (math.isfinite(factor) and factor >= 1.0):
         raise InputError("factor", f"{factor:g}", "must be >= 1", "1 is the mesh of the sizes given")
+    require_positive_length("ground spacing", ground_spacing)
     size = replace(mesh_size(design, element_size, axial_size, 1, None), factor=factor)
     bands = axial_bands(design, size, axial_levels(design, "flexible", half_width))
     levels = np.concatenate([[bands[0][0]], *(np.linspace(a, b, n + 1)[1:] for a, b, n in bands)])
     _require_wide(design, levels)
     draft = _Draft(levels=levels)
     ring = rim_ring(design, size)
-    breaks, rim_plates, ground = _add_rim(draft, design, ring)
+    breaks, rim_plates, ground = _add_rim(draft, design, ring, ground_spacing)
     ties, ends = list[TieLine](), list[HubEnd]()
     for springs in design.spring_sets:
         _add_springs(draft, design, springs, size, (ring, breaks, rim_plates), (ties, ends))
@@ -216,7 +221,7 @@ def _columns(draft: _Draft, bands: Iterable[tuple[float, float]]) -> list[range]
     return found
 
 
-def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Index, FacePoints]:
+def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring, apart: float) -> tuple[Index, Index, FacePoints]:
     """Returns the rim's first row of plates after each break of the ring, all its plates, and the ground's points."""
     tire, fins = design.tire, design.grousers
     middle = 0.5 * (tire.inner_radius + tire.outer_radius)
@@ -248,6 +253,7 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> tuple[Index, Ind
             plates[row],
             draft.sizes[-1].reshape(*plates.shape, 2)[row],
             (_turned(angles[row] - inside[int(i)]), steps[row]) if int(i) in inside else None,
+            apart,
         )
         for row, i in enumerate(of)
     ]

@@ -1,4 +1,4 @@
-"""Equilibria of an ANCF wheel on a rigid plane, its hub held: loads, and whether they are stable.
+"""Equilibria of an ANCF wheel on rigid ground, its hub held: loads, and whether they are stable.
 
 Newton's method as the continuum model has it: stresses of the tangent's geometric part are linearised from step to step
 (mixed integration points), so that thin strips turn far in few iterations, and every step finds its own set of touching
@@ -13,18 +13,20 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.linalg import splu
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.contact_step import settle
-from ancf_reduced.wheel.contacts import GroundContact, inner_contacts, joined
+from ancf_reduced.wheel.contacts import inner_contacts, joined
+from ancf_reduced.wheel.ground import GroundContact, ground_frame
 from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
 from ancf_reduced.wheel.mesh import AncfWheel
+from ancf_reduced.wheel.reduction import Reduction
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
-from contracts.frames import ground_direction_h
+from contracts.terrain import Plane, Terrain
 
-__all__ = ["Equilibrium", "WheelOnPlane", "press"]
+__all__ = ["Equilibrium", "WheelOnGround", "press"]
 
 Array = NDArray[np.float64]
 Mixed = tuple[list[Array], Array, Array]
@@ -35,6 +37,8 @@ _TIE_STIFFNESS = 1e3
 """Of a tie, in t E / length of the spring's plate [-]."""
 _LOWEST = 1e-6
 """Height above the lowest point up to which points are taken to touch first [m]."""
+_ASTRAY = 1e5
+"""Work of the residual, over load times deflection, from which no iteration has come back [-]."""
 _LEAST_WORK = 1e-9
 """Work that residuals are held against at least [N m]."""
 
@@ -49,7 +53,7 @@ class Equilibrium:
     load : of the ground on the whole wheel [N]
     energy : strain energy of plates and ties, of the whole wheel [J]
     free : (n_free,) coordinates
-    pressed : (n_ground,) force at each of the ground's points [N]
+    pressed : (n_ground,) force at each contact of a point with a piece of the ground [N]
     inner : (n_inner,) force at each pair of a point on a spring's or the rim's face and what it may touch [N]
     negative : negative eigenvalues of the tangent, the contact's stiffness included: none where the wheel stands
     residuals : work of the residual in each step, over load times deflection [-]
@@ -72,7 +76,10 @@ class Equilibrium:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _System:
-    """The wheel linearised: residual (n,) and tangent without contact; gaps, their slopes (m, n) and penalties near."""
+    """The wheel linearised: residual (n,) and tangent without contact; gaps, their slopes (m, n) and penalties near.
+
+    And shares of the ground's contacts, the first of them, along the ground's normal.
+    """
 
     residual: Array
     tangent: csc_array
@@ -80,10 +87,11 @@ class _System:
     slopes: csr_array
     stiffness: Array
     near: NDArray[np.int64]
+    lift: Array
     energy: float
 
 
-class WheelOnPlane:
+class WheelOnGround:
     """One wheel at one orientation.
 
     Parameters
@@ -92,6 +100,8 @@ class WheelOnPlane:
     orientation : circumferential position that faces the ground [rad]
     contact_stiffness : penalty of the ground [N/m^3]
     inner_contact_stiffness : penalty of springs, rim and hub against each other [N/m^3]; 0: they pass through
+    terrain : the ground in its own frame, x forward, z along its normal, the hub above its origin; a plane without it
+    camber : of the ground about its forward direction; positive lifts its left side [rad]
     """
 
     def __init__(
@@ -100,9 +110,14 @@ class WheelOnPlane:
         orientation: float,
         contact_stiffness: float = 1e11,
         inner_contact_stiffness: float = 1e11,
+        *,
+        terrain: Terrain | None = None,
+        camber: float = 0.0,
     ) -> None:
         if not np.isfinite(orientation):
             raise InputError("orientation", f"{orientation} rad", "must be finite", "give an angle such as 0.785 rad")
+        if not abs(camber) < 0.5 * np.pi:
+            raise InputError("camber", f"{camber} rad", "must lie between -pi/2 and pi/2", "give an angle such as 0.1 rad")
         if not (np.isfinite(contact_stiffness) and contact_stiffness > 0.0):
             raise InputError("contact stiffness", f"{contact_stiffness:g} N/m^3", "must be > 0", "1e11 N/m^3 is usual")
         if not (np.isfinite(inner_contact_stiffness) and inner_contact_stiffness >= 0.0):
@@ -110,7 +125,7 @@ class WheelOnPlane:
             raise InputError("inner contact stiffness", told, "must be >= 0", "1e11 N/m^3 is usual, 0 is without")
         self.wheel = wheel
         plates, ties = wheel.plates, wheel.ties
-        self._ground = GroundContact(wheel, -ground_direction_h(orientation), contact_stiffness)
+        self._ground = GroundContact(wheel, terrain or Plane(), ground_frame(orientation, camber), contact_stiffness)
         self._inner = inner_contacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else []
         self._counts = [contact.count for contact in (self._ground, *self._inner)]
         at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
@@ -127,7 +142,7 @@ class WheelOnPlane:
         self._weights = share * (stiff / length)[:, None], share * ties.turning[:, None]
         self._tie_numbers = np.concatenate([plates.numbers[ties.spring], plates.numbers[ties.rim]], axis=1)
         self._farthest = float(np.linalg.norm(plates.reference[:, 0], axis=1).max())
-        self._find_pattern()
+        self._reduction = Reduction(wheel.basis, (plates.numbers, self._tie_numbers))
 
     def unloaded(self) -> Equilibrium:
         """The wheel at first touch."""
@@ -162,7 +177,7 @@ class WheelOnPlane:
             step, forces = found
             held = -system.stiffness * np.minimum(system.gaps, 0.0)
             work = abs(float((system.residual - system.slopes.T @ held) @ step))
-            load = float(held[system.near < self._ground.count].sum())
+            load = float(held[: len(system.lift)] @ system.lift)
             residuals.append(work / max(load * deflection, _LEAST_WORK))
             pressed = np.zeros(sum(self._counts))
             if residuals[-1] < tolerance:
@@ -177,7 +192,7 @@ class WheelOnPlane:
                     negative=int((factors.U.diagonal() < 0.0).sum()),
                     residuals=tuple(residuals),
                 )
-            if len(residuals) > limit or not np.isfinite(residuals[-1]):
+            if len(residuals) > limit or not residuals[-1] < _ASTRAY:
                 return tuple(residuals)
             pressed[system.near] = forces
             mixed = *self._extrapolated(free, step), pressed
@@ -208,18 +223,20 @@ class WheelOnPlane:
         near = joined(found, self._counts)
         total = np.bincount(plates.numbers.ravel(), weights=force.ravel(), minlength=plates.size)
         total += np.bincount(self._tie_numbers.ravel(), weights=tie_force.ravel(), minlength=plates.size)
-        data = np.bincount(self._place, weights=np.concatenate([blocks.ravel(), tie_blocks.ravel()]))
-        matrix = csc_array((data, self._indices, self._starts), shape=(plates.size, plates.size))
+        matrix = self._reduction(np.concatenate([blocks.ravel(), tie_blocks.ravel()]))
         if near.tangent is not None:
-            matrix = matrix + near.tangent
+            rows, columns, values = near.tangent
+            inner = csc_array(coo_array((values, (rows, columns)), shape=(plates.size, plates.size)))
+            matrix = matrix + T.T @ inner @ T
         held = self.wheel.held @ free
         return _System(
             residual=T.T @ total + held,
-            tangent=csc_array(T.T @ matrix @ T + self.wheel.held),
+            tangent=csc_array(matrix + self.wheel.held),
             gaps=near.gaps,
             slopes=csr_array(near.slopes @ T),
             stiffness=near.stiffness,
             near=near.points,
+            lift=self._ground.lift(found[0]),
             energy=energy + 0.5 * float(free @ held),
         )
 
@@ -231,18 +248,10 @@ class WheelOnPlane:
         find_tie_forces(q, change, plates.plates, self._ties, self._weights, tied)
         return plates.stresses(q, change), tied
 
-    def _find_pattern(self) -> None:
-        """Positions of every block's entries in one sparse matrix."""
-        size, blocks = self.wheel.plates.size, (self.wheel.plates.numbers, self._tie_numbers)
-        rows = np.concatenate([np.repeat(n, n.shape[1], axis=1).ravel() for n in blocks])
-        columns = np.concatenate([np.tile(n, (1, n.shape[1])).ravel() for n in blocks])
-        found, self._place = np.unique(columns * size + rows, return_inverse=True)
-        self._indices = (found % size).astype(np.int32)
-        self._starts = np.concatenate([[0], np.cumsum(np.bincount(found // size, minlength=size))]).astype(np.int32)
 
 
 def press(
-    problem: WheelOnPlane,
+    problem: WheelOnGround,
     deflections: Sequence[float],
     smallest_step: float = 1e-5,
     history: list[IncrementRecord] | None = None,

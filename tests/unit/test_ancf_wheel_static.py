@@ -14,7 +14,7 @@ from scipy.sparse import csr_array
 from ancf_reduced.wheel.contact_step import settle
 from ancf_reduced.wheel.kernels import tie_terms
 from ancf_reduced.wheel.mesh import build_ancf_wheel
-from ancf_reduced.wheel.static import Equilibrium, WheelOnPlane, press
+from ancf_reduced.wheel.static import Equilibrium, WheelOnGround, press
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from geometry.wheel import WheelDesign, exomars_hoops
 
@@ -29,22 +29,22 @@ def small() -> WheelDesign:
 
 
 @pytest.fixture(scope="module")
-def problem() -> WheelOnPlane:
-    return WheelOnPlane(build_ancf_wheel(small(), element_size=40e-3, axial_size=60e-3), 0.0)
+def problem() -> WheelOnGround:
+    return WheelOnGround(build_ancf_wheel(small(), element_size=40e-3, axial_size=60e-3), 0.0)
 
 
 @pytest.fixture(scope="module")
-def open_problem(problem: WheelOnPlane) -> WheelOnPlane:
+def open_problem(problem: WheelOnGround) -> WheelOnGround:
     """Its parts pass through each other: their contact is in test_ancf_wheel_contacts.py."""
-    return WheelOnPlane(problem.wheel, 0.0, inner_contact_stiffness=0.0)
+    return WheelOnGround(problem.wheel, 0.0, inner_contact_stiffness=0.0)
 
 
 @pytest.fixture(scope="module")
-def pressed(problem: WheelOnPlane) -> list[Equilibrium]:
+def pressed(problem: WheelOnGround) -> list[Equilibrium]:
     return list(press(problem, [2e-3, 4e-3, 6e-3]))
 
 
-def test_residual_and_tangent_are_derivatives(open_problem: WheelOnPlane) -> None:
+def test_residual_and_tangent_are_derivatives(open_problem: WheelOnGround) -> None:
     """Of plates, ties and gaps at a state that balances nothing; forces of the present state, not of a step's."""
     random = np.random.default_rng(1)
     size = open_problem.wheel.basis.shape[1]
@@ -64,7 +64,7 @@ def test_residual_and_tangent_are_derivatives(open_problem: WheelOnPlane) -> Non
     np.testing.assert_allclose(system.slopes @ direction, (ahead[2] - behind[2]) / (2.0 * step), rtol=1e-5, atol=1e-6)
 
 
-def test_what_forces_add_to_the_tangent_is_the_slopes_derivative(open_problem: WheelOnPlane) -> None:
+def test_what_forces_add_to_the_tangent_is_the_slopes_derivative(open_problem: WheelOnGround) -> None:
     """G^T f with constant f, by differences: the ground's part of the tangent, minus sign included."""
     random = np.random.default_rng(2)
     size = open_problem.wheel.basis.shape[1]
@@ -104,7 +104,7 @@ def test_a_touching_set_is_the_minimum_of_the_energy() -> None:
     assert np.abs(energy(step)[1]).max() < 1e-9 * np.abs(R).max()
 
 
-def test_the_load_is_the_slope_of_the_energy(problem: WheelOnPlane, pressed: list[Equilibrium]) -> None:
+def test_the_load_is_the_slope_of_the_energy(problem: WheelOnGround, pressed: list[Equilibrium]) -> None:
     """dW / dd = F by differences, within 1 %: the ground's own energy is left out."""
     one, two, three = pressed
     assert two.load == pytest.approx((three.energy - one.energy) / (three.deflection - one.deflection), rel=0.01)
@@ -115,15 +115,15 @@ def test_the_load_is_the_slope_of_the_energy(problem: WheelOnPlane, pressed: lis
 
 def test_the_wheel_is_the_same_a_third_of_a_turn_on(pressed: list[Equilibrium]) -> None:
     wheel = build_ancf_wheel(small(), element_size=40e-3, axial_size=60e-3)
-    (turned,) = press(WheelOnPlane(wheel, 2.0 * np.pi / 3.0), [pressed[0].deflection])
+    (turned,) = press(WheelOnGround(wheel, 2.0 * np.pi / 3.0), [pressed[0].deflection])
     assert turned.load == pytest.approx(pressed[0].load, rel=1e-6)
 
 
-def test_bad_input_is_refused(problem: WheelOnPlane) -> None:
+def test_bad_input_is_refused(problem: WheelOnGround) -> None:
     with pytest.raises(InputError, match="must be finite"):
-        WheelOnPlane(problem.wheel, np.nan)
+        WheelOnGround(problem.wheel, np.nan)
     with pytest.raises(InputError, match="contact stiffness"):
-        WheelOnPlane(problem.wheel, 0.0, contact_stiffness=0.0)
+        WheelOnGround(problem.wheel, 0.0, contact_stiffness=0.0)
     for wrong in ([2e-3, 1e-3], [2e-3, np.inf], [np.nan], [0.0]):
         with pytest.raises(InputError, match="must be finite and increase"):
             next(press(problem, wrong))
@@ -147,7 +147,7 @@ def test_a_step_of_which_all_points_change_is_given_up() -> None:
 
 
 def test_an_increment_that_goes_astray_is_given_up_at_once(
-    problem: WheelOnPlane, pressed: list[Equilibrium], monkeypatch: pytest.MonkeyPatch
+    problem: WheelOnGround, pressed: list[Equilibrium], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The hub a metre through the ground: one step each, no traceback; what was found before is kept."""
     found, history = list[Equilibrium](), list[IncrementRecord]()
@@ -163,12 +163,12 @@ def test_an_increment_that_goes_astray_is_given_up_at_once(
 def test_half_of_the_wheel_counts_twice(pressed: list[Equilibrium]) -> None:
     """The whole width carries what its half with a plane of symmetry says, in load and energy."""
     whole = build_ancf_wheel(small(), element_size=40e-3, axial_size=60e-3, half_width=False)
-    (found,) = press(WheelOnPlane(whole, 0.0), [pressed[0].deflection])
+    (found,) = press(WheelOnGround(whole, 0.0), [pressed[0].deflection])
     assert found.load == pytest.approx(pressed[0].load, rel=1e-6)
     assert found.energy == pytest.approx(pressed[0].energy, rel=1e-6)
 
 
-def test_a_tied_edge_turns_against_its_welds_stiffness(problem: WheelOnPlane) -> None:
+def test_a_tied_edge_turns_against_its_welds_stiffness(problem: WheelOnGround) -> None:
     """First edges of springs turned by a small angle, all else at rest: half of stiffness, width and its square."""
     plates, ties, angle = problem.wheel.plates, problem.wheel.ties, 1e-3
     q = plates.reference.copy()

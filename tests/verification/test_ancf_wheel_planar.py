@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
 from ancf_reduced.wheel.planar import planar
-from ancf_reduced.wheel.static import WheelOnPlane, press
+from ancf_reduced.wheel.static import WheelOnGround, press
 from geometry.planar import build_planar_mesh
 from geometry.wheel import WheelDesign, exomars, exomars_hoops
 from reference_fe.wheel.case import WheelLoadCase
@@ -40,7 +40,7 @@ def excess(
         transverse_constraint=dict.fromkeys(mesh.parts, 1.0),
     )
     curve = solve_section(mesh, design, case).curve
-    states = list(press(WheelOnPlane(wheel, math.radians(orientation)), deflections))
+    states = list(press(WheelOnGround(wheel, math.radians(orientation)), deflections))
     assert all(state.negative == 0 for state in states)
     return np.array([state.load / curve.load_at(state.deflection) - 1.0 for state in states])
 

@@ -20,8 +20,6 @@ def without_ancf_wheel(study: Study) -> str | None:
         ("sidewall springs", study.wheel.sidewall_springs is not None),
         (f"fe.hub = {fe.hub}", fe.hub != "rigid"),
         (f"fe.friction = {fe.friction:g}", fe.friction != 0.0),
-        (f"fe.obstacle = {fe.obstacle.shape}", fe.obstacle.shape != "plane"),
-        ("camber or yaw", fe.turned),
         ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
         (f"fe.contact_method = {fe.contact_method}", fe.contact_method != "penalty"),
         (f"fe.material_law = {fe.material_law}", fe.material_law != "st_venant_kirchhoff"),

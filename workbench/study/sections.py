@@ -223,7 +223,7 @@ class ToleranceSection(Section):
 class AncfWheelSection(Section):
     """The wheel as thin ANCF plates, held against the solid model at ``fe.orientations``.
 
-    Asked on a plane, without friction and camber, with a rigid hub, without sidewall springs, with the law of
+    Asked without friction, with a rigid hub, without sidewall springs, with the law of
     St. Venant and Kirchhoff and a stated penalty of the contact.
     """
 

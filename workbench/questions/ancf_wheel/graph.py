@@ -17,6 +17,10 @@ from workbench.study.sections import AncfWheelSection
 __all__ = ["ancf_wheel_curve_tasks", "ancf_wheel_tasks", "every_second"]
 
 
+_SPACING = {True: 1.5e-3, False: 0.5e-3}
+"""Of points that may touch the ground, whether it is flat [m]: the load on a rock of 20 mm changes by 0.03 % at half."""
+
+
 def every_second(deflections: Sequence[float]) -> list[float]:
     """Every second of the solid curves' points, the last one among them."""
     return list(deflections[::-1][::2][::-1])
@@ -55,11 +59,14 @@ def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequ
             "element_size": section.element_size,
             "axial_size": section.axial_size,
             "half_width": study.mesh.half_width,
+            "ground_spacing": _SPACING[study.fe.obstacle.shape == "plane"],
         },
         "deflections": every_second(curve_deflections(study)),
         "max_load": study.fe.max_load,
         "keep_points": study.fe.keep_points,
         "contact_stiffness": study.fe.contact_stiffness,
+        "obstacle": study.fe.obstacle.model_dump(mode="json"),
+        "camber_deg": degrees(study.fe.camber),
         "inner_contact_stiffness": INNER_STIFFNESS if study.fe.inner_contact else 0.0,
     }
     function = "workbench.questions.ancf_wheel.task:solve_orientation"

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
-from ancf_reduced.wheel.static import Equilibrium, WheelOnPlane, press
+from ancf_reduced.wheel.static import Equilibrium, WheelOnGround, press
 from ancf_reduced.wheel.stress import largest_spring_stress
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, IncrementRecord
 from workbench.execution.result_files import FAILURE, write_result
+from workbench.questions.ancf_wheel.ground import terrain_of
 from workbench.questions.model_curves import CURVE
 from workbench.study.wheel_design import design_from
 
@@ -33,8 +34,14 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
     """``curve.csv`` up to the load or deflection asked for, and ``result.json``; returns the unknowns."""
     wheel = build_ancf_wheel(design_from(inputs["wheel"]), **inputs["options"])
     orientation, deflections, largest = inputs["orientation_deg"], inputs["deflections"], inputs["max_load"]
-    stiffness = inputs["contact_stiffness"], inputs["inner_contact_stiffness"]
-    problem = WheelOnPlane(wheel, math.radians(orientation), *stiffness)
+    problem = WheelOnGround(
+        wheel,
+        math.radians(orientation),
+        inputs["contact_stiffness"],
+        inputs["inner_contact_stiffness"],
+        terrain=terrain_of(inputs["obstacle"]),
+        camber=math.radians(inputs["camber_deg"]),
+    )
     start, failure = time.perf_counter(), None
     states, history = [problem.unloaded()], list[IncrementRecord]()
     try:

@@ -1,0 +1,160 @@
+"""Contact of an ANCF wheel's rim and grousers with rigid ground of any shape.
+
+The ground is a terrain (`contracts.terrain`) in a frame of its own, whose pieces press each for themselves. It rises
+along its own z axis from where it first touches the wheel. Verified by tests/unit/test_ancf_wheel_ground.py.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ancf_reduced.compiled import compiled
+from ancf_reduced.contact.terrain_kernels import is_outside, piece_gap
+from ancf_reduced.wheel.contacts import Near, Points
+from ancf_reduced.wheel.mesh import AncfWheel
+from contracts.errors import InputError
+from contracts.frames import ground_direction_h
+from contracts.terrain import PieceKind, Terrain
+
+__all__ = ["GroundContact", "ground_frame"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+_REACH = 10e-3
+"""Gap up to which a point may touch the ground within one step [m]."""
+_HALVINGS = 60
+_PLANE, _FIELD = int(PieceKind.PLANE), int(PieceKind.HEIGHT_FIELD)
+
+
+def ground_frame(orientation: float, camber: float = 0.0) -> Array:
+    """Rows (3, 3): forward, left and normal of the ground in the wheel's frame.
+
+    orientation : circumferential position that faces the ground [rad]
+    camber : of the ground about the forward direction; positive lifts its left side [rad]
+    """
+    up, left = -ground_direction_h(orientation), np.array([0.0, 1.0, 0.0])
+    normal = np.cos(camber) * up - np.sin(camber) * left
+    return np.stack([np.cross(left, up), np.cos(camber) * left + np.sin(camber) * up, normal])
+
+
+class GroundContact:
+    """Rim and grousers on a terrain.
+
+    Parameters
+    ----------
+    terrain : in the ground's frame
+    frame : rows (3, 3) forward, left, normal of the ground, from `ground_frame`
+    penalty : [N/m^3]
+
+    Raises
+    ------
+    InputError
+        For half a wheel on ground that is not symmetric about its middle plane.
+    """
+
+    def __init__(self, wheel: AncfWheel, terrain: Terrain, frame: Array, penalty: float) -> None:
+        self._points, self._frame, self._penalty = Points(wheel, wheel.ground), frame, penalty
+        self._rows, self._knots, _ = terrain.pieces()
+        if wheel.sides > 1.0:
+            _require_symmetric(self._rows, frame)
+        self.count = len(wheel.ground.plate) * len(self._rows)
+        self._touch = self._first_touch(self._points.at(wheel.plates.reference)[0])
+
+    def lift(self, near: Near) -> Array:
+        """Share of each contact's force that acts along the ground's normal, (n,) [-]."""
+        assert near.normals is not None
+        return np.asarray(near.normals @ self._frame[2])
+
+    def near(self, q: Array, level: float, forces: Array, blocks: Array) -> Near:
+        """Points within reach of the ground ``level`` [m] above the first touch; adds to blocks what forces add.
+
+        Raises
+        ------
+        InputError
+            For points on the ground beside a height field.
+        """
+        contacts, gaps, normals, bends = self._gaps(self._points.at(q)[0], self._touch + level)
+        which = contacts // len(self._rows)
+        surface = normals, bends
+        return self._points.rigid(q, (which, contacts), gaps, surface, (self._penalty, forces, blocks))
+
+    def _gaps(self, places: Array, level: float, reach: float = _REACH) -> tuple[Index, Array, Array, Array]:
+        """Numbers of contacts within reach, their gaps [m], normals (n, 3) and bends (n, 3, 3) [1/m]."""
+        many = len(places) * len(self._rows)
+        numbers, gaps = np.empty(many, dtype=np.int64), np.empty(many)
+        normals, bends = np.empty((many, 3)), np.empty((many, 3, 3))
+        terrain = self._rows, self._knots, reach
+        n = _terrain_gaps(places, (self._frame, level), terrain, numbers, gaps, normals, bends)
+        if n < 0:
+            rule = "touch the ground beside the height field"
+            raise InputError("contact points", -1 - n, rule, "give a field that covers the wheel")
+        return numbers[:n], gaps[:n], normals[:n], bends[:n]
+
+    def _first_touch(self, places: Array) -> float:
+        """Level at which the ground just touches the wheel at rest [m]; by halving."""
+        height = places @ self._frame[2]
+        size = float(np.ptp(height))
+        low = high = float(height.min())
+        for _ in range(_HALVINGS):
+            if not len(self._gaps(places, low, 0.0)[0]):
+                break
+            low -= size
+        for _ in range(_HALVINGS):
+            if len(self._gaps(places, high, 0.0)[0]):
+                break
+            high += size
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            if len(self._gaps(places, middle, 0.0)[0]):
+                high = middle
+            else:
+                low = middle
+        return low
+
+
+def _require_symmetric(rows: Array, frame: Array) -> None:
+    """Refuse ground that differs from its mirror image about the wheel's middle plane."""
+    plane = rows[:, 0] == _PLANE
+    across = np.where(plane, rows[:, 2], rows[:, 2] * (rows[:, 0] != _FIELD))
+    if abs(frame[2, 1]) > 1e-12 or (np.abs(across) > 1e-12).any() or (rows[:, 0] == _FIELD).any():
+        rule = "is not symmetric about the wheel's middle plane"
+        raise InputError("ground", "turned or uneven", rule, "build the full width (half_width=False)")
+
+
+@compiled
+def _terrain_gaps(
+    places: Array,
+    ground: tuple[Array, float],
+    terrain: tuple[Array, Array, float],
+    numbers: Index,
+    gaps: Array,
+    normals: Array,
+    bends: Array,
+) -> int:
+    """Contacts, point by point and piece by piece, with a gap below the reach: how many; see `GroundContact._gaps`.
+
+    Minus one less than the number of points beside a height field, if there are any.
+    """
+    R, level = ground
+    rows, knots, reach = terrain
+    count, outside, bend = 0, 0, np.empty((3, 3))
+    for k in range(places.shape[0]):
+        p = places[k]
+        x = R[0, 0] * p[0] + R[0, 1] * p[1] + R[0, 2] * p[2]
+        y = R[1, 0] * p[0] + R[1, 1] * p[1] + R[1, 2] * p[2]
+        z = R[2, 0] * p[0] + R[2, 1] * p[1] + R[2, 2] * p[2] - level
+        for piece in range(rows.shape[0]):
+            gap, n, H = piece_gap(rows[piece], knots, x, y, z)
+            if gap < reach:
+                outside += gap < 0.0 and is_outside(rows[piece], knots, x, y)
+                numbers[count], gaps[count] = k * rows.shape[0] + piece, gap
+                bend[0, 0], bend[1, 1], bend[2, 2] = H[0], H[1], H[2]
+                bend[1, 2] = bend[2, 1] = H[3]
+                bend[0, 2] = bend[2, 0] = H[4]
+                bend[0, 1] = bend[1, 0] = H[5]
+                for i in range(3):
+                    normals[count, i] = n[0] * R[0, i] + n[1] * R[1, i] + n[2] * R[2, i]
+                bends[count] = R.T @ bend @ R
+                count += 1
+    return count if outside == 0 else -1 - outside
