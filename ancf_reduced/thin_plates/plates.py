@@ -36,18 +36,21 @@ _Fields = tuple[Array, Array, Array, Array]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Layer:
-    """A sheet in a plate.
+    """A sheet in a plate, or a rib along its second axis.
 
     Attributes
     ----------
     material : plane stress
     thickness : [m]
     height : of its middle above the plate's surface, along r_1 x r_2 [m]
+    rib : width along the first axis of the rib that this is, or of which it is a piece [m]. Its flanks are free: it is
+        stretched and bent along the second axis alone, and twisted as a rod. 0: a sheet
     """
 
     material: Material
     thickness: float
     height: float = 0.0
+    rib: float = 0.0
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.thickness) and self.thickness > 0.0):
@@ -206,7 +209,8 @@ def _layer_points(fields: _Fields, which: Index, layers: Sequence[Layer], share:
     z, t = (np.array([getattr(layer, name) for layer in layers]) for name in ("height", "thickness"))
     beta, size = (-z, t * share) if share is not None else (np.ones(len(t)), t**3 / 12.0)
     stretch = (share is not None) * np.eye(3) - beta[:, None, None, None] * _coupling(metric, curvature)
-    elastic = np.stack([_elasticity(layer.material, one) for layer, one in zip(layers, metric, strict=True)])
+    find = _elasticity if share is not None else _bending_elasticity
+    elastic = np.stack([find(layer, one) for layer, one in zip(layers, metric, strict=True)])
     weight = size[:, None] * area * _area_ratio(metric, curvature, z)
     return which, tables, metric, curvature, stretch, beta, weight[..., None, None] * elastic
 
@@ -219,9 +223,30 @@ def _area_ratio(metric: Array, curvature: Array, height: Array) -> Array:
     return np.asarray(1.0 - z * np.trace(shape, axis1=-2, axis2=-1) + z**2 * np.linalg.det(shape))
 
 
-def _elasticity(material: Material, metric: Array) -> Array:
-    """Plane-stress tensor by (11, 22, 12) in contravariant components, (..., 3, 3) [Pa]."""
+def _bending_elasticity(layer: Layer, metric: Array) -> Array:
+    """As `_elasticity`, with a rib's stiffness against twist, so that half the twist of t^3 / 12 is that of a rod."""
+    elastic, A = _elasticity(layer, metric), np.linalg.inv(_square(metric))
+    if layer.rib > 0.0:
+        shear = layer.material.young_modulus / (2.0 * (1.0 + layer.material.poisson_ratio))
+        rod = _torsion_constant(layer.rib, layer.thickness)
+        elastic[..., 2, 2] = 3.0 * shear * rod / (layer.rib * layer.thickness**3) * A[..., 0, 0] * A[..., 1, 1]
+    return elastic
+
+
+def _torsion_constant(width: float, height: float) -> float:
+    """Of a rectangle, within 4 % [m^4] (Roark's Formulas for Stress and Strain, from memory)."""
+    a, b = max(width, height), min(width, height)
+    return a * b**3 * (1.0 / 3.0 - 0.21 * b / a * (1.0 - b**4 / (12.0 * a**4)))
+
+
+def _elasticity(layer: Layer, metric: Array) -> Array:
+    """Tensor by (11, 22, 12) in contravariant components, (..., 3, 3) [Pa]: plane stress, or a rib's own axis alone."""
+    material = layer.material
     nu, A = material.poisson_ratio, np.linalg.inv(_square(metric))
+    if layer.rib > 0.0:
+        along = np.zeros((*metric.shape[:-1], 3, 3))
+        along[..., 1, 1] = material.young_modulus * A[..., 1, 1] ** 2
+        return along
     pairs = ((0, 0), (1, 1), (0, 1))
     rows = [
         [

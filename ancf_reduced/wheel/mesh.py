@@ -245,7 +245,7 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring, apart: float) -> tu
             fin: tuple[Layer, ...] = ()
             if fins is not None and int(i) in inside:
                 height = -0.5 * (tire.thickness + fins.height)
-                fin = (Layer(material=fins.material, thickness=fins.height, height=height),)
+                fin = (Layer(material=fins.material, thickness=fins.height, height=height, rib=fins.thickness),)
             draft.layers.append((own, *welds.get((int(i), j), ()), *fin))
     ground = [
         ground_points(
