@@ -45,12 +45,14 @@ class Layer:
     height : of its middle above the plate's surface, along r_1 x r_2 [m]
     rib : width along the first axis of the rib that this is, or of which it is a piece [m]. Its flanks are free: it is
         stretched and bent along the second axis alone, and twisted as a rod. 0: a sheet
+    foot : what a rib adds to the plate's rigidity against bending along the first axis, by width [N m]
     """
 
     material: Material
     thickness: float
     height: float = 0.0
     rib: float = 0.0
+    foot: float = 0.0
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.thickness) and self.thickness > 0.0):
@@ -224,11 +226,12 @@ def _area_ratio(metric: Array, curvature: Array, height: Array) -> Array:
 
 
 def _bending_elasticity(layer: Layer, metric: Array) -> Array:
-    """As `_elasticity`, with a rib's stiffness against twist, so that half the twist of t^3 / 12 is that of a rod."""
+    """As `_elasticity` times 12 / t^3 of rigidities; of a rib with its foot's, and with a rod's against twist."""
     elastic, A = _elasticity(layer, metric), np.linalg.inv(_square(metric))
     if layer.rib > 0.0:
         shear = layer.material.young_modulus / (2.0 * (1.0 + layer.material.poisson_ratio))
         rod = _torsion_constant(layer.rib, layer.thickness)
+        elastic[..., 0, 0] = 12.0 * layer.foot / layer.thickness**3 * A[..., 0, 0] ** 2
         elastic[..., 2, 2] = 3.0 * shear * rod / (layer.rib * layer.thickness**3) * A[..., 0, 0] * A[..., 1, 1]
     return elastic
 

@@ -57,7 +57,9 @@ def settle(
             share = _search(residual + tangent(step), tangent, goal - step, (at, G, k))
             step = step + share * (goal - step)
         new = gap + G @ step
-        settled = np.array_equal(new < 0.0, at < 0.0) and np.abs(new - at).max(initial=0.0) <= 1e-9 * np.abs(gap).max(initial=0.0)
+        settled = np.array_equal(new < 0.0, at < 0.0) and np.abs(new - at).max(initial=0.0) <= 1e-9 * np.abs(gap).max(
+            initial=0.0
+        )
         at = new
         if settled:
             break

@@ -20,7 +20,7 @@ from scipy.sparse import csc_array
 
 from ancf_reduced.thin_plates.plates import Layer, ThinPlates
 from ancf_reduced.wheel.faces import APART, FacePoints, Strips, ground_points, inner_points
-from ancf_reduced.wheel.joints import RIGID_RATIO, turning_stiffness
+from ancf_reduced.wheel.joints import RIGID_RATIO, foot_stiffness, turning_stiffness
 from ancf_reduced.wheel.supports import HubEnd, free_basis, hub_stiffness
 from contracts.errors import InputError
 from geometry.build import mesh_size
@@ -206,7 +206,9 @@ def _require_wide(design: WheelDesign, levels: Array) -> None:
     k = int(np.diff(levels).argmin())
     low, high = 1e3 * levels[k : k + 2]
     if high - low < 1e3 * _LEAST_WIDTH * thinnest:
-        rule = f"leave {high - low:.3g} mm between them, less than {_LEAST_WIDTH:g} of a thickness {1e3 * thinnest:g} mm"
+        rule = (
+            f"leave {high - low:.3g} mm between them, less than {_LEAST_WIDTH:g} of a thickness {1e3 * thinnest:g} mm"
+        )
         raise InputError("edges of bands", f"at y = {low:.6g} and {high:.6g} mm", rule, "make them equal or move one")
 
 
@@ -245,7 +247,9 @@ def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring, apart: float) -> tu
             fin: tuple[Layer, ...] = ()
             if fins is not None and int(i) in inside:
                 height = -0.5 * (tire.thickness + fins.height)
-                fin = (Layer(material=fins.material, thickness=fins.height, height=height, rib=fins.thickness),)
+                foot = foot_stiffness(tire.material, tire.thickness, fins.thickness)
+                width = fins.thickness
+                fin = (Layer(material=fins.material, thickness=fins.height, height=height, rib=width, foot=foot),)
             draft.layers.append((own, *welds.get((int(i), j), ()), *fin))
     ground = [
         ground_points(

@@ -117,7 +117,9 @@ class WheelOnGround:
         if not np.isfinite(orientation):
             raise InputError("orientation", f"{orientation} rad", "must be finite", "give an angle such as 0.785 rad")
         if not abs(camber) < 0.5 * np.pi:
-            raise InputError("camber", f"{camber} rad", "must lie between -pi/2 and pi/2", "give an angle such as 0.1 rad")
+            raise InputError(
+                "camber", f"{camber} rad", "must lie between -pi/2 and pi/2", "give an angle such as 0.1 rad"
+            )
         if not (np.isfinite(contact_stiffness) and contact_stiffness > 0.0):
             raise InputError("contact stiffness", f"{contact_stiffness:g} N/m^3", "must be > 0", "1e11 N/m^3 is usual")
         if not (np.isfinite(inner_contact_stiffness) and inner_contact_stiffness >= 0.0):
@@ -247,7 +249,6 @@ class WheelOnGround:
         tied = np.empty((*self._weights[0].shape, 4))
         find_tie_forces(q, change, plates.plates, self._ties, self._weights, tied)
         return plates.stresses(q, change), tied
-
 
 
 def press(

@@ -78,9 +78,7 @@ def test_forces_and_tangents_are_derivatives_of_the_grounds_energy(wheel: AncfWh
     blocks = none.copy()
     contact.near(q, level, held, blocks)
     change = (ahead[1] - behind[1]) / (2.0 * step)
-    np.testing.assert_allclose(
-        plates.assembled(blocks) @ direction.ravel(), change, atol=1e-5 * np.abs(change).max()
-    )
+    np.testing.assert_allclose(plates.assembled(blocks) @ direction.ravel(), change, atol=1e-5 * np.abs(change).max())
 
 
 def test_the_load_is_the_energys_slope_on_a_rock_and_on_a_step(wheel: AncfWheel) -> None:
@@ -102,9 +100,7 @@ def test_the_load_is_the_energys_slope_on_a_rock_and_on_a_step(wheel: AncfWheel)
 def test_half_a_wheel_stands_on_symmetric_ground_alone() -> None:
     half = small(half_width=True)
     straight = HalfRound(radius=20e-3, base=-20e-3)
-    with_half, with_all = (
-        next(press(WheelOnGround(w, 0.0, terrain=straight), [3e-3])) for w in (half, small())
-    )
+    with_half, with_all = (next(press(WheelOnGround(w, 0.0, terrain=straight), [3e-3])) for w in (half, small()))
     assert with_half.load == pytest.approx(with_all.load, rel=1e-6)
     uneven = HeightField(heights=np.zeros((4, 4)), spacing=(0.5, 0.5), origin=(-0.75, -0.75))
     for terrain, camber in ((replace(straight, yaw=0.2), 0.0), (Plane(), 0.1), (uneven, 0.0)):

@@ -153,7 +153,7 @@ def test_an_increment_that_goes_astray_is_given_up_at_once(
     found, history = list[Equilibrium](), list[IncrementRecord]()
     with pytest.raises(ConvergenceError, match="no equilibrium found"):  # noqa: PT012
         for state in press(problem, [pressed[0].deflection, 1.0], smallest_step=0.4, history=history):
-            found.append(state)  # noqa: PERF402
+            found.append(state)
     assert [s.load for s in found] == pytest.approx([pressed[0].load])
     failed = [record for record in history if not record.converged]
     assert failed

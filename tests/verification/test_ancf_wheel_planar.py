@@ -22,6 +22,7 @@ from reference_fe.wheel.case import WheelLoadCase
 from reference_fe.wheel.section import solve_section
 
 DEFLECTIONS = (10e-3, 20e-3, 30e-3)
+LEAVES = 0.005
 
 
 def plates(design: WheelDesign) -> AncfWheel:
@@ -46,17 +47,19 @@ def excess(
 
 
 @pytest.mark.parametrize(
-    ("design", "orientation"), [(exomars(), 15.0), (exomars_hoops(), 30.0)], ids=["leaves", "hoops"]
+    ("design", "orientation", "limit"),
+    [(exomars(), 15.0, LEAVES), (exomars_hoops(), 30.0, 0.01)],
+    ids=["leaves", "hoops"],
 )
-def test_load_is_that_of_planar_finite_elements(design: WheelDesign, orientation: float) -> None:
-    """Within 1 % at every point; springs lie on the rim at the last ones."""
+def test_load_is_that_of_planar_finite_elements(design: WheelDesign, orientation: float, limit: float) -> None:
+    """Within 0.5 % of leaves, 1 % of hoops at every point; springs lie on the rim at the last ones."""
     wheel = plates(design)
     assert wheel.basis.shape[1] < 1000
-    assert np.abs(excess(wheel, design, orientation)).max() < 0.01
+    assert np.abs(excess(wheel, design, orientation)).max() < limit
 
 
 def test_control_welds_that_cannot_turn_are_caught() -> None:
-    """Clamped welds' ends: more than 1 % too stiff from the beginning."""
+    """Clamped welds' ends: too stiff from the beginning, beyond the limit of leaves."""
     wheel = plates(exomars())
     clamped = replace(wheel, ties=replace(wheel.ties, turning=1e3 * wheel.ties.turning), held=1e3 * wheel.held)
-    assert excess(clamped, exomars(), 15.0, DEFLECTIONS[:1])[0] > 0.01
+    assert excess(clamped, exomars(), 15.0, DEFLECTIONS[:1])[0] > 1.5 * LEAVES

@@ -18,7 +18,7 @@ __all__ = ["ancf_wheel_curve_tasks", "ancf_wheel_tasks", "every_second"]
 
 
 _SPACING = {True: 1.5e-3, False: 0.5e-3}
-"""Of points that may touch the ground, whether it is flat [m]: the load on a rock of 20 mm changes by 0.03 % at half."""
+"""Of points that may touch the ground, whether it is flat [m]: half of it moves the load on a 20 mm rock by 0.03 %."""
 
 
 def every_second(deflections: Sequence[float]) -> list[float]:

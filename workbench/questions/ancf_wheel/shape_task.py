@@ -34,7 +34,8 @@ _LARGEST = 1_000_000_000
 def compare_shapes(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """``result.json``: rows of orientation, deflection and distances of the middle surfaces; returns their number.
 
-    No row, and the reason, where the solid has no nodes on a middle surface. Needs the mesh, and the curves of both models at each orientation. A point counts where both models have it.
+    No row, and the reason, where the solid has no nodes on a middle surface. Needs the mesh, and the curves of both
+    models at each orientation. A point counts where both models have it.
     """
     wheel = build_ancf_wheel(design_from(inputs["wheel"]), **inputs["options"])
     mesh = read_mesh(needs[inputs["mesh"]] / MESH)
