@@ -20,7 +20,7 @@ from ancf_reduced.compiled import compiled
 from ancf_reduced.thin_plates.kernels import normal_second, unit_normal
 from ancf_reduced.wheel.kernels import spread, vectors
 
-__all__ = ["Faces", "face_points", "plate_gaps", "rigid_gaps"]
+__all__ = ["Faces", "face_points", "face_slopes", "plate_gaps", "rigid_gaps"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -39,6 +39,23 @@ def face_points(q: Array, plates: Index, points: Faces, places: Array, normals: 
         for i in range(3):
             places[p, i] = v[0, i] + heights[p] * n[i]
             normals[p, i] = n[i] if heights[p] > 0.0 else -n[i]
+
+
+@compiled
+def face_slopes(q: Array, plates: Index, points: Faces, slopes: Array) -> None:
+    """Derivatives (n, 3, 16, 3) of the places of points by their plates' vectors."""
+    which, heights, tables = points
+    v, second, turn, none = np.empty((3, 3)), np.empty((6, 6)), np.empty((3, 6)), np.zeros(3)
+    for p in range(which.shape[0]):
+        vectors(q, plates[which[p]], tables[p], v)
+        n, J = unit_normal(v[1:])
+        normal_second(v[1:], n, J, none, second, turn)
+        for i in range(3):
+            for k in range(16):
+                for j in range(3):
+                    value = tables[p, 0, k] if i == j else 0.0
+                    value += heights[p] * (turn[i, j] * tables[p, 1, k] + turn[i, 3 + j] * tables[p, 2, k])
+                    slopes[p, i, k, j] = value
 
 
 @compiled

@@ -16,11 +16,11 @@ from scipy.sparse import coo_array, csr_array, vstack
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.closest import PlateFace
-from ancf_reduced.wheel.contact_kernels import Faces, face_points, plate_gaps, rigid_gaps
+from ancf_reduced.wheel.contact_kernels import Faces, face_points, face_slopes, plate_gaps, rigid_gaps
 from ancf_reduced.wheel.faces import FacePoints
 from ancf_reduced.wheel.mesh import AncfWheel
 
-__all__ = ["HubContact", "Near", "PlateContact", "Points", "inner_contacts", "joined"]
+__all__ = ["HubContact", "Near", "PlateContact", "Points", "Surface", "inner_contacts", "joined"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -41,10 +41,19 @@ Entries = tuple[Index, Index, Array]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Surface:
+    """A rigid surface at contacts: normals (n, 3), bends (n, 3, 3) [1/m], places (n, 3) [m] of the points there."""
+
+    normals: Array
+    bends: Array
+    places: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Near:
     """Contacts that may touch within a step: their numbers, gaps [m], slopes (n, size), penalties [N/m].
 
-    And what their forces add to the tangent, and the normals (n, 3) of a rigid surface.
+    And what their forces add to the tangent, and where they lie on a rigid surface.
     """
 
     points: Index
@@ -52,7 +61,7 @@ class Near:
     slopes: csr_array
     stiffness: Array
     tangent: Entries | None = None
-    normals: Array | None = None
+    surface: Surface | None = None
 
 
 def joined(parts: Sequence[Near], counts: Sequence[int]) -> Near:
@@ -112,7 +121,15 @@ class Points:
         rigid_gaps(q, self.plates.plates, self.of(points), surface, forces[numbers], slopes, blocks)
         columns, starts = self.plates.numbers[self.faces[0][points]], 48 * np.arange(len(points) + 1)
         G = csr_array((slopes.ravel(), columns.ravel(), starts), shape=(len(points), self.plates.size))
-        return Near(numbers, gaps, G, penalty * self.area[points], normals=surface[0])
+        return Near(numbers, gaps, G, penalty * self.area[points])
+
+    def slopes(self, q: Array, which: Index) -> csr_array:
+        """Derivatives (3 n, size) of the places of some of them by all coordinates."""
+        slopes = np.empty((len(which), 3, 16, 3))
+        face_slopes(q, self.plates.plates, self.of(which), slopes)
+        columns = np.repeat(self.plates.numbers[self.faces[0][which]], 3, axis=0)
+        starts = 48 * np.arange(3 * len(which) + 1)
+        return csr_array((slopes.ravel(), columns.ravel(), starts), shape=(3 * len(which), self.plates.size))
 
 
 class HubContact:

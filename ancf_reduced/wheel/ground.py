@@ -6,21 +6,26 @@ along its own z axis from where it first touches the wheel. Verified by tests/un
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from ancf_reduced.compiled import compiled
 from ancf_reduced.contact.terrain_kernels import is_outside, piece_gap
-from ancf_reduced.wheel.contacts import Near, Points
+from ancf_reduced.wheel.contacts import Near, Points, Surface
 from ancf_reduced.wheel.mesh import AncfWheel
 from contracts.errors import InputError
 from contracts.frames import ground_direction_h
 from contracts.terrain import PieceKind, Terrain
 
-__all__ = ["GroundContact", "ground_frame"]
+__all__ = ["GroundContact", "Pose", "ground_frame"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Pose = tuple[Array, Array]
+"""Where the ground is: rows (3, 3) of its axes in the wheel's frame, its origin (3,) in these axes [m]."""
 _REACH = 10e-3
 """Gap up to which a point may touch the ground within one step [m]."""
 _HALVINGS = 60
@@ -61,31 +66,35 @@ class GroundContact:
         self.count = len(wheel.ground.plate) * len(self._rows)
         self._touch = self._first_touch(self._points.at(wheel.plates.reference)[0])
 
-    def lift(self, near: Near) -> Array:
-        """Share of each contact's force that acts along the ground's normal, (n,) [-]."""
-        assert near.normals is not None
-        return np.asarray(near.normals @ self._frame[2])
+    def risen(self, deflection: float) -> Pose:
+        """The ground's pose where it has risen by a deflection [m] from first touch."""
+        return self._frame, np.array([0.0, 0.0, self._touch + deflection])
 
-    def near(self, q: Array, level: float, forces: Array, blocks: Array) -> Near:
-        """Points within reach of the ground ``level`` [m] above the first touch; adds to blocks what forces add.
+    def near(self, q: Array, pose: Pose, forces: Array, blocks: Array) -> Near:
+        """Points within reach of the ground; adds to blocks what forces add.
 
         Raises
         ------
         InputError
             For points on the ground beside a height field.
         """
-        contacts, gaps, normals, bends = self._gaps(self._points.at(q)[0], self._touch + level)
+        places = self._points.at(q)[0]
+        contacts, gaps, normals, bends = self._gaps(places, pose)
         which = contacts // len(self._rows)
-        surface = normals, bends
-        return self._points.rigid(q, (which, contacts), gaps, surface, (self._penalty, forces, blocks))
+        found = self._points.rigid(q, (which, contacts), gaps, (normals, bends), (self._penalty, forces, blocks))
+        return replace(found, surface=Surface(normals=normals, bends=bends, places=places[which]))
 
-    def _gaps(self, places: Array, level: float, reach: float = _REACH) -> tuple[Index, Array, Array, Array]:
+    def slopes(self, q: Array, contacts: Index) -> csr_array:
+        """Derivatives (3 n, size) of the places of contacts' points by all coordinates."""
+        return self._points.slopes(q, contacts // len(self._rows))
+
+    def _gaps(self, places: Array, pose: Pose, reach: float = _REACH) -> tuple[Index, Array, Array, Array]:
         """Numbers of contacts within reach, their gaps [m], normals (n, 3) and bends (n, 3, 3) [1/m]."""
         many = len(places) * len(self._rows)
         numbers, gaps = np.empty(many, dtype=np.int64), np.empty(many)
         normals, bends = np.empty((many, 3)), np.empty((many, 3, 3))
         terrain = self._rows, self._knots, reach
-        n = _terrain_gaps(places, (self._frame, level), terrain, numbers, gaps, normals, bends)
+        n = _terrain_gaps(places, pose, terrain, numbers, gaps, normals, bends)
         if n < 0:
             rule = "touch the ground beside the height field"
             raise InputError("contact points", -1 - n, rule, "give a field that covers the wheel")
@@ -93,20 +102,24 @@ class GroundContact:
 
     def _first_touch(self, places: Array) -> float:
         """Level at which the ground just touches the wheel at rest [m]; by halving."""
+
+        def touches(level: float) -> bool:
+            return len(self._gaps(places, (self._frame, np.array([0.0, 0.0, level])), 0.0)[0]) > 0
+
         height = places @ self._frame[2]
         size = float(np.ptp(height))
         low = high = float(height.min())
         for _ in range(_HALVINGS):
-            if not len(self._gaps(places, low, 0.0)[0]):
+            if not touches(low):
                 break
             low -= size
         for _ in range(_HALVINGS):
-            if len(self._gaps(places, high, 0.0)[0]):
+            if touches(high):
                 break
             high += size
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            if len(self._gaps(places, middle, 0.0)[0]):
+            if touches(middle):
                 high = middle
             else:
                 low = middle
@@ -125,7 +138,7 @@ def _require_symmetric(rows: Array, frame: Array) -> None:
 @compiled
 def _terrain_gaps(
     places: Array,
-    ground: tuple[Array, float],
+    pose: Pose,
     terrain: tuple[Array, Array, float],
     numbers: Index,
     gaps: Array,
@@ -136,14 +149,14 @@ def _terrain_gaps(
 
     Minus one less than the number of points beside a height field, if there are any.
     """
-    R, level = ground
+    R, origin = pose
     rows, knots, reach = terrain
     count, outside, bend = 0, 0, np.empty((3, 3))
     for k in range(places.shape[0]):
         p = places[k]
-        x = R[0, 0] * p[0] + R[0, 1] * p[1] + R[0, 2] * p[2]
-        y = R[1, 0] * p[0] + R[1, 1] * p[1] + R[1, 2] * p[2]
-        z = R[2, 0] * p[0] + R[2, 1] * p[1] + R[2, 2] * p[2] - level
+        x = R[0, 0] * p[0] + R[0, 1] * p[1] + R[0, 2] * p[2] - origin[0]
+        y = R[1, 0] * p[0] + R[1, 1] * p[1] + R[1, 2] * p[2] - origin[1]
+        z = R[2, 0] * p[0] + R[2, 1] * p[1] + R[2, 2] * p[2] - origin[2]
         for piece in range(rows.shape[0]):
             gap, n, H = piece_gap(rows[piece], knots, x, y, z)
             if gap < reach:

@@ -18,15 +18,15 @@ from scipy.sparse.linalg import splu
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.contact_step import settle
-from ancf_reduced.wheel.contacts import inner_contacts, joined
-from ancf_reduced.wheel.ground import GroundContact, ground_frame
+from ancf_reduced.wheel.contacts import Near, inner_contacts, joined
+from ancf_reduced.wheel.ground import GroundContact, Pose, ground_frame
 from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
 from ancf_reduced.wheel.mesh import AncfWheel
 from ancf_reduced.wheel.reduction import Reduction
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.terrain import Plane, Terrain
 
-__all__ = ["Equilibrium", "WheelOnGround", "press"]
+__all__ = ["Equilibrium", "Mixed", "System", "WheelOnGround", "press"]
 
 Array = NDArray[np.float64]
 Mixed = tuple[list[Array], Array, Array]
@@ -75,10 +75,10 @@ class Equilibrium:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _System:
+class System:
     """The wheel linearised: residual (n,) and tangent without contact; gaps, their slopes (m, n) and penalties near.
 
-    And shares of the ground's contacts, the first of them, along the ground's normal.
+    And the ground's contacts, the first of them.
     """
 
     residual: Array
@@ -87,7 +87,7 @@ class _System:
     slopes: csr_array
     stiffness: Array
     near: NDArray[np.int64]
-    lift: Array
+    ground: Near
     energy: float
 
 
@@ -127,9 +127,9 @@ class WheelOnGround:
             raise InputError("inner contact stiffness", told, "must be >= 0", "1e11 N/m^3 is usual, 0 is without")
         self.wheel = wheel
         plates, ties = wheel.plates, wheel.ties
-        self._ground = GroundContact(wheel, terrain or Plane(), ground_frame(orientation, camber), contact_stiffness)
+        self.ground = GroundContact(wheel, terrain or Plane(), ground_frame(orientation, camber), contact_stiffness)
         self._inner = inner_contacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else []
-        self._counts = [contact.count for contact in (self._ground, *self._inner)]
+        self.counts = [contact.count for contact in (self.ground, *self._inner)]
         at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
         at = 0.5 + 0.5 * at
         rows = [
@@ -148,7 +148,7 @@ class WheelOnGround:
 
     def unloaded(self) -> Equilibrium:
         """The wheel at first touch."""
-        zeros = [np.zeros(n) for n in (self.wheel.basis.shape[1], self._ground.count, sum(self._counts[1:]))]
+        zeros = [np.zeros(n) for n in (self.wheel.basis.shape[1], self.ground.count, sum(self.counts[1:]))]
         state = {"free": zeros[0], "pressed": zeros[1], "inner": zeros[2]}
         return Equilibrium(deflection=0.0, load=0.0, energy=0.0, negative=0, residuals=(), **state)
 
@@ -159,10 +159,10 @@ class WheelOnGround:
 
         tolerance : work of the residual in the next step over load times deflection; limit : steps
         """
-        free, residuals = start.free, list[float]()
-        mixed: Mixed = *self._extrapolated(free, np.zeros_like(free)), np.concatenate([start.pressed, start.inner])
+        free, residuals, pose = start.free, list[float](), self.ground.risen(deflection)
+        mixed: Mixed = *self.extrapolated(free, np.zeros_like(free)), np.concatenate([start.pressed, start.inner])
         while True:
-            system = self._linearised(free, deflection, mixed)
+            system = self.linearised(free, pose, mixed)
             touching = system.gaps < 0.0 if residuals else self._touching(system, start)
             G = system.slopes[np.flatnonzero(touching)]
             matrix = csc_array(system.tangent + G.T @ csr_array(G * system.stiffness[touching, None]))
@@ -179,9 +179,9 @@ class WheelOnGround:
             step, forces = found
             held = -system.stiffness * np.minimum(system.gaps, 0.0)
             work = abs(float((system.residual - system.slopes.T @ held) @ step))
-            load = float(held[: len(system.lift)] @ system.lift)
+            load = float(held[: len(system.ground.points)] @ self._lift(system.ground, pose))
             residuals.append(work / max(load * deflection, _LEAST_WORK))
-            pressed = np.zeros(sum(self._counts))
+            pressed = np.zeros(sum(self.counts))
             if residuals[-1] < tolerance:
                 pressed[system.near] = held
                 return Equilibrium(
@@ -189,29 +189,34 @@ class WheelOnGround:
                     load=self.wheel.sides * load,
                     energy=self.wheel.sides * system.energy,
                     free=free,
-                    pressed=pressed[: self._ground.count],
-                    inner=pressed[self._ground.count :],
+                    pressed=pressed[: self.ground.count],
+                    inner=pressed[self.ground.count :],
                     negative=int((factors.U.diagonal() < 0.0).sum()),
                     residuals=tuple(residuals),
                 )
             if len(residuals) > limit or not residuals[-1] < _ASTRAY:
                 return tuple(residuals)
             pressed[system.near] = forces
-            mixed = *self._extrapolated(free, step), pressed
+            mixed = *self.extrapolated(free, step), pressed
             free = free + step
+
+    def _lift(self, ground: Near, pose: Pose) -> Array:
+        """Share of each contact's force that acts along the ground's normal, (n,) [-]."""
+        assert ground.surface is not None
+        return np.asarray(ground.surface.normals @ pose[0][2])
 
     def _moved(self, step: Array) -> float:
         """Longest way of a node in a step [m]."""
         change = (self.wheel.basis @ step).reshape(self.wheel.plates.reference.shape)
         return float(np.linalg.norm(change[:, 0], axis=1).max())
 
-    def _touching(self, system: _System, start: Equilibrium) -> NDArray[np.bool_]:
+    def _touching(self, system: System, start: Equilibrium) -> NDArray[np.bool_]:
         """First guess: what touched before; at first touch the lowest points (nearly all gaps are negative there)."""
         before = np.concatenate([start.pressed, start.inner])[system.near] > 0.0
         return before if before.any() else np.asarray(system.gaps < system.gaps.min(initial=np.inf) + _LOWEST)
 
-    def _linearised(self, free: Array, deflection: float, mixed: Mixed) -> _System:
-        """The wheel about free coordinates."""
+    def linearised(self, free: Array, pose: Pose, mixed: Mixed) -> System:
+        """The wheel about free coordinates (n_free,), the ground in a pose; stresses and forces as `extrapolated`."""
         plates, T = self.wheel.plates, self.wheel.basis
         q = self.wheel.coordinates(free)
         stresses, tied, pressed = mixed
@@ -219,10 +224,10 @@ class WheelOnGround:
         count = len(tied)
         tie_force, tie_blocks = np.zeros((count, 32, 3)), np.zeros((count, 32, 3, 32, 3))
         energy += tie_terms(q, plates.plates, self._ties, self._weights, tied, tie_force, tie_blocks)
-        shares = np.split(pressed, np.cumsum(self._counts)[:-1])
-        found = [self._ground.near(q, deflection, shares[0], blocks)]
+        shares = np.split(pressed, np.cumsum(self.counts)[:-1])
+        found = [self.ground.near(q, pose, shares[0], blocks)]
         found += [contact.near(q, share, blocks) for contact, share in zip(self._inner, shares[1:], strict=True)]
-        near = joined(found, self._counts)
+        near = joined(found, self.counts)
         total = np.bincount(plates.numbers.ravel(), weights=force.ravel(), minlength=plates.size)
         total += np.bincount(self._tie_numbers.ravel(), weights=tie_force.ravel(), minlength=plates.size)
         matrix = self._reduction(np.concatenate([blocks.ravel(), tie_blocks.ravel()]))
@@ -231,18 +236,18 @@ class WheelOnGround:
             inner = csc_array(coo_array((values, (rows, columns)), shape=(plates.size, plates.size)))
             matrix = matrix + T.T @ inner @ T
         held = self.wheel.held @ free
-        return _System(
+        return System(
             residual=T.T @ total + held,
             tangent=csc_array(matrix + self.wheel.held),
             gaps=near.gaps,
             slopes=csr_array(near.slopes @ T),
             stiffness=near.stiffness,
             near=near.points,
-            lift=self._ground.lift(found[0]),
+            ground=found[0],
             energy=energy + 0.5 * float(free @ held),
         )
 
-    def _extrapolated(self, free: Array, step: Array) -> tuple[list[Array], Array]:
+    def extrapolated(self, free: Array, step: Array) -> tuple[list[Array], Array]:
         """Stresses of plates and forces of ties after a step, linearised."""
         plates = self.wheel.plates
         q, change = self.wheel.coordinates(free), (self.wheel.basis @ step).reshape(plates.reference.shape)

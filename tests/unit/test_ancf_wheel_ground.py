@@ -62,13 +62,13 @@ def test_forces_and_tangents_are_derivatives_of_the_grounds_energy(wheel: AncfWh
     q = plates.reference + 1e-4 * random.standard_normal(plates.reference.shape)
     direction = random.standard_normal(plates.reference.shape) * [[1e-2], [1.0], [1.0], [1e1]]
     none = np.zeros((len(plates.plates), 16, 3, 16, 3))
-    level, step = 8e-3, 1e-6
+    pose, step = contact.risen(8e-3), 1e-6
     held = np.zeros(contact.count)
-    here = contact.near(q, level, held, none)
+    here = contact.near(q, pose, held, none)
     held[here.points] = random.random(len(here.points))
 
     def at(x: Array) -> tuple[dict[int, float], Array]:
-        near = contact.near(x, level, 0.0 * held, none)
+        near = contact.near(x, pose, 0.0 * held, none)
         return dict(zip(near.points.tolist(), near.gaps.tolist(), strict=True)), -(near.slopes.T @ held[near.points])
 
     ahead, behind = at(q + step * direction), at(q - step * direction)
@@ -76,7 +76,7 @@ def test_forces_and_tangents_are_derivatives_of_the_grounds_energy(wheel: AncfWh
     numeric = [(ahead[0][p] - behind[0][p]) / (2.0 * step) for p in here.points.tolist()]
     np.testing.assert_allclose(here.slopes @ direction.ravel(), numeric, rtol=1e-5, atol=1e-7)
     blocks = none.copy()
-    contact.near(q, level, held, blocks)
+    contact.near(q, pose, held, blocks)
     change = (ahead[1] - behind[1]) / (2.0 * step)
     np.testing.assert_allclose(plates.assembled(blocks) @ direction.ravel(), change, atol=1e-5 * np.abs(change).max())
 

@@ -52,7 +52,9 @@ def test_residual_and_tangent_are_derivatives(open_problem: WheelOnGround) -> No
     none = np.zeros(len(open_problem.wheel.ground.plate))
 
     def at(x: Array) -> tuple[float, Array, Array, Array]:
-        found = open_problem._linearised(x, 5e-3, (*open_problem._extrapolated(x, 0.0 * x), none))
+        found = open_problem.linearised(
+            x, open_problem.ground.risen(5e-3), (*open_problem.extrapolated(x, 0.0 * x), none)
+        )
         return found.energy, found.residual, found.gaps, found.tangent @ direction
 
     step = 1e-7
@@ -60,7 +62,9 @@ def test_residual_and_tangent_are_derivatives(open_problem: WheelOnGround) -> No
     assert here[1] @ direction == pytest.approx((ahead[0] - behind[0]) / (2.0 * step), rel=1e-6)
     slope = (ahead[1] - behind[1]) / (2.0 * step)
     np.testing.assert_allclose(here[3], slope, atol=1e-6 * np.abs(slope).max())
-    system = open_problem._linearised(free, 5e-3, (*open_problem._extrapolated(free, 0.0 * free), none))
+    system = open_problem.linearised(
+        free, open_problem.ground.risen(5e-3), (*open_problem.extrapolated(free, 0.0 * free), none)
+    )
     np.testing.assert_allclose(system.slopes @ direction, (ahead[2] - behind[2]) / (2.0 * step), rtol=1e-5, atol=1e-6)
 
 
@@ -70,15 +74,18 @@ def test_what_forces_add_to_the_tangent_is_the_slopes_derivative(open_problem: W
     size = open_problem.wheel.basis.shape[1]
     free, direction = 1e-4 * random.standard_normal(size), random.standard_normal(size)
     forces = random.random(len(open_problem.wheel.ground.plate))
-    stresses, tied = open_problem._extrapolated(free, 0.0 * free)
+    stresses, tied = open_problem.extrapolated(free, 0.0 * free)
 
     def pull(x: Array) -> Array:
-        found = open_problem._linearised(x, 0.5, (stresses, tied, 0.0 * forces))
+        found = open_problem.linearised(x, open_problem.ground.risen(0.5), (stresses, tied, 0.0 * forces))
         return -(found.slopes.T @ forces[found.near])
 
     step = 1e-7
     slope = (pull(free + step * direction) - pull(free - step * direction)) / (2.0 * step)
-    loaded, bare = (open_problem._linearised(free, 0.5, (stresses, tied, k * forces)).tangent for k in (1.0, 0.0))
+    loaded, bare = (
+        open_problem.linearised(free, open_problem.ground.risen(0.5), (stresses, tied, k * forces)).tangent
+        for k in (1.0, 0.0)
+    )
     np.testing.assert_allclose((loaded - bare) @ direction, slope, atol=1e-5 * np.abs(slope).max())
 
 
