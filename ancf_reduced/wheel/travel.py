@@ -1,0 +1,232 @@
+"""Implicit motion of an ANCF wheel: generalised-alpha with adaptive steps, contact found within each Newton step.
+
+The method and its local error are those of `ancf_reduced.motion.implicit` (Chung & Hulbert 1993). Newton's matrix is
+the plates' alone, the hub's three rows and columns are eliminated, and the touching set is found on it as in statics
+(`contact_step`), so that a step costs one to three factorisations. Verified by tests/verification/test_ancf_rolling.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_array, csr_array
+
+from ancf_reduced.wheel.contact_step import settle
+from ancf_reduced.wheel.rolling import HUB, Bordered, Linearised, Motion, RollingWheel
+from ancf_reduced.wheel.static import Mixed, System
+from contracts.errors import ConvergenceError, InputError
+
+__all__ = ["Account", "TravelSettings", "travel"]
+
+Array = NDArray[np.float64]
+_GROWTH, _SHRINKING = 1.5, 0.35
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TravelSettings:
+    """Choices of the integrator.
+
+    Attributes
+    ----------
+    tolerance : local error of a place in one step [m]
+    spectral_radius : rho at infinite frequency [-]
+    first_step, smallest_step, largest_step : [s]
+    newton_tolerance : largest change of a place that ends the iteration, relative to ``tolerance`` [-]
+    newton_iterations : after so many the step is cut
+    """
+
+    tolerance: float = 2e-6
+    spectral_radius: float = 0.8
+    first_step: float = 1e-4
+    smallest_step: float = 1e-7
+    largest_step: float = 2e-2
+    newton_tolerance: float = 1e-2
+    newton_iterations: int = 10
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.spectral_radius <= 1.0:
+            raise InputError("spectral radius", self.spectral_radius, "must lie in 0..1", "0.8 is usual")
+        for name in ("tolerance", "first_step", "smallest_step", "largest_step", "newton_tolerance", "newton_iterations"):
+            if not 0.0 < getattr(self, name) < np.inf:
+                raise InputError(name.replace("_", " "), getattr(self, name), "must be finite and > 0", "use the default")
+
+
+@dataclass(slots=True)
+class Account:
+    """Energy of the whole wheel along a motion [J]: rows of time, kinetic, strain, weight, contact, damping, friction, drive.
+
+    The last three are work since the start, by the trapezoidal rule; damping and friction are dissipated.
+    """
+
+    rows: list[tuple[float, ...]] = field(default_factory=list)
+    _last: tuple[float, tuple[float, ...], tuple[float, ...]] | None = None
+
+    @property
+    def totals(self) -> Array:
+        """What must stay constant (n,) [J]."""
+        table = np.array(self.rows)
+        return np.asarray(table[:, 1:7].sum(axis=1) - table[:, 7])
+
+    def closure(self) -> float:
+        """Spread of the totals over the largest change of one part [-]."""
+        table = np.array(self.rows)[:, 1:]
+        return float(np.ptp(self.totals) / np.ptp(table, axis=0).max())
+
+    def add(self, wheel: RollingWheel, here: Step) -> None:
+        """One row more."""
+        powers = wheel.powers(here.motion, here.found)
+        time, before, works = self._last or (here.motion.time, powers, (0.0, 0.0, 0.0))
+        share = 0.5 * (here.motion.time - time)
+        gone = tuple(w + share * (a + b) for w, a, b in zip(works, before, powers, strict=True))
+        self._last = here.motion.time, powers, gone
+        self.rows.append((here.motion.time, *wheel.energies(here.motion, here.found, here.step), *gone))
+
+
+def travel(
+    wheel: RollingWheel,
+    start: Motion,
+    times: Sequence[float],
+    settings: TravelSettings | None = None,
+    account: Account | None = None,
+    watch: Callable[[Motion], None] | None = None,
+) -> Iterator[Motion]:
+    """States at the wanted times [s].
+
+    account : gets a row at every step; watch : is called with every step's state
+
+    Raises
+    ------
+    InputError
+        For times that are not finite or do not increase from the start.
+    ConvergenceError
+        If a step would have to be cut below the smallest one.
+    """
+    wanted = np.array([start.time, *times])
+    if not (np.isfinite(wanted).all() and (np.diff(wanted) > 0.0).all()):
+        raise InputError("times", f"{list(times)[:4]} s", "must be finite and increase from the start", "sort them")
+    run = _Run(wheel, settings or TravelSettings())
+    here = run.begin(start)
+    if account is not None:
+        account.add(wheel, here)
+    h = run.settings.first_step
+    for time in times:
+        while here.motion.time < time * (1.0 - 1e-12):
+            left = time - here.motion.time
+            step = left if h * (1.0 + 1e-6) >= left else min(h, 0.5 * left) if 2.0 * h > left else h
+            found = run.advance(here, step)
+            error = np.inf if found is None else run.error(here, found, step)
+            if found is None or error > 1.0:
+                h = step * (_SHRINKING if found is None else max(_SHRINKING, 0.9 * error ** (-1.0 / 3.0)))
+                if h < run.settings.smallest_step:
+                    why = "Newton's iteration does not converge" if found is None else "the error stays above its tolerance"
+                    what = f"motion of the ANCF wheel stopped at {here.motion.time:.4g} s: {why}"
+                    raise ConvergenceError(f"{what} at a step of {h:.3g} s; raise the tolerance", [], here.motion)
+                continue
+            if account is not None:
+                account.add(wheel, found)
+            here = found
+            grown = step * min(_GROWTH, 0.9 * max(error, 1e-9) ** (-1.0 / 3.0))
+            h = min(max(grown, h) if step < h else grown, run.settings.largest_step)
+            if watch is not None:
+                watch(here.motion)
+        yield here.motion
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """A state, its auxiliary accelerations, and the equations a Newton step before."""
+
+    motion: Motion
+    auxiliary: Array
+    found: Linearised
+    step: Array
+
+
+class _Run:
+    """One integration."""
+
+    def __init__(self, wheel: RollingWheel, settings: TravelSettings) -> None:
+        self.wheel, self.settings = wheel, settings
+        rho = settings.spectral_radius
+        self.alpha_m, self.alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
+        self.gamma = 0.5 - self.alpha_m + self.alpha_f
+        self.beta = 0.25 * (self.gamma + 0.5) ** 2
+        places = np.zeros(wheel.problem.wheel.plates.reference.shape, dtype=bool)
+        places[:, 0] = True
+        touched = np.abs(wheel.basis.T @ places.ravel().astype(float)) > 0.0
+        self._places = np.concatenate([np.flatnonzero(touched), wheel.size - HUB + np.arange(2)])
+
+    def begin(self, start: Motion) -> Step:
+        """Consistent accelerations."""
+        a = self.wheel.accelerations(start)
+        motion = Motion(time=start.time, y=start.y, v=start.v, a=a, pressed=start.pressed)
+        none: Mixed = *self.wheel.problem.extrapolated(start.y[:-HUB], 0.0 * start.y[:-HUB]), start.pressed
+        return Step(motion, a, self.wheel.linearised(start.y, start.v, a, none), 0.0 * a)
+
+    def advance(self, here: Step, h: float) -> Step | None:
+        """One step [s]; None if Newton's iteration does not converge."""
+        last, beta, gamma = here.motion, self.beta, self.gamma
+        share = (1.0 - self.alpha_m) / (1.0 - self.alpha_f)
+        by_a, by_v = share / (h * h * beta), gamma / (h * beta)
+        a = last.a.copy()
+        auxiliary = self._auxiliary(here, a)
+        y = last.y + h * last.v + h * h * ((0.5 - beta) * here.auxiliary + beta * auxiliary)
+        v = last.v + h * ((1.0 - gamma) * here.auxiliary + gamma * auxiliary)
+        extrapolated = self.wheel.problem.extrapolated
+        mixed: Mixed = *extrapolated(last.y[:-HUB], (y - last.y)[:-HUB]), last.pressed
+        for _ in range(self.settings.newton_iterations):
+            found = self.wheel.linearised(y, v, a, mixed)
+            system = found.system
+            touching = mixed[2][system.near] > 0.0
+            done = self._solved(found, touching, (by_v, by_a))
+            if done is None:
+                return None
+            step, forces = done
+            pressed = np.zeros_like(last.pressed)
+            pressed[system.near] = forces
+            size = float(np.abs(step[self._places]).max())
+            if not size < 1.0:
+                return None
+            mixed = *extrapolated(y[:-HUB], step[:-HUB]), pressed
+            y, v, a = y + step, v + by_v * step, a + by_a * step
+            if size < self.settings.newton_tolerance * self.settings.tolerance:
+                motion = Motion(time=last.time + h, y=y, v=v, a=a, pressed=pressed)
+                return Step(motion, self._auxiliary(here, a), found, step)
+        return None
+
+    def error(self, here: Step, found: Step, h: float) -> float:
+        """Local error relative to its tolerance [-]."""
+        change = np.abs((found.auxiliary - here.auxiliary)[self._places]).max()
+        return float(h * h * abs(self.beta - 1.0 / 6.0) * change / self.settings.tolerance)
+
+    def _auxiliary(self, here: Step, a: Array) -> Array:
+        weighted = self.alpha_f * here.motion.a + (1.0 - self.alpha_f) * a - self.alpha_m * here.auxiliary
+        return np.asarray(weighted / (1.0 - self.alpha_m))
+
+    def _solved(
+        self, found: Linearised, touching: NDArray[np.bool_], weights: tuple[float, float]
+    ) -> tuple[Array, Array] | None:
+        """Newton's step and the contacts' forces."""
+        by_v, by_a = weights
+        inner = csc_array(found.by_place[0] + by_v * found.by_rate[0] + by_a * found.by_acceleration[0])
+        border = found.by_place[1] + by_v * found.by_rate[1] + by_a * found.by_acceleration[1]
+        system: System = found.system
+        which = np.flatnonzero(touching)
+        G = csr_array(found.slopes[which])
+        heavy = csr_array(G * system.stiffness[which, None])
+        own = csr_array(G[:, :-HUB])
+        with_contact = csc_array(inner + own.T @ csr_array(heavy[:, :-HUB]))
+        full = border + (G.T @ heavy[:, -HUB:].toarray())
+        try:
+            solve = Bordered((with_contact, full))
+        except (RuntimeError, np.linalg.LinAlgError):
+            return None
+
+        def product(x: Array) -> Array:
+            plates = inner @ x[:-HUB] + border[:-HUB] @ x[-HUB:]
+            return np.concatenate([plates, border[:-HUB].T @ x[:-HUB] + border[-HUB:] @ x[-HUB:]])
+
+        return settle(solve, product, found.residual, (system.gaps, found.slopes, system.stiffness), touching)
