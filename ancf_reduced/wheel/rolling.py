@@ -7,7 +7,8 @@ E = e_y x, R the rotation and M the plates' constant mass, the acceleration of a
     a = p'' + 2 theta' E p' + theta'^2 E^2 p + theta'' E p + (R^T (x'', 0, z'') for places),
 
 is exact, so that nothing of the wheel's inertia is left out; statics' plates, ties and contacts serve as they are.
-Lateral motion of the hub and its turning about other axes are held. Verified by tests/verification/test_ancf_rolling.py.
+Lateral motion of the hub and its turning about other axes are held.
+Verified by tests/verification/test_ancf_rolling.py.
 """
 
 from __future__ import annotations
@@ -145,7 +146,7 @@ class RollingWheel:
         damping_ratio: float = 0.0,
     ) -> None:
         if not (np.isfinite(damping_ratio) and 0.0 <= damping_ratio < 1.0):
-            raise InputError("damping ratio", f"{damping_ratio:g}", "must lie in 0..1, 1 excluded", "0.02 to 0.1 is usual")
+            raise InputError("damping ratio", f"{damping_ratio:g}", "must lie in 0..1, 1 excluded", "0.05 is usual")
         if not np.isfinite(gravity):
             raise InputError("gravity", f"{gravity:g} m/s^2", "must be finite", "3.711 on Mars")
         self.problem, self.hub, self.friction, self.gravity = problem, hub, friction or Friction(), gravity

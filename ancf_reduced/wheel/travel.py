@@ -8,7 +8,7 @@ the plates' alone, the hub's three rows and columns are eliminated, and the touc
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,16 +49,17 @@ class TravelSettings:
     def __post_init__(self) -> None:
         if not 0.0 <= self.spectral_radius <= 1.0:
             raise InputError("spectral radius", self.spectral_radius, "must lie in 0..1", "0.8 is usual")
-        for name in ("tolerance", "first_step", "smallest_step", "largest_step", "newton_tolerance", "newton_iterations"):
+        for name in (one.name for one in fields(self) if one.name != "spectral_radius"):
             if not 0.0 < getattr(self, name) < np.inf:
-                raise InputError(name.replace("_", " "), getattr(self, name), "must be finite and > 0", "use the default")
+                raise InputError(name.replace("_", " "), getattr(self, name), "must be finite and > 0", "leave it out")
 
 
 @dataclass(slots=True)
 class Account:
-    """Energy of the whole wheel along a motion [J]: rows of time, kinetic, strain, weight, contact, damping, friction, drive.
+    """Energy of the whole wheel along a motion [J].
 
-    The last three are work since the start, by the trapezoidal rule; damping and friction are dissipated.
+    Rows of time, kinetic, strain, weight, contact, damping, friction, drive. The last three are work since the start,
+    by the trapezoidal rule; damping and friction are dissipated.
     """
 
     rows: list[tuple[float, ...]] = field(default_factory=list)
@@ -121,7 +122,7 @@ def travel(
             if found is None or error > 1.0:
                 h = step * (_SHRINKING if found is None else max(_SHRINKING, 0.9 * error ** (-1.0 / 3.0)))
                 if h < run.settings.smallest_step:
-                    why = "Newton's iteration does not converge" if found is None else "the error stays above its tolerance"
+                    why = "Newton's iteration does not converge" if found is None else "its error stays too large"
                     what = f"motion of the ANCF wheel stopped at {here.motion.time:.4g} s: {why}"
                     raise ConvergenceError(f"{what} at a step of {h:.3g} s; raise the tolerance", [], here.motion)
                 continue
