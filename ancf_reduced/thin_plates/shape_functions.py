@@ -11,7 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DERIVATIVES", "hermite", "shape_tables"]
+from ancf_reduced.compiled import compiled
+
+__all__ = ["DERIVATIVES", "hermite", "shape_rows", "shape_tables"]
 
 Array = NDArray[np.float64]
 
@@ -41,3 +43,24 @@ def shape_tables(size: tuple[float, float] | Array, u: Array, v: Array) -> Array
         product = along[:, p, :, None, :, None] * across[:, q, None, :, None, :]  # n, end i, end j, slope 1, slope 2
         rows.append(np.stack([product[..., 0, 0], product[..., 1, 0], product[..., 0, 1], product[..., 1, 1]], axis=-1))
     return np.stack([row.reshape(len(u), 16) for row in rows], axis=1)
+
+
+@compiled
+def shape_rows(size: Array, place: Array, rows: Array) -> None:
+    """As `shape_tables`, of one plate of lengths size (2,) at one place (2,), into rows (6, 16); compiled."""
+    f = np.empty((2, 3, 2, 2))
+    for axis in range(2):
+        h, u = size[axis], place[axis]
+        f[axis, 0, 0, 0], f[axis, 0, 0, 1] = 1.0 - u * u * (3.0 - 2.0 * u), h * u * (1.0 - u) * (1.0 - u)
+        f[axis, 0, 1, 0], f[axis, 0, 1, 1] = u * u * (3.0 - 2.0 * u), h * u * u * (u - 1.0)
+        f[axis, 1, 0, 0], f[axis, 1, 0, 1] = 6.0 * u * (u - 1.0) / h, 1.0 - u * (4.0 - 3.0 * u)
+        f[axis, 1, 1, 0], f[axis, 1, 1, 1] = 6.0 * u * (1.0 - u) / h, u * (3.0 * u - 2.0)
+        f[axis, 2, 0, 0], f[axis, 2, 0, 1] = (12.0 * u - 6.0) / (h * h), (6.0 * u - 4.0) / h
+        f[axis, 2, 1, 0], f[axis, 2, 1, 1] = (6.0 - 12.0 * u) / (h * h), (6.0 * u - 2.0) / h
+    for row in range(6):
+        p = 1 if row == 1 or row == 4 else 2 if row == 3 else 0
+        q = 1 if row == 2 or row == 4 else 2 if row == 5 else 0
+        for node in range(4):
+            for kind in range(4):
+                value = f[0, p, node // 2, kind % 2] * f[1, q, node % 2, kind // 2]
+                rows[row, 4 * node + kind] = value

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array, vstack
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
-from ancf_reduced.wheel.closest import PlateFace
+from ancf_reduced.wheel.closest import Moved, PlateFace
 from ancf_reduced.wheel.contact_kernels import Faces, face_points, face_slopes, plate_gaps, rigid_gaps
 from ancf_reduced.wheel.faces import FacePoints
 from ancf_reduced.wheel.mesh import AncfWheel
 
-__all__ = ["HubContact", "Near", "PlateContact", "Points", "Surface", "inner_contacts", "joined"]
+__all__ = ["HubContact", "InnerContacts", "Near", "PlateContact", "Points", "Surface", "inner_contacts", "joined"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -30,8 +30,8 @@ _LEAST_GAP = 10e-6
 """Points closer than this to a face at the beginning, beside a weld, are left out [m]."""
 _DEPTH = 5e-3
 """How far behind a face a point is still held off [m]."""
-_BOW = 10e-3
-"""How far plates may bow out of the box around their nodes, both sides together [m]."""
+_SKIN = 4e-3
+"""Movement of both sides together for which a search of what is near looks ahead [m]."""
 _FACING = 0.5
 """Largest cosine between the normals of a point's face and of the one it touches [-]."""
 
@@ -140,12 +140,17 @@ class HubContact:
         self.count = len(wheel.faces.plate)
         places = self._points.at(wheel.plates.reference)[0]
         self._asked = np.flatnonzero((self._gaps(places) > _LEAST_GAP) & (np.abs(places[:, 1]) <= wheel.hub[1]))
+        self.search(wheel.plates.reference)
+
+    def search(self, q: Array) -> None:
+        """As `PlateContact.search`."""
+        self._near = self._asked[self._gaps(self._points.at(q, self._asked)[0]) < _INNER_REACH + _SKIN]
 
     def _gaps(self, places: Array) -> Array:
         return np.asarray(np.hypot(places[:, 0], places[:, 2]) - self._radius)
 
     def near(self, q: Array, forces: Array, blocks: Array) -> Near:
-        places, _ = self._points.at(q, self._asked)
+        places, _ = self._points.at(q, self._near)
         gaps = self._gaps(places)
         kept = np.flatnonzero((gaps < _INNER_REACH) & (gaps > -_DEPTH))
         outwards = places[kept] * [1.0, 0.0, 1.0]
@@ -154,7 +159,7 @@ class HubContact:
         flat = np.diag([1.0, 0.0, 1.0]) - normals[:, :, None] * normals[:, None, :]
         surface = normals, flat / rho[:, None, None]
         held = self._penalty, forces, blocks
-        return self._points.rigid(q, (self._asked[kept], self._asked[kept]), gaps[kept], surface, held)
+        return self._points.rigid(q, (self._near[kept], self._near[kept]), gaps[kept], surface, held)
 
 
 class PlateContact:
@@ -170,21 +175,24 @@ class PlateContact:
     def __init__(self, wheel: AncfWheel, faces: Points, points: Index, face: PlateFace, penalty: float) -> None:
         self._points, self._of, self._face, self._penalty = faces, points, face, penalty
         self.count = len(points)
+        self._reach = max(_INNER_REACH, _DEPTH) + float(np.abs(face.heights[face.which]).max(initial=0.0))
         self._asked = np.arange(len(points))
-        plates = wheel.plates.plates
-        self._nodes = [np.unique(plates[k]) for k in (wheel.faces.plate[points], face.which)]
+        self.search(wheel.plates.reference)
         numbers, gaps = self._found(wheel.plates.reference, _LEAST_GAP)[:2]
         self._asked = np.setdiff1d(self._asked, numbers[gaps < _LEAST_GAP])
+        self.search(wheel.plates.reference)
+
+    def search(self, q: Array) -> None:
+        """Which points are near at nodes q, and may be until both sides have moved by `_SKIN` together."""
+        places, _ = self._points.at(q, self._of[self._asked])
+        found, self._samples = self._face.near(q, places, self._reach + _SKIN)
+        self._near = self._asked[found]
 
     def _found(self, q: Array, reach: float) -> tuple[Index, Array, Index, Array]:
         """Numbers among the points, gaps, plates and their rows of what is nearer than ``reach`` [m]."""
         face, plates = self._face, self._points.plates
-        which = self._of[self._asked]
-        if self._far_apart(q, max(reach, _DEPTH)):
-            which = which[:0]
-        places, normals = self._points.at(q, which)
-        thickest = float(np.abs(face.heights[face.which]).max(initial=0.0))
-        number, plate, rows = face.closest(q, places, max(reach, _DEPTH) + thickest)
+        places, normals = self._points.at(q, self._of[self._near])
+        number, plate, rows = face.reached(q, places, self._samples)
         local = q[plates.plates[plate]].reshape(len(plate), 16, 3)
         r, r1, r2 = np.moveaxis(np.einsum("ndk,nki->ndi", rows[:, :3], local), 1, 0)
         N = np.cross(r1, r2) * np.sign(face.heights[plate])[:, None]
@@ -192,16 +200,13 @@ class PlateContact:
         gaps = ((places[number] - r) * N).sum(axis=1) - np.abs(face.heights[plate])
         cosine = (normals[number] * N).sum(axis=1)
         kept = (gaps < reach) & (gaps > -_DEPTH) & (cosine < _FACING)
-        return self._asked[number[kept]], gaps[kept], plate[kept], rows[kept]
-
-    def _far_apart(self, q: Array, reach: float) -> bool:
-        """Whether boxes around both sides' nodes say that nothing is within reach [m]."""
-        (low, high), (other_low, other_high) = ((q[n, 0].min(axis=0), q[n, 0].max(axis=0)) for n in self._nodes)
-        return bool((np.maximum(low - other_high, other_low - high) > reach + _BOW).any())
+        return self._near[number[kept]], gaps[kept], plate[kept], rows[kept]
 
     def near(self, q: Array, forces: Array, blocks: Array) -> Near:
         """Contacts within reach, with the tangent of two plates each that forces (count,) add."""
         plates = self._points.plates
+        if not len(self._near):
+            return Near(self._near, np.empty(0), csr_array((0, plates.size)), np.empty(0))
         numbers, gaps, other, rows = self._found(q, _INNER_REACH)
         own, heights, tables = self._points.of(self._of[numbers])
         pairs, block = np.unique(np.stack([own, other], axis=-1).reshape(-1, 2), axis=0, return_inverse=True)
@@ -230,6 +235,28 @@ class PlateContact:
         numbers = np.concatenate([plates.numbers[pairs[held, 0]], plates.numbers[pairs[held, 1]]], axis=1)
         rows, columns = np.repeat(numbers, 96, axis=1).ravel(), np.tile(numbers, (1, 96)).ravel()
         return (rows, columns, blocks[held].ravel()) if held.any() else None
+
+
+class InnerContacts:
+    """Springs on the hub, on the rim, and fronts and backs of springs on those of the strips beside them.
+
+    Attributes
+    ----------
+    counts : points of each contact
+    """
+
+    def __init__(self, wheel: AncfWheel, penalty: float) -> None:
+        self.parts = inner_contacts(wheel, penalty)
+        self.counts = [part.count for part in self.parts]
+        self._moved = Moved(wheel.plates, float(np.abs(wheel.faces.height).max(initial=0.0)))
+
+    def near(self, q: Array, forces: Sequence[Array], blocks: Array) -> list[Near]:
+        """Contacts within reach of each part, see there."""
+        if 2.0 * self._moved(q) > _SKIN:
+            for part in self.parts:
+                part.search(q)
+            self._moved.remember(q)
+        return [part.near(q, held, blocks) for part, held in zip(self.parts, forces, strict=True)]
 
 
 def inner_contacts(wheel: AncfWheel, penalty: float) -> list[HubContact | PlateContact]:

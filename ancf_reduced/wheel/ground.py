@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 
 from ancf_reduced.compiled import compiled
 from ancf_reduced.contact.terrain_kernels import is_outside, piece_gap
+from ancf_reduced.wheel.closest import Moved
 from ancf_reduced.wheel.contacts import Near, Points, Surface
 from ancf_reduced.wheel.mesh import AncfWheel
 from contracts.errors import InputError
@@ -28,6 +29,8 @@ Pose = tuple[Array, Array]
 """Where the ground is: rows (3, 3) of its axes in the wheel's frame, its origin (3,) in these axes [m]."""
 _REACH = 10e-3
 """Gap up to which a point may touch the ground within one step [m]."""
+_SKIN = 4e-3
+"""Movement of wheel and ground together for which a search of what is near looks ahead [m]."""
 _HALVINGS = 60
 _PLANE, _FIELD = int(PieceKind.PLANE), int(PieceKind.HEIGHT_FIELD)
 
@@ -64,7 +67,12 @@ class GroundContact:
         if wheel.sides > 1.0:
             _require_symmetric(self._rows, frame)
         self.count = len(wheel.ground.plate) * len(self._rows)
-        self._touch = self._first_touch(self._points.at(wheel.plates.reference)[0])
+        self._moved = Moved(wheel.plates, float(np.abs(wheel.ground.height).max(initial=0.0)))
+        places = self._points.at(wheel.plates.reference)[0]
+        self._farthest = float(np.linalg.norm(places, axis=1).max()) + _REACH
+        self._searched: Pose | None = None
+        self._close = np.arange(len(places))
+        self._touch = self._first_touch(places)
 
     def risen(self, deflection: float) -> Pose:
         """The ground's pose where it has risen by a deflection [m] from first touch."""
@@ -78,15 +86,30 @@ class GroundContact:
         InputError
             For points on the ground beside a height field.
         """
-        places = self._points.at(q)[0]
-        contacts, gaps, normals, bends = self._gaps(places, pose)
-        which = contacts // len(self._rows)
+        if self._away(q, pose) > _SKIN:
+            places = self._points.at(q)[0]
+            self._close = np.unique(self._gaps(places, pose, _REACH + _SKIN)[0] // len(self._rows))
+            self._moved.remember(q)
+            self._searched = pose
+        places = self._points.at(q, self._close)[0]
+        numbers, gaps, normals, bends = self._gaps(places, pose)
+        near, piece = np.divmod(numbers, len(self._rows))
+        which = self._close[near]
+        contacts = which * len(self._rows) + piece
         found = self._points.rigid(q, (which, contacts), gaps, (normals, bends), (self._penalty, forces, blocks))
-        return replace(found, surface=Surface(normals=normals, bends=bends, places=places[which]))
+        return replace(found, surface=Surface(normals=normals, bends=bends, places=places[near]))
 
     def slopes(self, q: Array, contacts: Index) -> csr_array:
         """Derivatives (3 n, size) of the places of contacts' points by all coordinates."""
         return self._points.slopes(q, contacts // len(self._rows))
+
+    def _away(self, q: Array, pose: Pose) -> float:
+        """How far points and ground may have moved towards each other since the last search [m]."""
+        if self._searched is None:
+            return np.inf
+        (R, at), (R_then, then) = pose, self._searched
+        shift = float(np.linalg.norm(R.T @ at - R_then.T @ then) + self._farthest * np.linalg.norm(R - R_then))
+        return self._moved(q) + shift
 
     def _gaps(self, places: Array, pose: Pose, reach: float = _REACH) -> tuple[Index, Array, Array, Array]:
         """Numbers of contacts within reach, their gaps [m], normals (n, 3) and bends (n, 3, 3) [1/m]."""

@@ -18,7 +18,7 @@ from scipy.sparse.linalg import splu
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.contact_step import settle
-from ancf_reduced.wheel.contacts import Near, inner_contacts, joined
+from ancf_reduced.wheel.contacts import InnerContacts, Near, joined
 from ancf_reduced.wheel.ground import GroundContact, Pose, ground_frame
 from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
 from ancf_reduced.wheel.mesh import AncfWheel
@@ -125,11 +125,11 @@ class WheelOnGround:
         if not (np.isfinite(inner_contact_stiffness) and inner_contact_stiffness >= 0.0):
             told = f"{inner_contact_stiffness:g} N/m^3"
             raise InputError("inner contact stiffness", told, "must be >= 0", "1e11 N/m^3 is usual, 0 is without")
-        self.wheel = wheel
+        self.wheel, self.orientation, self.camber = wheel, orientation, camber
         plates, ties = wheel.plates, wheel.ties
         self.ground = GroundContact(wheel, terrain or Plane(), ground_frame(orientation, camber), contact_stiffness)
-        self._inner = inner_contacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else []
-        self.counts = [contact.count for contact in (self.ground, *self._inner)]
+        self._inner = InnerContacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else None
+        self.counts = [self.ground.count, *(self._inner.counts if self._inner else [])]
         at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
         at = 0.5 + 0.5 * at
         rows = [
@@ -180,7 +180,7 @@ class WheelOnGround:
             held = -system.stiffness * np.minimum(system.gaps, 0.0)
             work = abs(float((system.residual - system.slopes.T @ held) @ step))
             load = float(held[: len(system.ground.points)] @ self._lift(system.ground, pose))
-            residuals.append(work / max(load * deflection, _LEAST_WORK))
+            residuals.append(work / max(load * deflection, start.load / self.wheel.sides * deflection, _LEAST_WORK))
             pressed = np.zeros(sum(self.counts))
             if residuals[-1] < tolerance:
                 pressed[system.near] = held
@@ -226,7 +226,7 @@ class WheelOnGround:
         energy += tie_terms(q, plates.plates, self._ties, self._weights, tied, tie_force, tie_blocks)
         shares = np.split(pressed, np.cumsum(self.counts)[:-1])
         found = [self.ground.near(q, pose, shares[0], blocks)]
-        found += [contact.near(q, share, blocks) for contact, share in zip(self._inner, shares[1:], strict=True)]
+        found += self._inner.near(q, shares[1:], blocks) if self._inner else []
         near = joined(found, self.counts)
         total = np.bincount(plates.numbers.ravel(), weights=force.ravel(), minlength=plates.size)
         total += np.bincount(self._tie_numbers.ravel(), weights=tie_force.ravel(), minlength=plates.size)

@@ -12,7 +12,7 @@ from scipy.sparse import coo_array, csc_array
 from ancf_reduced.thin_plates.plates import ThinPlates
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.closest import PlateFace
-from ancf_reduced.wheel.contacts import HubContact, PlateContact, inner_contacts
+from ancf_reduced.wheel.contacts import HubContact, InnerContacts, Near, PlateContact, inner_contacts
 from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
 from ancf_reduced.wheel.static import WheelOnGround, press
 from contracts.errors import InputError
@@ -76,6 +76,7 @@ def test_slopes_and_tangents_are_derivatives(wheel: AncfWheel, kind: str) -> Non
     contacts = inner_contacts(wheel, PENALTY)
     contact: HubContact | PlateContact = {"hub": contacts[0], "rim": contacts[1], "spring": contacts[2]}[kind]
     q = brought_together(wheel, kind)
+    contact.search(q)
     forces = np.random.default_rng(5).random(contact.count)
     none = np.zeros((len(plates.plates), 16, 3, 16, 3))
 
@@ -103,6 +104,41 @@ def test_slopes_and_tangents_are_derivatives(wheel: AncfWheel, kind: str) -> Non
     change = (ahead[1] - behind[1]) / (2.0 * step)
     assert np.abs(change).max() > 0.0
     np.testing.assert_allclose(tangent @ direction.ravel(), change, atol=2e-5 * np.abs(change).max())
+
+
+@pytest.mark.parametrize("kind", ["hub", "rim", "spring"])
+def test_what_is_near_is_found_although_searches_are_rare(wheel: AncfWheel, kind: str) -> None:
+    """On the way from rest to contact and back, a tenth of a millimetre at a time, as a search at every place finds it.
+
+    Without any search after the first nothing is near at the end.
+    """
+    end, start = brought_together(wheel, kind), wheel.plates.reference
+    inner, fresh, once = (InnerContacts(wheel, PENALTY) for _ in range(3))
+    none = np.zeros((0, 16, 3, 16, 3))
+    forces = [np.zeros(count) for count in inner.counts]
+    furthest = float(np.linalg.norm(end - start, axis=2)[:, 0].max())
+    shares = np.linspace(0.0, 1.0, max(int(furthest / 1e-4), 10))
+    searches = 0
+    for share in [*shares.tolist(), *shares[::-1].tolist()]:
+        q = start + share * (end - start)
+        before = inner.parts[0]._near
+        found = inner.near(q, forces, none)
+        searches += inner.parts[0]._near is not before
+        for part, near, held in zip(fresh.parts, found, forces, strict=True):
+            part.search(q)
+            wanted = part.near(q, held, none)
+            assert wanted.points.tolist() == near.points.tolist()
+            np.testing.assert_allclose(near.gaps, wanted.gaps, rtol=0.0, atol=1e-11)
+    assert searches < 0.2 * len(shares)
+    lost = [len(part.near(end, held, none).points) for part, held in zip(once.parts, forces, strict=True)]
+    there = [len(near.points) for near in fresh_near(fresh, end, forces)]
+    assert (sum(lost) < sum(there)) == (kind == "spring")
+
+
+def fresh_near(inner: InnerContacts, q: Array, forces: list[Array]) -> list[Near]:
+    for part in inner.parts:
+        part.search(q)
+    return [part.near(q, held, np.zeros((0, 16, 3, 16, 3))) for part, held in zip(inner.parts, forces, strict=True)]
 
 
 def brought_together(wheel: AncfWheel, kind: str) -> Array:
@@ -143,6 +179,7 @@ def test_springs_rest_on_the_rim_instead_of_passing_through() -> None:
         )[-1]
         q = wheel.coordinates(state.free)
         rim = inner_contacts(wheel, PENALTY)[1]
+        rim.search(q)
         none = np.zeros((len(wheel.plates.plates), 16, 3, 16, 3))
         deepest.append(float(rim.near(q, np.zeros(rim.count), none).gaps.min()))
         loads.append(state.load)

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array
 
 from ancf_reduced.wheel.contact_step import settle
-from ancf_reduced.wheel.rolling import HUB, Bordered, Linearised, Motion, RollingWheel
-from ancf_reduced.wheel.static import Mixed, System
+from ancf_reduced.wheel.static import Mixed
+from ancf_reduced.wheel_motion.bordered import HUB, Bordered
+from ancf_reduced.wheel_motion.rolling import Linearised, Motion, RollingWheel
 from contracts.errors import ConvergenceError, InputError
 
 __all__ = ["Account", "TravelSettings", "travel"]
@@ -34,7 +35,7 @@ class TravelSettings:
     tolerance : local error of a place in one step [m]
     spectral_radius : rho at infinite frequency [-]
     first_step, smallest_step, largest_step : [s]
-    newton_tolerance : largest change of a place that ends the iteration, relative to ``tolerance`` [-]
+    newton_tolerance : largest error of a place that ends the iteration, relative to ``tolerance`` [-]
     newton_iterations : after so many the step is cut
     """
 
@@ -165,7 +166,7 @@ class _Run:
         a = self.wheel.accelerations(start)
         motion = Motion(time=start.time, y=start.y, v=start.v, a=a, pressed=start.pressed)
         none: Mixed = *self.wheel.problem.extrapolated(start.y[:-HUB], 0.0 * start.y[:-HUB]), start.pressed
-        return Step(motion, a, self.wheel.linearised(start.y, start.v, a, none), 0.0 * a)
+        return Step(motion, a, self.wheel.linearised(motion, none), 0.0 * a)
 
     def advance(self, here: Step, h: float) -> Step | None:
         """One step [s]; None if Newton's iteration does not converge."""
@@ -178,8 +179,10 @@ class _Run:
         v = last.v + h * ((1.0 - gamma) * here.auxiliary + gamma * auxiliary)
         extrapolated = self.wheel.problem.extrapolated
         mixed: Mixed = *extrapolated(last.y[:-HUB], (y - last.y)[:-HUB]), last.pressed
+        before = 0.0
         for _ in range(self.settings.newton_iterations):
-            found = self.wheel.linearised(y, v, a, mixed)
+            at = Motion(time=last.time + h, y=y, v=v, a=a, pressed=mixed[2])
+            found = self.wheel.linearised(at, mixed)
             system = found.system
             touching = mixed[2][system.near] > 0.0
             done = self._solved(found, touching, (by_v, by_a))
@@ -193,7 +196,9 @@ class _Run:
                 return None
             mixed = *extrapolated(y[:-HUB], step[:-HUB]), pressed
             y, v, a = y + step, v + by_v * step, a + by_a * step
-            if size < self.settings.newton_tolerance * self.settings.tolerance:
+            # what is left if steps go on shrinking as they do (Hairer & Wanner, Solving ODEs II, IV.8, from memory)
+            left, before = size * (min(1.0, size / before) if before else 1.0), size
+            if left < self.settings.newton_tolerance * self.settings.tolerance:
                 motion = Motion(time=last.time + h, y=y, v=v, a=a, pressed=pressed)
                 return Step(motion, self._auxiliary(here, a), found, step)
         return None
@@ -214,7 +219,7 @@ class _Run:
         by_v, by_a = weights
         inner = csc_array(found.by_place[0] + by_v * found.by_rate[0] + by_a * found.by_acceleration[0])
         border = found.by_place[1] + by_v * found.by_rate[1] + by_a * found.by_acceleration[1]
-        system: System = found.system
+        system = found.system
         which = np.flatnonzero(touching)
         G = csr_array(found.slopes[which])
         heavy = csr_array(G * system.stiffness[which, None])

@@ -1,0 +1,1 @@
+"""Motion of an ANCF wheel with a hub in its own plane: equations, friction, rest, implicit steps."""
