@@ -247,6 +247,19 @@ class WheelOnGround:
             energy=energy + 0.5 * float(free @ held),
         )
 
+    def material_tangent(self, free: Array) -> csc_array:
+        """The tangent of plates and ties without what their stresses add (n_free, n_free), at free coordinates.
+
+        Positive semidefinite, and nothing to motions that turn a strip as a whole.
+        """
+        q, plates = self.wheel.coordinates(free), self.wheel.plates
+        stresses, tied = self.extrapolated(free, np.zeros_like(free))
+        count = len(tied)
+        tie_force, tie_blocks = np.zeros((count, 32, 3)), np.zeros((count, 32, 3, 32, 3))
+        tie_terms(q, plates.plates, self._ties, self._weights, 0.0 * tied, tie_force, tie_blocks)
+        blocks = plates.terms(q, [0.0 * stress for stress in stresses])[2]
+        return csc_array(self._reduction(np.concatenate([blocks.ravel(), tie_blocks.ravel()])) + self.wheel.held)
+
     def extrapolated(self, free: Array, step: Array) -> tuple[list[Array], Array]:
         """Stresses of plates and forces of ties after a step, linearised."""
         plates = self.wheel.plates

@@ -5,10 +5,14 @@ Verified by tests/verification/test_ancf_rolling.py.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.wheel.static import Equilibrium, press
+from ancf_reduced.wheel.static import Equilibrium, Mixed, press
+from ancf_reduced.wheel_motion.bordered import HUB
+from ancf_reduced.wheel_motion.newton import newton_step
 from ancf_reduced.wheel_motion.rolling import Motion, RollingWheel
 from contracts.errors import ConvergenceError, InputError
 
@@ -17,6 +21,8 @@ __all__ = ["above", "standing"]
 Array = NDArray[np.float64]
 _INCREMENT = 5e-3
 _TRIES = 30
+_CLOSE = 1e-4
+"""Difference of load and weight from which the whole wheel is settled [-]."""
 
 
 def above(rolling: RollingWheel, height: float) -> Motion:
@@ -28,9 +34,9 @@ def above(rolling: RollingWheel, height: float) -> Motion:
 
 
 def standing(rolling: RollingWheel, tolerance: float = 1e-9) -> Motion:
-    """In equilibrium under its weight with x = 0, on the orientation of the problem.
+    """In equilibrium under the weight of hub and plates with x = 0, held on the orientation of the problem.
 
-    tolerance : of the ground's force, over the weight [-]
+    tolerance : of places, over the deflection [-]
 
     Raises
     ------
@@ -59,10 +65,30 @@ def standing(rolling: RollingWheel, tolerance: float = 1e-9) -> Motion:
         found = problem.solve(goal, low if share < 0.5 else high)
         if not isinstance(found, Equilibrium):
             raise ConvergenceError(f"no equilibrium found at {1e3 * goal:.4g} mm", [], low)
-        if abs(found.load - weight) < tolerance * weight:
-            return _still(rolling, (found.free, np.concatenate([found.pressed, found.inner])), found.deflection)
+        if abs(found.load - weight) < _CLOSE * weight:
+            return _settled(rolling, found, tolerance)
         low, high = (found, high) if found.load < weight else (low, found)
     raise ConvergenceError(f"weight of {weight:.4g} N is not met", [], low)
+
+
+def _settled(rolling: RollingWheel, near: Equilibrium, tolerance: float) -> Motion:
+    """From the equilibrium of plates without weight to that of the whole."""
+    problem = rolling.problem
+    here = _still(rolling, (near.free, np.concatenate([near.pressed, near.inner])), near.deflection)
+    mixed: Mixed = *problem.extrapolated(near.free, 0.0 * near.free), here.pressed
+    for _ in range(_TRIES):
+        found = rolling.linearised(here, mixed, rolling.damping(here.y))
+        done = newton_step(found, mixed[2][found.system.near] > 0.0, (0.0, 0.0), (0, 2))
+        if done is None:
+            break
+        step, forces = done
+        pressed = np.zeros_like(here.pressed)
+        pressed[found.system.near] = forces
+        mixed = *problem.extrapolated(here.y[:-HUB], step[:-HUB]), pressed
+        here = replace(here, y=here.y + step, pressed=pressed)
+        if np.abs(problem.wheel.basis @ step[:-HUB]).reshape(-1, 4, 3)[:, 0].max() < tolerance * near.deflection:
+            return here
+    raise ConvergenceError("no equilibrium found under the weight of the plates", [], near)
 
 
 def _still(rolling: RollingWheel, state: tuple[Array, Array], deflection: float) -> Motion:

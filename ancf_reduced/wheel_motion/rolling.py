@@ -81,6 +81,7 @@ class Linearised:
     residual : inertia and inner forces less weight, drive and friction, without contacts' normal forces
     by_place, by_rate, by_acceleration : its derivatives
     slopes : (m, n_free + 3) of the gaps
+    damping : (n_free, n_free) by rates of strain, part of ``by_rate``
     system : the wheel without inertia
     """
 
@@ -89,6 +90,7 @@ class Linearised:
     by_rate: BorderedMatrix
     by_acceleration: BorderedMatrix
     slopes: csr_array
+    damping: csc_array
     system: System
 
 
@@ -101,7 +103,7 @@ class RollingWheel:
     hub : mass, inertia and drive
     gravity : downwards [m/s^2]
     friction : on the ground
-    damping_ratio : of the first mode with the hub held [-]; damping in proportion to the stiffness at rest
+    damping_ratio : of the first mode with the hub held [-]; stresses in proportion to rates of strain (Kelvin & Voigt)
     """
 
     def __init__(
@@ -152,8 +154,14 @@ class RollingWheel:
         square = eigsh(n, k=1, M=self.own_mass, sigma=0.0, v0=begin, return_eigenvectors=False)
         return float(np.sqrt(square[0]))
 
-    def linearised(self, motion: Motion, mixed: Mixed) -> Linearised:
-        """The equations about a state; ``mixed`` as `WheelOnGround.linearised`."""
+    def damping(self, y: Array) -> csc_array:
+        """By rates of strain at coordinates y (n_free, n_free) [N s/m and alike]."""
+        if self._viscosity == 0.0:
+            return csc_array((self.size - HUB, self.size - HUB))
+        return csc_array(self._viscosity * self.problem.material_tangent(y[:-HUB]))
+
+    def linearised(self, motion: Motion, mixed: Mixed, damping: csc_array) -> Linearised:
+        """The equations about a state; ``mixed`` as `WheelOnGround.linearised`, damping as it is there or near."""
         y, v, a = motion.y, motion.v, motion.a
         T, M = self.basis, self._mass
         system = self.problem.linearised(y[:-HUB], self._pose(y[-HUB:]), mixed)
@@ -165,14 +173,13 @@ class RollingWheel:
         rigid = a[-3] * ahead + (a[-2] + self.gravity) * up
         moving = M @ (second + 2.0 * omega * (self._turn @ rate) + omega**2 * (self._turn @ Ep) + turning * Ep + rigid)
         m, inertia = self._hub
-        damping = self._viscosity * (self.stiffness @ v[:-HUB])
         drive = self.hub.gain / self.sides * (self.hub.speed - omega)
         borders = np.stack([ahead, up, Ep], axis=1)
         ends = np.array([m * a[-3], m * (a[-2] + self.gravity), inertia * turning - drive]) + borders.T @ moving
-        residual = np.concatenate([T.T @ moving + system.residual + damping, ends])
+        residual = np.concatenate([T.T @ moving + system.residual + damping @ v[:-HUB], ends])
         heavy = M @ borders
         hub_mass = np.concatenate([T.T @ heavy, borders.T @ heavy + np.diag([m, m, inertia])])
-        inner, by_rate = self._viscosity * self.stiffness, np.zeros((self.size, HUB))
+        inner, by_rate = damping, np.zeros((self.size, HUB))
         by_rate[-1, -1] = self.hub.gain / self.sides
         slopes, place = self._contacts(y, system, mixed[2])
         rubbing = self._rubbing(motion, system.ground, mixed[2])
@@ -186,13 +193,14 @@ class RollingWheel:
             by_rate=(csc_array(inner), by_rate),
             by_acceleration=(self.own_mass, hub_mass),
             slopes=slopes,
+            damping=damping,
             system=system,
         )
 
     def accelerations(self, motion: Motion) -> Array:
         """That belong to places and rates (n_free + 3,), all forces as they are there."""
         at = Motion(time=motion.time, y=motion.y, v=motion.v, a=0.0 * motion.v, pressed=motion.pressed)
-        found = self.linearised(at, self._mixed(motion))
+        found = self.linearised(at, self._mixed(motion), self.damping(motion.y))
         held = -found.system.stiffness * np.minimum(found.system.gaps, 0.0)
         return Bordered(found.by_acceleration)(found.slopes.T @ held - found.residual)
 
@@ -219,14 +227,14 @@ class RollingWheel:
         kinetic += 0.5 * float(m * (motion.v[-3:-1] ** 2).sum() + inertia * motion.v[-1] ** 2)
         raised = float(up @ (self._mass @ p)) + (self._plates + m) * float(motion.y[-2])
         system, own = found.system, step[:-HUB]
-        strain = system.energy + float(own @ (system.residual + 0.5 * (self.stiffness @ own)))
+        strain = system.energy + float(own @ (system.residual + 0.5 * (system.tangent @ own)))
         contact = 0.5 * float(system.stiffness @ np.minimum(system.gaps + found.slopes @ step, 0.0) ** 2)
         k = self.sides
         return k * kinetic, k * strain, k * self.gravity * raised, k * contact
 
     def powers(self, motion: Motion, found: Linearised) -> tuple[float, float, float]:
         """Of damping and friction (dissipated, >= 0) and of the drive [W], of the whole wheel."""
-        damping = self._viscosity * float(motion.v[:-HUB] @ (self.stiffness @ motion.v[:-HUB]))
+        damping = float(motion.v[:-HUB] @ (found.damping @ motion.v[:-HUB]))
         drive = self.hub.gain * (self.hub.speed - motion.v[-1]) * motion.v[-1]
         rubbing = self._rubbing(motion, found.system.ground, motion.pressed)
         friction = 0.0 if rubbing is None else rubbing.power

@@ -12,11 +12,10 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_array, csr_array
 
-from ancf_reduced.wheel.contact_step import settle
 from ancf_reduced.wheel.static import Mixed
-from ancf_reduced.wheel_motion.bordered import HUB, Bordered
+from ancf_reduced.wheel_motion.bordered import HUB
+from ancf_reduced.wheel_motion.newton import newton_step
 from ancf_reduced.wheel_motion.rolling import Linearised, Motion, RollingWheel
 from contracts.errors import ConvergenceError, InputError
 
@@ -166,7 +165,7 @@ class _Run:
         a = self.wheel.accelerations(start)
         motion = Motion(time=start.time, y=start.y, v=start.v, a=a, pressed=start.pressed)
         none: Mixed = *self.wheel.problem.extrapolated(start.y[:-HUB], 0.0 * start.y[:-HUB]), start.pressed
-        return Step(motion, a, self.wheel.linearised(motion, none), 0.0 * a)
+        return Step(motion, a, self.wheel.linearised(motion, none, self.wheel.damping(start.y)), 0.0 * a)
 
     def advance(self, here: Step, h: float) -> Step | None:
         """One step [s]; None if Newton's iteration does not converge."""
@@ -179,13 +178,13 @@ class _Run:
         v = last.v + h * ((1.0 - gamma) * here.auxiliary + gamma * auxiliary)
         extrapolated = self.wheel.problem.extrapolated
         mixed: Mixed = *extrapolated(last.y[:-HUB], (y - last.y)[:-HUB]), last.pressed
-        before = 0.0
+        before, damping = 0.0, self.wheel.damping(last.y)
         for _ in range(self.settings.newton_iterations):
             at = Motion(time=last.time + h, y=y, v=v, a=a, pressed=mixed[2])
-            found = self.wheel.linearised(at, mixed)
+            found = self.wheel.linearised(at, mixed, damping)
             system = found.system
             touching = mixed[2][system.near] > 0.0
-            done = self._solved(found, touching, (by_v, by_a))
+            done = newton_step(found, touching, (by_v, by_a))
             if done is None:
                 return None
             step, forces = done
@@ -211,28 +210,3 @@ class _Run:
     def _auxiliary(self, here: Step, a: Array) -> Array:
         weighted = self.alpha_f * here.motion.a + (1.0 - self.alpha_f) * a - self.alpha_m * here.auxiliary
         return np.asarray(weighted / (1.0 - self.alpha_m))
-
-    def _solved(
-        self, found: Linearised, touching: NDArray[np.bool_], weights: tuple[float, float]
-    ) -> tuple[Array, Array] | None:
-        """Newton's step and the contacts' forces."""
-        by_v, by_a = weights
-        inner = csc_array(found.by_place[0] + by_v * found.by_rate[0] + by_a * found.by_acceleration[0])
-        border = found.by_place[1] + by_v * found.by_rate[1] + by_a * found.by_acceleration[1]
-        system = found.system
-        which = np.flatnonzero(touching)
-        G = csr_array(found.slopes[which])
-        heavy = csr_array(G * system.stiffness[which, None])
-        own = csr_array(G[:, :-HUB])
-        with_contact = csc_array(inner + own.T @ csr_array(heavy[:, :-HUB]))
-        full = border + (G.T @ heavy[:, -HUB:].toarray())
-        try:
-            solve = Bordered((with_contact, full))
-        except (RuntimeError, np.linalg.LinAlgError):
-            return None
-
-        def product(x: Array) -> Array:
-            plates = inner @ x[:-HUB] + border[:-HUB] @ x[-HUB:]
-            return np.concatenate([plates, border[:-HUB].T @ x[:-HUB] + border[-HUB:] @ x[-HUB:]])
-
-        return settle(solve, product, found.residual, (system.gaps, found.slopes, system.stiffness), touching)
