@@ -79,8 +79,10 @@ def nothing_computes(monkeypatch: pytest.MonkeyPatch) -> None:
     def reached(*arguments: object, **options: object) -> None:
         raise WorkbenchError(REACHED)
 
-    monkeypatch.setattr("workbench.commands.computing.run_tasks", reached)
-    monkeypatch.setattr("workbench.commands.sweep.run_all", reached)
+    for command in ("computing", "calibrate", "calibrate_ancf"):
+        monkeypatch.setattr(f"workbench.commands.{command}.run_tasks", reached)
+    for command in ("sweep", "sweep_search", "sample"):
+        monkeypatch.setattr(f"workbench.commands.{command}.run_all", reached)
     monkeypatch.setattr("workbench.commands.rover.run_scenario", reached)
     monkeypatch.setenv("WORKBENCH_TRACEBACK", "1")
 
