@@ -38,7 +38,7 @@ def grid(along: int, across: int) -> tuple[Index, Index]:
 
 
 def mirror(kept: NDArray[np.bool_], at: NDArray[np.bool_], normal: int, crossing: int) -> None:
-    """Hold nodes ``at`` in a plane of symmetry of a normal; the parameter axis ``crossing`` (1 or 2) goes through it."""
+    """Hold nodes ``at`` in a plane of symmetry of a normal; the parameter axis ``crossing`` (1, 2) goes through it."""
     along = [axis for axis in range(3) if axis != normal]
     for vector in (0, 3 - crossing):
         kept[at, vector, normal] = False
@@ -92,7 +92,7 @@ def _loaded(
 def moved_path(
     body: ThinPlates, kept: NDArray[np.bool_], moved: Array, ways: Iterable[float]
 ) -> tuple[list[Array], int]:
-    """Nodes with the held coordinates ``moved`` (1, else 0, or a direction) displaced by each way, and linear solves."""
+    """Nodes with the held coordinates ``moved`` (1, else 0, or a direction) displaced by each way, and solves."""
     free, q, at, states, solves = kept.ravel(), body.reference.copy(), 0.0, list[Array](), 0
     for way in ways:
         stresses, told = body.stresses(q, np.zeros_like(q)), (way - at) * moved.ravel()

@@ -28,7 +28,7 @@ RIGIDITY = YOUNG * THICK**3 / (12.0 * (1.0 - NU**2))
 
 
 def bent(radius: float, across: int, nu: float = NU, angle: float = 0.3) -> float:
-    """Moment of a flat strip bent to a radius, its ends kept plane, over E' I / R [-]; half of its width is modelled."""
+    """Moment of a flat strip bent to a radius, its ends kept plane, over E' I / R [-]; half of its width is meshed."""
     length = angle * radius
     layers = [[Layer(material=metal(YOUNG, nu), thickness=THICK)]]
     body = ThinPlates(*flat((4, across), (length, 0.5 * WIDE)), layers)
@@ -81,12 +81,12 @@ def ashwell(radius: float) -> float:
 
 @pytest.mark.parametrize("radius", [2.0, 0.143, 0.07, 0.03])
 def test_a_wide_strip_curls_at_its_edges(radius: float) -> None:
-    """0.2 % with four plates across half of the width; between beam (0.883) and plate (1) by up to 10 %.
+    """Four plates across half of the width: 0.02 %, between a beam (0.883) and a plate (1).
 
-    One plate across half: 0.2 % too, but for R = 30 mm, where the curl is narrower than a plate (1.2 %).
+    One: 0.1 % down to R = 143 mm, 0.4 % at 70 mm, 1.2 % at 30 mm, where the curl is narrower than a plate.
     """
-    assert bent(radius, 4) == pytest.approx(ashwell(radius), rel=2e-3)
-    assert bent(radius, 1) == pytest.approx(ashwell(radius), rel=2e-3 if radius > 0.1 else 0.012)
+    assert bent(radius, 4) == pytest.approx(ashwell(radius), rel=2e-4)
+    assert bent(radius, 1) == pytest.approx(ashwell(radius), rel={0.07: 4e-3, 0.03: 0.012}.get(radius, 1e-3))
 
 
 def test_another_poissons_ratio_is_caught() -> None:
