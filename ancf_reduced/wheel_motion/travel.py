@@ -23,6 +23,10 @@ __all__ = ["Account", "TravelSettings", "travel"]
 
 Array = NDArray[np.float64]
 _GROWTH, _SHRINKING = 1.5, 0.35
+_DIVERGING = 1.2
+"""Times the step before, in places: from there Newton's iteration has not come back [-]."""
+_ASTRAY = 0.03
+"""Of the wheel's radius: after a first step of more a shorter time step is cheaper [-]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,7 +48,7 @@ class TravelSettings:
     smallest_step: float = 1e-7
     largest_step: float = 2e-2
     newton_tolerance: float = 1e-2
-    newton_iterations: int = 10
+    newton_iterations: int = 7
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.spectral_radius <= 1.0:
@@ -158,6 +162,7 @@ class _Run:
         places = np.zeros(wheel.problem.wheel.plates.reference.shape, dtype=bool)
         places[:, 0] = True
         touched = np.abs(wheel.basis.T @ places.ravel().astype(float)) > 0.0
+        self._astray = _ASTRAY * float(np.linalg.norm(wheel.problem.wheel.plates.reference[:, 0], axis=1).max())
         self._places = np.concatenate([np.flatnonzero(touched), wheel.size - HUB + np.arange(2)])
 
     def begin(self, start: Motion) -> Step:
@@ -191,7 +196,7 @@ class _Run:
             pressed = np.zeros_like(last.pressed)
             pressed[system.near] = forces
             size = float(np.abs(step[self._places]).max())
-            if not size < 1.0:
+            if not size < (_DIVERGING * before if before else self._astray):
                 return None
             mixed = *extrapolated(y[:-HUB], step[:-HUB]), pressed
             y, v, a = y + step, v + by_v * step, a + by_a * step

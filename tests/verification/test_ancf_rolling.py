@@ -113,6 +113,7 @@ class DampedAsAtRest(RollingWheel):
         return csc_array(self._viscosity * self.stiffness)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("kind", "holds"), [(RollingWheel, True), (DampedAsAtRest, False)])
 def test_turning_slowly_on_ice_is_standing_on_one_orientation_after_another(
     kind: type[RollingWheel], *, holds: bool

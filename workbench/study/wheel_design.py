@@ -87,10 +87,16 @@ class _Sections:
 @lru_cache(maxsize=16)
 def _built(sections: _Sections) -> WheelDesign:
     """Kept, for the plan of a report asks a hundred times."""
+    parts = _WheelParts(sections.study).build()
+    return in_section("wheel", lambda: _of_parts(sections.study.name, tuple(parts.items())))
+
+
+@lru_cache(maxsize=16)
+def _of_parts(name: str, parts: tuple[tuple[str, Any], ...]) -> WheelDesign:
+    """Kept apart, for twins of a wheel are made anew and are the same wheels."""
     from geometry.wheel import WheelDesign
 
-    parts = _WheelParts(sections.study).build()
-    return in_section("wheel", lambda: WheelDesign(name=sections.study.name, **parts))
+    return WheelDesign(name=name, **dict(parts))
 
 
 def design_from(wheel: Mapping[str, Any]) -> WheelDesign:
