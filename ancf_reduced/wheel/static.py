@@ -179,7 +179,7 @@ class WheelOnGround:
             step, forces = found
             held = -system.stiffness * np.minimum(system.gaps, 0.0)
             work = abs(float((system.residual - system.slopes.T @ held) @ step))
-            load = float(held[: len(system.ground.points)] @ self._lift(system.ground, pose))
+            load = float(held[: len(system.ground.points)] @ self.lift(system.ground, pose))
             residuals.append(work / max(load * deflection, start.load / self.wheel.sides * deflection, _LEAST_WORK))
             pressed = np.zeros(sum(self.counts))
             if residuals[-1] < tolerance:
@@ -200,7 +200,7 @@ class WheelOnGround:
             mixed = *self.extrapolated(free, step), pressed
             free = free + step
 
-    def _lift(self, ground: Near, pose: Pose) -> Array:
+    def lift(self, ground: Near, pose: Pose) -> Array:
         """Share of each contact's force that acts along the ground's normal, (n,) [-]."""
         assert ground.surface is not None
         return np.asarray(ground.surface.normals @ pose[0][2])

@@ -20,7 +20,7 @@ from workbench.commands.computing import (
     tell_kept,
     warn,
 )
-from workbench.execution.result_files import early_ends
+from workbench.execution.result_files import early_ends, losses_of_stability
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
 from workbench.questions.models.curves import stiffness_curves
@@ -63,6 +63,7 @@ def run_stiffness(
             console.print(f"{what}: {out / what}", soft_wrap=True)
     for name in texts:
         console.print(f"peak stresses of every part: {out / name}", soft_wrap=True)
+    warn(study_path, [f"{task}: {told}" for task, told in losses_of_stability(folders).items()])
     complain_of_early_ends(study_path, early_ends(folders))
     return 0
 

@@ -7,11 +7,23 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-__all__ = ["FAILURE", "RESULT", "early_ends", "read_record", "read_result", "write_result"]
+__all__ = [
+    "FAILURE",
+    "RESULT",
+    "UNSTABLE",
+    "early_ends",
+    "losses_of_stability",
+    "read_record",
+    "read_result",
+    "write_result",
+]
 
 RESULT = "result.json"
 FAILURE = "failure"
 """Key under which a run that ended before its target says why; null or absent in a run that reached it."""
+
+UNSTABLE = "unstable"
+"""Key under which a run whose wheel does not stand says where and how; null or absent elsewhere."""
 
 
 def write_result(folder: Path, numbers: Mapping[str, Any]) -> None:
@@ -34,5 +46,14 @@ def read_record[Record](folder: Path, kind: type[Record]) -> Record:
 
 def early_ends(folders: Mapping[str, Path]) -> dict[str, str]:
     """Task name -> why its run ended before its target, for those that did."""
-    reasons = {n: read_result(folder).get(FAILURE) for n, folder in folders.items() if (folder / RESULT).exists()}
+    return _told(folders, FAILURE)
+
+
+def losses_of_stability(folders: Mapping[str, Path]) -> dict[str, str]:
+    """Task name -> where and how its wheel does not stand, for those that do not."""
+    return _told(folders, UNSTABLE)
+
+
+def _told(folders: Mapping[str, Path], key: str) -> dict[str, str]:
+    reasons = {n: read_result(folder).get(key) for n, folder in folders.items() if (folder / RESULT).exists()}
     return {name: str(reason) for name, reason in reasons.items() if reason}

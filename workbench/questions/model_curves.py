@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contracts.curves import Around, StiffnessCurve, average_curve, read_curve
 from contracts.errors import IncrementRecord
-from workbench.execution.result_files import FAILURE, read_result
+from workbench.execution.result_files import FAILURE, UNSTABLE, read_result
 
 __all__ = [
     "CURVE",
@@ -41,6 +41,7 @@ class RunNumbers:
     solve_s : wall time [s]
     increments : every attempt, converged or not
     failure : why the run ended before its target; None if it did not
+    unstable : where and how an ANCF wheel does not stand; None if it does
     flexible_mass : of an ANCF tire's plates [kg]
     """
 
@@ -49,6 +50,7 @@ class RunNumbers:
     solve_s: float = 0.0
     increments: tuple[IncrementRecord, ...] = ()
     failure: str | None = None
+    unstable: str | None = None
     flexible_mass: float = math.nan
 
     @property
@@ -72,6 +74,7 @@ def read_run(folder: Path) -> RunNumbers:
         solve_s=found.get("solve_s", 0.0),
         increments=tuple(IncrementRecord(**row) for row in rows),
         failure=found.get(FAILURE),
+        unstable=found.get(UNSTABLE),
         flexible_mass=found.get("flexible_mass_kg", math.nan),
     )
 

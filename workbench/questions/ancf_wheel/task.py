@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
+from ancf_reduced.wheel.stability import unstable_mode
 from ancf_reduced.wheel.static import Equilibrium, WheelOnGround, press
 from ancf_reduced.wheel.stress import largest_spring_stress
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, IncrementRecord
-from workbench.execution.result_files import FAILURE, write_result
+from workbench.execution.result_files import FAILURE, UNSTABLE, write_result
 from workbench.questions.ancf_wheel.ground import terrain_of
 from workbench.questions.model_curves import CURVE
 from workbench.study.wheel_design import design_from
@@ -62,9 +63,21 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
         "solve_s": time.perf_counter() - start,
         "increments": [asdict(record) for record in history],
         FAILURE: failure,
+        UNSTABLE: _does_not_stand(problem, states),
     }
     write_result(out, numbers)
     return wheel.basis.shape[1]
+
+
+def _does_not_stand(problem: WheelOnGround, states: list[Equilibrium]) -> str | None:
+    """Where the wheel first does not, and how it leaves."""
+    first = next((state for state in states if state.negative), None)
+    mode = None if first is None else unstable_mode(problem, first)
+    if first is None or mode is None:
+        return None
+    where = f"{1e3 * first.deflection:.1f} mm, {first.load:.0f} N"
+    place = f"most at {mode.angle_deg:.0f} deg, {1e3 * mode.radius:.0f} mm from the axle, {mode.part}"
+    return f"the wheel does not stand from {where} on (negative eigenvalues: {first.negative}), it moves {place}"
 
 
 def _curve(states: list[Equilibrium], wheel: AncfWheel, orientation: float, *, partial: bool) -> StiffnessCurve:
