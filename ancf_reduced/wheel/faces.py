@@ -44,7 +44,7 @@ class FacePoints:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Strips:
-    """Which strip each plate belongs to; the rim is strip 0.
+    """Which strip each plate belongs to; the rim is strip 0, those that touch nothing have numbers below.
 
     Attributes
     ----------
@@ -79,7 +79,9 @@ def inner_points(strips: Strips, sizes: Array, thickness: Array) -> FacePoints:
     for length in np.unique(sizes[:, 0]):
         place, share = _grid(float(length))
         for side in (1.0, -1.0):
-            plates = np.flatnonzero((sizes[:, 0] == length) & ((strips.strip > 0) | (side > 0.0)))
+            plates = np.flatnonzero(
+                (sizes[:, 0] == length) & ((strips.strip > 0) | ((strips.strip == 0) & (side > 0.0)))
+            )
             height = 0.5 * side * thickness[plates] * strips.facing[plates]
             found.append(
                 FacePoints(

@@ -11,12 +11,18 @@ import numpy as np
 from scipy.sparse import coo_array, csc_array
 
 from ancf_reduced.wheel.mesh import AncfWheel
+from contracts.errors import InputError
 
 __all__ = ["planar"]
 
 
 def planar(wheel: AncfWheel) -> AncfWheel:
-    """The wheel with one motion for all nodes across a strip: none along the axle, none of r_2 and r_12."""
+    """The wheel with one motion for all nodes across a strip: none along the axle, none of r_2 and r_12.
+
+    Raises InputError for sidewall springs, which stand in planes of their own.
+    """
+    if np.any(wheel.strips.strip < 0):
+        raise InputError("planar ANCF wheel", "sidewall springs", "bend out of the wheel's plane", "take them whole")
     basis, reference = wheel.basis, wheel.plates.reference
     strip = np.zeros(len(reference), dtype=np.int64)
     strip[wheel.plates.plates.ravel()] = np.repeat(wheel.strips.strip, 4)

@@ -132,9 +132,12 @@ class WheelOnGround:
         self.counts = [self.ground.count, *(self._inner.counts if self._inner else [])]
         at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
         at = 0.5 + 0.5 * at
+        along = ties.ends[:, :1] + at[:, None] * (ties.ends[:, 1:] - ties.ends[:, :1])
         rows = [
-            np.stack([shape_tables(plates.sizes[k], 0.0 * at, at)[:, :3] for k in which])
-            for which in (ties.spring, ties.rim)
+            np.stack([shape_tables(plates.sizes[k], 0.0 * at, at)[:, :3] for k in ties.spring]),
+            np.stack(
+                [shape_tables(plates.sizes[k], *place.T)[:, :3] for k, place in zip(ties.rim, along, strict=True)]
+            ),
         ]
         self._ties = ties.spring, ties.rim, ties.offset, rows[0], rows[1]
         layers = [plates.layers[k][0] for k in ties.spring]

@@ -29,12 +29,12 @@ _ALONG, _ACROSS = 9, 5
 def largest_spring_stress(wheel: AncfWheel, q: Array) -> dict[str, float]:
     """Largest von Mises stress [Pa] on both faces of each spring set's legs, at nodes q (n_nodes, 4, 3)."""
     strips = wheel.strips
-    beside = neighbours(wheel.plates.plates, np.flatnonzero(strips.strip > 0))
+    beside = neighbours(wheel.plates.plates, np.flatnonzero(strips.strip != 0))
     found = dict[str, float]()
-    for part in dict.fromkeys(wheel.parts[strips.strip > 0].tolist()):
+    for part in dict.fromkeys(wheel.parts[strips.strip != 0].tolist()):
         worst = [
             _largest(wheel, q, np.flatnonzero(strips.strip == k), beside)
-            for k in np.unique(strips.strip[(wheel.parts == part) & (strips.strip > 0)])
+            for k in np.unique(strips.strip[(wheel.parts == part) & (strips.strip != 0)])
         ]
         found[str(part)] = max(worst)
     return found
@@ -44,7 +44,8 @@ def _largest(wheel: AncfWheel, q: Array, which: Index, beside: Index) -> float:
     plates = wheel.plates
     layer = plates.layers[which[0]][0]
     y = plates.reference[plates.plates[which], 0, 1]
-    inwards = min(_FROM_EDGE * layer.thickness, 0.25 * float(y.max() - y.min()))
+    width = float(plates.sizes[which, 1][beside[which, 0] < 0].sum())
+    inwards = min(_FROM_EDGE * layer.thickness, 0.25 * width)
     free = beside[which][:, 2:] < 0
     free[:, 0] &= ~((wheel.sides > 1.0) & (np.abs(y[:, 0]) < 1e-12))
     ends = beside[which][:, :2] < 0

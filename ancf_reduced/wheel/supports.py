@@ -13,7 +13,7 @@ from scipy.sparse import csc_array
 from ancf_reduced.thin_plates.plates import ThinPlates
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 
-__all__ = ["HubEnd", "free_basis", "hub_stiffness"]
+__all__ = ["HubEnd", "free_basis", "hub_stiffness", "on_cylinder"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -23,25 +23,32 @@ _HUB_POINTS = 4
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HubEnd:
-    """Last edge of a leg on the hub: nodes, plates, circumferential position [rad], stiffness [N/rad]."""
+    """Last edge of a spring on the hub, which keeps its place.
+
+    Attributes
+    ----------
+    nodes, plates : of the edge, where u = 1
+    frame : columns along the spring, along the edge, out of the hub's surface
+    turning : stiffness against slopes out of that surface [N/rad], infinite: held
+    """
 
     nodes: Index
     plates: Index
-    angle: float
+    frame: Array
     turning: float
 
-    @property
-    def frame(self) -> Array:
-        """Columns around, along the axle, outwards."""
-        sine, cosine = math.sin(self.angle), math.cos(self.angle)
-        return np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [sine, 0.0, -cosine]])
+
+def on_cylinder(angle: float) -> Array:
+    """Columns around, along the axle, outwards, at a circumferential position [rad]."""
+    sine, cosine = math.sin(angle), math.cos(angle)
+    return np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [sine, 0.0, -cosine]])
 
 
 def hub_stiffness(plates: ThinPlates, ends: Sequence[HubEnd]) -> csc_array:
     """Stiffness (12 n_nodes, 12 n_nodes) of last edges against slopes out of the hub's surface."""
     at, weight = np.polynomial.legendre.leggauss(_HUB_POINTS)
     blocks = np.zeros((len(plates.plates), 16, 3, 16, 3))
-    for end in ends:
+    for end in (one for one in ends if math.isfinite(one.turning)):
         outer = np.outer(end.frame[:, 2], end.frame[:, 2])
         for k in end.plates:
             rows = shape_tables(plates.sizes[k], np.ones(_HUB_POINTS), 0.5 + 0.5 * at)[:, 1]
@@ -57,6 +64,8 @@ def free_basis(nodes: Array, ends: Sequence[HubEnd], *, symmetric: bool) -> csc_
     for end in ends:
         frames[end.nodes] = end.frame
         free[end.nodes[:, None], [0, 2]] = False
+        if math.isinf(end.turning):
+            free[end.nodes[:, None], [1, 3], 2] = False
     if symmetric:
         middle = np.abs(nodes[:, 0, 1]) < 1e-12
         free[middle, 0, 1] = free[middle, 1, 1] = False

@@ -17,7 +17,6 @@ def without_ancf_wheel(study: Study) -> str | None:
     """Which part of the study its ANCF wheel does not have; None where it has all."""
     fe = study.fe
     lacks = (
-        ("sidewall springs", study.wheel.sidewall_springs is not None),
         (f"fe.hub = {fe.hub}", fe.hub != "rigid"),
         (f"fe.friction = {fe.friction:g}", fe.friction != 0.0),
         ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
