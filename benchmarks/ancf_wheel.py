@@ -1,10 +1,10 @@
-"""The ANCF wheel beside the solid model: cost of a curve at equal error, growth with plates, agreement all around.
+"""The ANCF wheel beside the solid model: cost of a curve at equal error, growth with plates.
 
-``make bench NAME=ancf_wheel`` runs all of it, some forty minutes; ``ARGS="--only cost"`` a part: cost (a curve by both
-models, several meshes), growth (plates to 10 000), arithmetic (force and tangent of a plate), around (24 orientations
-of the built-in wheel), wheels (other designs). Prints a table and writes build/bench/ancf_wheel.json; README.md here
-has the last measured one. Times are processor seconds of one thread, building included, compilation not; memory is the
-largest resident set of the process. Errors of the cost table are against the solid model with cells half as long.
+``make bench NAME=ancf_wheel`` runs all of it, some ten minutes; ``ARGS="--only cost"`` a part: cost (a curve by both
+models, several meshes), growth (plates to 10 000), arithmetic (force and tangent of a plate). Prints a table and writes
+build/bench/ancf_wheel.json; README.md here has the last measured one. Times are processor seconds of one thread,
+building included, compilation not; memory is the largest resident set of the process. Errors of the cost table are
+against the solid model with cells half as long.
 """
 
 from __future__ import annotations
@@ -37,8 +37,6 @@ SOLIDS = (0.5, 1.0, 1.4)
 """Length of the solid's cells against the study's; the first is what errors are measured by."""
 PLATES = ((16e-3, 18e-3), (24e-3, 36e-3), (8e-3, 18e-3))
 GROWTH = (1.0, 2.0, 3.0, 4.0)
-AROUND = tuple(range(0, 120, 5))
-"""The built-in wheel comes back after 120 degrees [deg]."""
 Rows = list[dict[str, object]]
 
 
@@ -170,63 +168,10 @@ def points_flops(points: Any) -> float:
     return float(points[1].shape[0] * points[1].shape[1] * one)
 
 
-def around() -> Iterator[dict[str, object]]:
-    """24 orientations of the built-in wheel."""
-    from workbench.study.reading import built_in_study, read_study
-
-    yield from agreement("built-in wheel", read_study(built_in_study()), AROUND)
-
-
-def wheels() -> Iterator[dict[str, object]]:
-    """Designs of others and of our own: E3, the hoops, the first study's hoops, its five leaves."""
-    from workbench.study.reading import read_study
-
-    for name in ("e3", "exomars_hoops", "first"):
-        yield from agreement(name, read_study(ROOT / "studies" / f"{name}.toml"), ())
-    study = read_study(ROOT / "studies" / "first.toml")
-    yield from agreement("five leaves", leaves(study), (0.0, 18.0, 36.0))
-
-
-def leaves(study: Any) -> Any:
-    """The tutorial's wheel (docs/tutorials/ancf_wheel.md)."""
-    springs = study.wheel.springs[0]
-    points = ((0.33, math.radians(27.0)), (0.67, math.radians(36.0)))
-    bowed = springs.model_copy(update={"count": 5, "shape": "spline", "points": points})
-    return study.model_copy(update={"name": "leaves", "wheel": study.wheel.model_copy(update={"springs": (bowed,)})})
-
-
-def agreement(name: str, study: Any, orientations: tuple[float, ...]) -> Iterator[dict[str, object]]:
-    """Load and energy of both models at the plates' points; what is in the store is not computed again."""
-    from workbench.commands.computing import computed
-    from workbench.commands.options import DEFAULT_STORE, computing
-    from workbench.questions.ancf_wheel.results import differences, energy_differences
-    from workbench.questions.model_curves import model_curves
-    from workbench.questions.study_graph import stiffness_tasks
-    from workbench.study.reading import built_in_study
-
-    curves = {}
-    for model in ("fe", "ancf_wheel"):
-        tasks = stiffness_tasks(study, model, orientations)
-        entries = computed(built_in_study(), tasks, ROOT / DEFAULT_STORE, computing(2, 1, None))
-        curves[model] = model_curves(model, {key: entry.path for key, entry in entries.items()})
-    pairs = [(curve, curves["fe"].loaded[o]) for o, curve in curves["ancf_wheel"].loaded.items()]
-    load = [differences(*pair)[1] for pair in pairs]
-    energy = [energy_differences(*pair) for pair in pairs]
-    worst = max(range(len(pairs)), key=lambda i: float(np.abs(load[i]).max()))
-    yield row(name, "orientations", "-", len(pairs))
-    yield row(name, "furthest deflection", "mm", 1e3 * max(float(c.deflection[-1]) for c, _ in pairs))
-    yield row(name, "load, largest difference", "%", 100.0 * float(np.abs(load[worst]).max()))
-    yield row(name, "load, largest difference at", "deg", float(pairs[worst][0].orientation_deg or 0.0))
-    yield row(name, "load, mean difference", "%", 100.0 * float(np.abs(np.concatenate(load)).mean()))
-    yield row(name, "energy, largest difference", "%", 100.0 * float(np.abs(np.concatenate(energy)).max()))
-
-
 PARTS: dict[str, Callable[[], Iterator[dict[str, object]]]] = {
     "cost": cost,
     "growth": growth,
     "arithmetic": arithmetic,
-    "around": around,
-    "wheels": wheels,
 }
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@ With the wheel's residual R and tangent K, gaps g + G s after a step s and penal
 
     R + K s + G^T k min(g + G s, 0) = 0,
 
-the minimum of a function that is quadratic in pieces. Newton's method on it changes the set of touching points; every
+the minimum of a function that is quadratic in pieces; friction that grows with the pressure puts other rows H in the
+place of the G in front. Newton's method on it changes the set of touching points; every
 set's matrix differs from the one that was factorised by one product a changed point, so that a solve costs as many
 solves with the factors as there are new points (Woodbury's formula). An exact line search along each direction keeps
 the sets from cycling. Verified by tests/unit/test_ancf_wheel_static.py.
@@ -32,19 +33,22 @@ def settle(
     residual: Array,
     contact: tuple[Array, csr_array, Array],
     factored: NDArray[np.bool_],
+    push: csr_array | None = None,
 ) -> tuple[Array, Array] | None:
     """Step (n,) and forces of the contact points (m,); None where more points change than one factorisation serves.
 
     Parameters
     ----------
-    solve : inverse of K + G_A^T k G_A, A the points ``factored`` (m,), of vectors (n,) or columns (n, j)
+    solve : inverse of K + H_A^T k G_A, A the points ``factored`` (m,), of vectors (n,) or columns (n, j)
     tangent : K times a vector
     residual : R (n,)
     contact : gaps (m,), slopes G (m, n), penalties (m,)
+    push : what a unit of force does at each contact, H (m, n); G without friction
     """
     gap, G, k = contact
-    columns = _Columns(solve, G)
-    base = solve(-residual - G.T @ np.where(factored, k * gap, 0.0))
+    H = G if push is None else push
+    columns = _Columns(solve, H)
+    base = solve(-residual - H.T @ np.where(factored, k * gap, 0.0))
     base_gap = gap + G @ base
     step = base
     at = base_gap
@@ -54,7 +58,7 @@ def settle(
             return None
         goal = _with_changes(columns, (base, base_gap), (G, k), changed, factored)
         if not np.array_equal(goal, step):
-            share = _search(residual + tangent(step), tangent, goal - step, (at, G, k))
+            share = _search(residual + tangent(step), tangent, goal - step, (at, G, k, H))
             step = step + share * (goal - step)
         new = gap + G @ step
         settled = np.array_equal(new < 0.0, at < 0.0) and np.abs(new - at).max(initial=0.0) <= 1e-9 * np.abs(gap).max(
@@ -67,7 +71,7 @@ def settle(
 
 
 class _Columns:
-    """K_A^-1 G^T by points, each found when it is first asked for."""
+    """K_A^-1 H^T by points, each found when it is first asked for."""
 
     def __init__(self, solve: Callable[[Array], Array], slopes: csr_array) -> None:
         self._solve, self._slopes = solve, slopes
@@ -103,14 +107,15 @@ def _with_changes(
 
 
 def _search(
-    body: Array, tangent: Callable[[Array], Array], direction: Array, contact: tuple[Array, csr_array, Array]
+    body: Array, tangent: Callable[[Array], Array], direction: Array, contact: tuple[Array, csr_array, Array, csr_array]
 ) -> float:
-    """Share of a direction, at most 1, at which the slope of the energy along it is zero."""
-    at, G, k = contact
+    """Share of a direction, at most 1, at which the work of all forces along it is zero, as an energy's slope is."""
+    at, G, k, H = contact
     first, curvature, rate = float(direction @ body), float(direction @ tangent(direction)), G @ direction
+    pushed = H @ direction
 
     def slope(share: float) -> float:
-        return first + share * curvature + float((k * np.minimum(at + share * rate, 0.0)) @ rate)
+        return first + share * curvature + float((k * np.minimum(at + share * rate, 0.0)) @ pushed)
 
     low, high = 0.0, 1.0
     if slope(low) >= 0.0 or slope(high) <= 0.0:

@@ -99,6 +99,10 @@ class GroundContact:
         found = self._points.rigid(q, (which, contacts), gaps, (normals, bends), (self._penalty, forces, blocks))
         return replace(found, surface=Surface(normals=normals, bends=bends, places=places[near]))
 
+    def places(self, q: Array, contacts: Index) -> Array:
+        """Places of contacts' points (n, 3) [m]."""
+        return self._points.at(q, contacts // len(self._rows))[0]
+
     def slopes(self, q: Array, contacts: Index) -> csr_array:
         """Derivatives (3 n, size) of the places of contacts' points by all coordinates."""
         return self._points.slopes(q, contacts // len(self._rows))

@@ -91,6 +91,7 @@ class _Pressed:
             energy=sides * point.energy,
             free=point.free,
             pressed=pressed[:ground],
+            pull=np.zeros((ground, 3)),
             inner=pressed[ground:],
             negative=point.negative,
             residuals=(0.0,) * (point.solves + 1),
@@ -108,12 +109,13 @@ def press_along(problem: WheelOnGround, start: Equilibrium, arc: float) -> Itera
     Raises
     ------
     InputError
-        For a wheel that carries nothing at the start, and as `follow` does.
+        For a wheel that carries nothing at the start, for friction, and as `follow` does.
     ConvergenceError
         Where no further point is found.
     """
     if not start.load > 0.0:
         raise InputError("load at the start", f"{start.load:g} N", "must be > 0", "press the wheel a little first")
+    _without_friction(problem)
     body = _Pressed(problem, np.zeros_like(start.free))
     for point in follow(body, (start.free, start.deflection, _mixed(problem, start)), arc):
         yield body.equilibrium(point)
@@ -137,6 +139,7 @@ def press_buckled(
             f"{stands.negative} and {falls.negative} at {1e3 * stands.deflection:g} and {1e3 * falls.deflection:g} mm"
         )
         raise InputError("negative eigenvalues", told, "must be none, then some", "give points on both sides")
+    _without_friction(problem)
     mode = unstable_mode(problem, falls)
     assert mode is not None
     body = _Pressed(problem, np.zeros_like(stands.free))
@@ -173,6 +176,13 @@ def unstable_mode(problem: WheelOnGround, state: Equilibrium) -> Unstable | None
         angle_deg=float(np.degrees(np.arctan2(x, -z)) % 360.0),
         radius=float(np.hypot(x, z)),
     )
+
+
+def _without_friction(problem: WheelOnGround) -> None:
+    """What a path's friction does depends on the way along it: there is none here."""
+    if problem.friction != 0.0:
+        told = f"{problem.friction:g}"
+        raise InputError("friction coefficient", told, "is not followed along a path", "leave friction away")
 
 
 def _mixed(problem: WheelOnGround, state: Equilibrium) -> Mixed:

@@ -23,6 +23,7 @@ from ancf_reduced.wheel.ground import GroundContact, Pose, ground_frame
 from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
 from ancf_reduced.wheel.mesh import AncfWheel
 from ancf_reduced.wheel.reduction import Reduction
+from ancf_reduced.wheel.rubbing import Rubbed, Since, congruent, rubbed
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.terrain import Plane, Terrain
 
@@ -54,6 +55,7 @@ class Equilibrium:
     energy : strain energy of plates and ties, of the whole wheel [J]
     free : (n_free,) coordinates
     pressed : (n_ground,) force at each contact of a point with a piece of the ground [N]
+    pull : (n_ground, 3) friction there, on the wheel [N]
     inner : (n_inner,) force at each pair of a point on a spring's or the rim's face and what it may touch [N]
     negative : negative eigenvalues of the tangent, the contact's stiffness included: none where the wheel stands
     residuals : work of the residual in each step, over load times deflection [-]
@@ -64,6 +66,7 @@ class Equilibrium:
     energy: float
     free: Array
     pressed: Array
+    pull: Array
     inner: Array
     negative: int
     residuals: tuple[float, ...]
@@ -78,16 +81,19 @@ class Equilibrium:
 class System:
     """The wheel linearised: residual (n,) and tangent without contact; gaps, their slopes (m, n) and penalties near.
 
-    And the ground's contacts, the first of them.
+    What a unit of force at each contact does, ``push`` (m, n): the slopes, and friction where it slides. And the
+    ground's contacts, the first of them, with their friction.
     """
 
     residual: Array
     tangent: csc_array
     gaps: Array
     slopes: csr_array
+    push: csr_array
     stiffness: Array
     near: NDArray[np.int64]
     ground: Near
+    friction: Rubbed | None
     energy: float
 
 
@@ -102,6 +108,7 @@ class WheelOnGround:
     inner_contact_stiffness : penalty of springs, rim and hub against each other [N/m^3]; 0: they pass through
     terrain : the ground in its own frame, x forward, z along its normal, the hub above its origin; a plane without it
     camber : of the ground about its forward direction; positive lifts its left side [rad]
+    friction : Coulomb coefficient on the ground [-]
     """
 
     def __init__(
@@ -113,6 +120,7 @@ class WheelOnGround:
         *,
         terrain: Terrain | None = None,
         camber: float = 0.0,
+        friction: float = 0.0,
     ) -> None:
         if not np.isfinite(orientation):
             raise InputError("orientation", f"{orientation} rad", "must be finite", "give an angle such as 0.785 rad")
@@ -125,7 +133,9 @@ class WheelOnGround:
         if not (np.isfinite(inner_contact_stiffness) and inner_contact_stiffness >= 0.0):
             told = f"{inner_contact_stiffness:g} N/m^3"
             raise InputError("inner contact stiffness", told, "must be >= 0", "1e11 N/m^3 is usual, 0 is without")
-        self.wheel, self.orientation, self.camber = wheel, orientation, camber
+        if not (np.isfinite(friction) and friction >= 0.0):
+            raise InputError("friction coefficient", f"{friction:g}", "must be >= 0", "0 is without friction")
+        self.wheel, self.orientation, self.camber, self.friction = wheel, orientation, camber, friction
         plates, ties = wheel.plates, wheel.ties
         self.ground = GroundContact(wheel, terrain or Plane(), ground_frame(orientation, camber), contact_stiffness)
         self._inner = InnerContacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else None
@@ -152,7 +162,7 @@ class WheelOnGround:
     def unloaded(self) -> Equilibrium:
         """The wheel at first touch."""
         zeros = [np.zeros(n) for n in (self.wheel.basis.shape[1], self.ground.count, sum(self.counts[1:]))]
-        state = {"free": zeros[0], "pressed": zeros[1], "inner": zeros[2]}
+        state = {"free": zeros[0], "pressed": zeros[1], "pull": np.zeros((len(zeros[1]), 3)), "inner": zeros[2]}
         return Equilibrium(deflection=0.0, load=0.0, energy=0.0, negative=0, residuals=(), **state)
 
     def solve(
@@ -160,15 +170,18 @@ class WheelOnGround:
     ) -> Equilibrium | tuple[float, ...]:
         """Equilibrium at a deflection [m] from one that is near, or the works of the residual of a try that failed.
 
-        tolerance : work of the residual in the next step over load times deflection; limit : steps
+        tolerance : work of the residual in the next step over load times deflection; limit : steps, twice as many
+        with friction
         """
         free, residuals, pose = start.free, list[float](), self.ground.risen(deflection)
         mixed: Mixed = *self.extrapolated(free, np.zeros_like(free)), np.concatenate([start.pressed, start.inner])
+        since = self._since(start) if self.friction > 0.0 else None
         while True:
-            system = self.linearised(free, pose, mixed)
+            system = self.linearised(free, pose, mixed, since)
             touching = system.gaps < 0.0 if residuals else self._touching(system, start)
             G = system.slopes[np.flatnonzero(touching)]
-            matrix = csc_array(system.tangent + G.T @ csr_array(G * system.stiffness[touching, None]))
+            push = system.push[np.flatnonzero(touching)]
+            matrix = csc_array(system.tangent + push.T @ csr_array(G * system.stiffness[touching, None]))
             try:
                 factors = splu(
                     matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
@@ -176,13 +189,18 @@ class WheelOnGround:
             except RuntimeError:  # singular
                 return (*residuals, float("inf"))
             contact = system.gaps, system.slopes, system.stiffness
-            found = settle(factors.solve, system.tangent.dot, system.residual, contact, touching)
+            found = settle(factors.solve, system.tangent.dot, system.residual, contact, touching, system.push)
             if found is None or self._moved(found[0]) > self._farthest:
                 return (*residuals, float("inf"))
             step, forces = found
             held = -system.stiffness * np.minimum(system.gaps, 0.0)
-            work = abs(float((system.residual - system.slopes.T @ held) @ step))
+            work = abs(float((system.residual - system.push.T @ held) @ step))
             load = float(held[: len(system.ground.points)] @ self.lift(system.ground, pose))
+            pull = np.zeros((self.ground.count, 3))
+            if system.friction is not None:
+                pull[system.friction.numbers] = system.friction.pull(held)
+                since = None if since is None else since.after(system.friction)
+                load += float((pull @ pose[0][2]).sum())
             residuals.append(work / max(load * deflection, start.load / self.wheel.sides * deflection, _LEAST_WORK))
             pressed = np.zeros(sum(self.counts))
             if residuals[-1] < tolerance:
@@ -193,15 +211,20 @@ class WheelOnGround:
                     energy=self.wheel.sides * system.energy,
                     free=free,
                     pressed=pressed[: self.ground.count],
+                    pull=pull,
                     inner=pressed[self.ground.count :],
                     negative=int((factors.U.diagonal() < 0.0).sum()),
                     residuals=tuple(residuals),
                 )
-            if len(residuals) > limit or not residuals[-1] < _ASTRAY:
+            if len(residuals) > (limit if since is None else 2 * limit) or not residuals[-1] < _ASTRAY:
                 return tuple(residuals)
             pressed[system.near] = forces
             mixed = *self.extrapolated(free, step), pressed
             free = free + step
+
+    def _since(self, start: Equilibrium) -> Since:
+        q, pose = self.wheel.coordinates(start.free), self.ground.risen(start.deflection)
+        return Since.equilibrium(q, pose, start.pull, self.friction)
 
     def lift(self, ground: Near, pose: Pose) -> Array:
         """Share of each contact's force that acts along the ground's normal, (n,) [-]."""
@@ -218,8 +241,11 @@ class WheelOnGround:
         before = np.concatenate([start.pressed, start.inner])[system.near] > 0.0
         return before if before.any() else np.asarray(system.gaps < system.gaps.min(initial=np.inf) + _LOWEST)
 
-    def linearised(self, free: Array, pose: Pose, mixed: Mixed) -> System:
-        """The wheel about free coordinates (n_free,), the ground in a pose; stresses and forces as `extrapolated`."""
+    def linearised(self, free: Array, pose: Pose, mixed: Mixed, since: Since | None = None) -> System:
+        """The wheel about free coordinates (n_free,), the ground in a pose; stresses and forces as `extrapolated`.
+
+        since : where friction starts from; without it there is none
+        """
         plates, T = self.wheel.plates, self.wheel.basis
         q = self.wheel.coordinates(free)
         stresses, tied, pressed = mixed
@@ -238,15 +264,22 @@ class WheelOnGround:
             rows, columns, values = near.tangent
             inner = csc_array(coo_array((values, (rows, columns)), shape=(plates.size, plates.size)))
             matrix = matrix + T.T @ inner @ T
-        held = self.wheel.held @ free
+        held, friction, push = self.wheel.held @ free, None, near.slopes
+        if since is not None:
+            friction = rubbed(self.ground, q, pose, found[0], shares[0], since)
+            total -= friction.slopes.T @ friction.stuck.ravel()
+            matrix = matrix + congruent(csr_array(friction.slopes @ T), friction.stiffness)
+            push = push + friction.leaning(len(near.gaps))
         return System(
             residual=T.T @ total + held,
             tangent=csc_array(matrix + self.wheel.held),
             gaps=near.gaps,
             slopes=csr_array(near.slopes @ T),
+            push=csr_array(push @ T),
             stiffness=near.stiffness,
             near=near.points,
             ground=found[0],
+            friction=friction,
             energy=energy + 0.5 * float(free @ held),
         )
 

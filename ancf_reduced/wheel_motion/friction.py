@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from ancf_reduced.wheel.rubbing import congruent
 from ancf_reduced.wheel_motion.bordered import HUB
 from contracts.errors import InputError
 
@@ -98,10 +99,7 @@ class Rubbing:
 
     def by_rate(self) -> tuple[csr_array, Array]:
         """Minus the derivative of the forces on all coordinates by their rates, a `BorderedMatrix`."""
-        count, J, ways = len(self.force), self.points.slopes, self.points.ways
+        J, ways = self.points.slopes, self.points.ways
         wide = (self.viscosity @ ways).reshape(-1, HUB)
-        columns = 3 * np.arange(count)[:, None] + np.tile([0, 1, 2], 3)
-        shape = 3 * count, 3 * count
-        blocks = csr_array((self.viscosity.ravel(), columns.ravel(), 3 * np.arange(3 * count + 1)), shape=shape)
         corner = np.einsum("pik,pil->kl", ways, wide.reshape(-1, 3, HUB))
-        return csr_array(J.T @ blocks @ J), np.concatenate([J.T @ wide, corner])
+        return csr_array(congruent(J, self.viscosity)), np.concatenate([J.T @ wide, corner])

@@ -111,6 +111,24 @@ def test_a_touching_set_is_the_minimum_of_the_energy() -> None:
     assert np.abs(energy(step)[1]).max() < 1e-9 * np.abs(R).max()
 
 
+def test_a_touching_set_with_forces_that_lean_is_in_balance() -> None:
+    """Friction's rows lean by a third of the slopes' size: the equation of the module's head, residual by hand."""
+    random = np.random.default_rng(6)
+    root = random.standard_normal((12, 12))
+    K, R = root @ root.T + np.eye(12), random.standard_normal(12)
+    gap, G, k = 0.1 * random.standard_normal(30), random.standard_normal((30, 12)), 1e3 * random.random(30)
+    H = G + 0.3 * random.standard_normal(G.shape)
+    factored = gap < 0.0
+    inverse = np.linalg.inv(K + H.T @ (G * np.where(factored, k, 0.0)[:, None]))
+    contact = gap, csr_array(G), k
+    settled = settle(inverse.__matmul__, K.__matmul__, R, contact, factored, csr_array(H))
+    assert settled is not None
+    step, forces = settled
+    np.testing.assert_allclose(forces, -k * np.minimum(gap + G @ step, 0.0))
+    assert np.abs(K @ step + R - H.T @ forces).max() < 1e-9 * np.abs(R).max()
+    assert np.abs(K @ step + R - G.T @ forces).max() > 0.1  # negative control: without what leans
+
+
 def test_the_load_is_the_slope_of_the_energy(problem: WheelOnGround, pressed: list[Equilibrium]) -> None:
     """dW / dd = F by differences, within 1 %: the ground's own energy is left out."""
     one, two, three = pressed

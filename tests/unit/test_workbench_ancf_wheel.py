@@ -141,6 +141,9 @@ def test_one_task_an_orientation_at_every_second_point(study: Study) -> None:
     assert tasks[0].inputs["inner_contact_stiffness"] == INNER_STIFFNESS
     through = study.model_copy(update={"fe": study.fe.model_copy(update={"inner_contact": False})})
     assert ANCF_WHEEL.tasks(through)[0].inputs["inner_contact_stiffness"] == 0.0
+    rough = study.model_copy(update={"fe": study.fe.model_copy(update={"friction": 0.3})})
+    assert ANCF_WHEEL.tasks(rough)[0].inputs["friction"] == 0.3
+    assert ANCF_WHEEL.tasks(rough)[0].inputs["deflections"] == points  # the way counts, and so do its steps
     assert every_second([1.0, 2.0, 3.0]) == [1.0, 3.0]
     assert every_second([1.0, 2.0]) == [2.0]
 
@@ -148,7 +151,6 @@ def test_one_task_an_orientation_at_every_second_point(study: Study) -> None:
 @pytest.mark.parametrize(
     ("section", "key", "value"),
     [
-        ("fe", "friction", 0.3),
         ("fe", "hub", "elastic"),
         ("fe", "material_law", "neo_hooke"),
         ("fe", "contact_stiffness", None),

@@ -7,6 +7,7 @@ from workbench.questions.ancf_dynamics.question import ANCF_DYNAMICS
 from workbench.questions.ancf_fit.question import ANCF_FIT
 from workbench.questions.ancf_mesh.question import ANCF_MESH
 from workbench.questions.ancf_wheel.question import ANCF_WHEEL
+from workbench.questions.ancf_wheels.question import ANCF_WHEELS
 from workbench.questions.contact.question import CONTACT
 from workbench.questions.crosscheck.question import CROSSCHECK
 from workbench.questions.environment.question import ENVIRONMENT
@@ -46,6 +47,7 @@ QUESTIONS: tuple[Question, ...] = (
     CONTACT,
     SECTION,
     ANCF_WHEEL,
+    ANCF_WHEELS,
     INPUT_UNCERTAINTY,
     HUB,
     ENVIRONMENT,

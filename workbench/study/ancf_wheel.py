@@ -18,7 +18,6 @@ def without_ancf_wheel(study: Study) -> str | None:
     fe = study.fe
     lacks = (
         (f"fe.hub = {fe.hub}", fe.hub != "rigid"),
-        (f"fe.friction = {fe.friction:g}", fe.friction != 0.0),
         ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
         (f"fe.contact_method = {fe.contact_method}", fe.contact_method != "penalty"),
         (f"fe.material_law = {fe.material_law}", fe.material_law != "st_venant_kirchhoff"),

@@ -53,6 +53,7 @@ def ancf_wheel_curve_tasks(study: Study, orientations_deg: Sequence[float] = ())
 
 
 def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequence[float]) -> list[Task]:
+    points = curve_deflections(study)
     shared = {
         "wheel": wheel_inputs(study),
         "options": {
@@ -61,7 +62,9 @@ def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequ
             "half_width": study.mesh.half_width,
             "ground_spacing": _SPACING[study.fe.obstacle.shape == "plane"],
         },
-        "deflections": every_second(curve_deflections(study)),
+        # Friction depends on the way, and so on the steps.
+        "deflections": points if study.fe.friction else every_second(points),
+        "friction": study.fe.friction,
         "max_load": study.fe.max_load,
         "keep_points": study.fe.keep_points,
         "contact_stiffness": study.fe.contact_stiffness,

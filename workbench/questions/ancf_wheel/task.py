@@ -42,6 +42,7 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
         inputs["inner_contact_stiffness"],
         terrain=terrain_of(inputs["obstacle"]),
         camber=math.radians(inputs["camber_deg"]),
+        friction=inputs["friction"],
     )
     start, failure = time.perf_counter(), None
     states, history = [problem.unloaded()], list[IncrementRecord]()
