@@ -1,8 +1,9 @@
 """The ANCF wheel beside the solid model: cost of a curve at equal error, growth with plates.
 
-``make bench NAME=ancf_wheel`` runs all of it, some ten minutes; ``ARGS="--only cost"`` a part: cost (a curve by both
-models, several meshes), growth (plates to 10 000), arithmetic (force and tangent of a plate). Prints a table and writes
-build/bench/ancf_wheel.json; README.md here has the last measured one. Times are processor seconds of one thread,
+``make bench NAME=ancf_wheel`` runs all of it, some twenty minutes; ``ARGS="--only cost"`` a part: cost (a curve by both
+models, several meshes, and by CalculiX' C3D20R on the study's mesh where ``ccx`` is installed), growth (plates to
+10 000), arithmetic (force and tangent of a plate), motion (rolling, dropped, over a half-round). Prints a table and
+writes build/bench/ancf_wheel.json; README.md here has the last measured one. Times are processor seconds of one thread,
 building included, compilation not; memory is the largest resident set of the process. Errors of the cost table are
 against the solid model with cells half as long.
 """
@@ -13,6 +14,7 @@ import argparse
 import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -27,9 +29,25 @@ sys.path[:0] = [str(ROOT)]
 
 from ancf_reduced.wheel.mesh import build_ancf_wheel  # noqa: E402
 from ancf_reduced.wheel.static import WheelOnGround, press  # noqa: E402
+from ancf_reduced.wheel_motion.friction import Friction  # noqa: E402
+from ancf_reduced.wheel_motion.rest import above, standing  # noqa: E402
+from ancf_reduced.wheel_motion.rolling import Hub, RollingWheel  # noqa: E402
+from ancf_reduced.wheel_motion.travel import Account, TravelSettings, travel  # noqa: E402
 from benchmarks.ancf_rows.clock import multiply_add_rate, row, shortest  # noqa: E402
 from benchmarks.output.run import Run, add_option  # noqa: E402
+from benchmarks.peer_codes import calculix  # noqa: E402
+from contracts.curves import read_curve  # noqa: E402
+from contracts.terrain import Plane, TerrainUnion  # noqa: E402
+from contracts.terrain_ridges import HalfRound  # noqa: E402
+from geometry.inp import TWENTY_NODES  # noqa: E402
 from geometry.wheel import exomars  # noqa: E402
+from workbench.questions.fe.graph import fe_inputs, without_end  # noqa: E402
+from workbench.questions.fe.task import solve_orientation  # noqa: E402
+from workbench.questions.model_curves import CURVE  # noqa: E402
+from workbench.questions.wheel.graph import mesh_task  # noqa: E402
+from workbench.questions.wheel.mesh_file import MESH, read_mesh  # noqa: E402
+from workbench.questions.wheel.mesh_task import build  # noqa: E402
+from workbench.study.reading import built_in_study, read_study  # noqa: E402
 
 DEFLECTIONS = [5e-3 * k for k in range(1, 9)]
 ORIENTATION = 15.0
@@ -75,6 +93,30 @@ def cost() -> Iterator[dict[str, object]]:
         yield row(case, "peak memory", "MB", result["memory_MB"])
         error = np.abs(np.array(result["load"]) / exact - 1.0).max()
         yield row(case, "load, largest difference from the finest solid", "%", 100.0 * float(error))
+    if shutil.which(calculix.PROGRAM) is not None:
+        yield from calculix_cost(exact)
+
+
+def calculix_cost(exact: np.ndarray) -> Iterator[dict[str, object]]:
+    """The same curve by CalculiX on the study's mesh, springs on the rim as `benchmarks.crosscheck` has them."""
+    from benchmarks.crosscheck import LIMIT_S, deck_of
+    from benchmarks.peer_codes import calculix_wheel
+
+    study = read_study(built_in_study())
+    inputs = mesh_task(study, "mesh").inputs
+    with tempfile.TemporaryDirectory() as folder:
+        build(inputs, {}, Path(folder), lambda _: None)
+        mesh = read_mesh(Path(folder) / MESH)
+    with tempfile.TemporaryDirectory() as folder:
+        before = os.times()
+        peer = calculix_wheel.solve(deck_of(study, mesh, ORIENTATION, tuple(DEFLECTIONS)), Path(folder), 1, LIMIT_S)
+        after = os.times()
+    spent = after.children_user + after.children_system - before.children_user - before.children_system
+    case = "CalculiX, C3D20R, cells x 1"
+    yield row(case, "unknowns", "-", 3 * len(np.unique(mesh.cells[:, TWENTY_NODES])))
+    yield row(case, "curve of 8 points to 40 mm", "s", spent)
+    error = np.abs(np.array(peer.loads) / exact - 1.0).max()
+    yield row(case, "load, largest difference from the finest solid", "%", 100.0 * float(error))
 
 
 def child_run(asked: dict[str, Any]) -> dict[str, Any]:
@@ -103,14 +145,6 @@ def child(asked: dict[str, Any]) -> dict[str, Any]:
 
 def solid_curve(size: float, deflections: list[float]) -> tuple[list[float], int]:
     """The built-in study's solid model with cells ``size`` times as long along strips and the axle."""
-    from contracts.curves import read_curve
-    from workbench.questions.fe.graph import fe_inputs, without_end
-    from workbench.questions.fe.task import solve_orientation
-    from workbench.questions.model_curves import CURVE
-    from workbench.questions.wheel.graph import mesh_task
-    from workbench.questions.wheel.mesh_task import build
-    from workbench.study.reading import built_in_study, read_study
-
     study = read_study(built_in_study())
     inputs = dict(mesh_task(study, "mesh").inputs)
     options = inputs["options"]
@@ -168,10 +202,37 @@ def points_flops(points: Any) -> float:
     return float(points[1].shape[0] * points[1].shape[1] * one)
 
 
+def motion() -> Iterator[dict[str, object]]:
+    """Processor seconds of a second on Mars, coarse plates: rolling at 70 m/h, dropped by 10 mm, over a half-round."""
+    rolls = Hub(mass=52.6, inertia=0.05, speed=70.0 / 3600.0 / 0.1425, gain=500.0)
+    rock = TerrainUnion(parts=(Plane(), HalfRound(radius=10e-3, position=64e-3)))
+    mars, rough, flat = 3.711, Friction(coefficient=0.6), Plane()
+    cases = (
+        ("rolling at 70 m/h", flat, rolls, rough, 0.5),
+        ("dropped by 10 mm", flat, Hub(mass=18.0, inertia=0.05), Friction(), 0.2),
+        ("over a half-round of 10 mm", rock, rolls, rough, 0.6),
+    )
+    for again in (False, True):  # the first time compiles
+        for name, terrain, hub, friction, end in cases:
+            wheel = build_ancf_wheel(exomars(), element_size=40e-3, axial_size=60e-3, ground_spacing=1e-3)
+            problem = WheelOnGround(wheel, 0.0, terrain=terrain)
+            rolling = RollingWheel(problem, hub, mars, friction, 0.05)
+            start = above(rolling, 10e-3) if name.startswith("dropped") else standing(rolling)
+            account, begun = Account(), os.times().user
+            settings = TravelSettings(tolerance=1e-5, largest_step=0.1)
+            list(travel(rolling, start, [end if again else 0.01], settings, account))
+            if again:
+                yield row(name, "unknowns", "-", wheel.basis.shape[1] + 3)
+                yield row(name, "processor time of a second", "s", (os.times().user - begun) / end)
+                yield row(name, "steps of a second", "-", (len(account.rows) - 1) / end)
+                yield row(name, "energy account closes to", "%", 100.0 * account.closure())
+
+
 PARTS: dict[str, Callable[[], Iterator[dict[str, object]]]] = {
     "cost": cost,
     "growth": growth,
     "arithmetic": arithmetic,
+    "motion": motion,
 }
 
 if __name__ == "__main__":

@@ -223,8 +223,7 @@ class ToleranceSection(Section):
 class AncfWheelSection(Section):
     """The wheel as thin ANCF plates, held against the solid model at ``fe.orientations``.
 
-    Asked without friction, with a rigid hub, without sidewall springs, with the law of
-    St. Venant and Kirchhoff and a stated penalty of the contact.
+    Asked with a rigid hub, the law of St. Venant and Kirchhoff and a stated penalty of the contact.
     """
 
     element_size: Annotated[Length, Positive] = 16e-3
