@@ -23,13 +23,14 @@ from contracts.curves import StiffnessCurve, read_curve  # noqa: E402
 from workbench.commands.computing import computed  # noqa: E402
 from workbench.commands.options import DEFAULT_STORE, computing  # noqa: E402
 from workbench.execution.result_files import read_result  # noqa: E402
+from workbench.questions.ancf_wheel.results import stress_differences  # noqa: E402
 from workbench.questions.ancf_wheels.cases import (  # noqa: E402
     COMMAND,
     ComparedWheel,
     compared_wheels,
     wheel_tasks,
 )
-from workbench.questions.ancf_wheels.results import Agreement, agreement  # noqa: E402
+from workbench.questions.ancf_wheels.results import Agreement, agreement, largest  # noqa: E402
 from workbench.questions.kept import keep  # noqa: E402
 from workbench.questions.model_curves import CURVE  # noqa: E402
 from workbench.study.orientation import orientation_name  # noqa: E402
@@ -37,12 +38,13 @@ from workbench.study.reading import built_in_study  # noqa: E402
 
 
 def both(solid: StiffnessCurve, plates: StiffnessCurve) -> dict[str, Any]:
-    """Loads at the plates' points within the solid's curve."""
+    """Loads at the plates' points within the solid's curve; largest difference of springs' stress before they touch."""
     at = [d for d in plates.deflection.tolist() if 0.0 < d <= solid.deflection[-1] + 1e-12]
     return {
         "deflection_m": at,
         "fe_N": [solid.load_at(min(d, float(solid.deflection[-1]))) for d in at],
         "plates_N": [plates.load_at(d) for d in at],
+        "stress_apart": largest(stress_differences(plates, solid, touching=False)),
     }
 
 
@@ -75,6 +77,8 @@ def _show(wheel: ComparedWheel, says: Agreement) -> list[dict[str, object]]:
         "plates twice as fine": says.plates_mesh,
         "solid twice as fine": says.solid_mesh,
         "both twice as fine, largest difference": says.finer,
+        "stress of springs, largest difference": says.stress,
+        "stress, both twice as fine": says.stress_finer,
     }
     for metric, value in shown.items():
         print(f"{wheel.name:<10}{metric:<42}{100.0 * value:>+8.2f} %", flush=True)

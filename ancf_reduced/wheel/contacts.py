@@ -20,7 +20,17 @@ from ancf_reduced.wheel.contact_kernels import Faces, face_points, face_slopes, 
 from ancf_reduced.wheel.faces import FacePoints
 from ancf_reduced.wheel.mesh import AncfWheel
 
-__all__ = ["HubContact", "InnerContacts", "Near", "PlateContact", "Points", "Surface", "inner_contacts", "joined"]
+__all__ = [
+    "RIM",
+    "HubContact",
+    "InnerContacts",
+    "Near",
+    "PlateContact",
+    "Points",
+    "Surface",
+    "inner_contacts",
+    "joined",
+]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -36,6 +46,8 @@ _FACING = 0.5
 """Largest cosine between the normals of a point's face and of the one it touches [-]."""
 
 
+RIM = 1
+"""Number of springs on the rim among an `InnerContacts`' parts."""
 Entries = tuple[Index, Index, Array]
 """Rows, columns and values of a sparse matrix; those of one place add up."""
 

@@ -18,7 +18,7 @@ from scipy.sparse.linalg import splu
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.contact_step import settle
-from ancf_reduced.wheel.contacts import InnerContacts, Near, joined
+from ancf_reduced.wheel.contacts import RIM, InnerContacts, Near, joined
 from ancf_reduced.wheel.ground import GroundContact, Pose, ground_frame
 from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
 from ancf_reduced.wheel.mesh import AncfWheel
@@ -221,6 +221,13 @@ class WheelOnGround:
             pressed[system.near] = forces
             mixed = *self.extrapolated(free, step), pressed
             free = free + step
+
+    def rim_force(self, state: Equilibrium) -> float:
+        """Of springs on the rim, sum of the sizes of all points' forces, of the whole wheel [N]."""
+        if self._inner is None:
+            return 0.0
+        on_rim = np.split(state.inner, np.cumsum(self._inner.counts)[:-1])[RIM]
+        return self.wheel.sides * float(on_rim.sum())
 
     def _since(self, start: Equilibrium) -> Since:
         q, pose = self.wheel.coordinates(start.free), self.ground.risen(start.deflection)

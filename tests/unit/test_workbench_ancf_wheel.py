@@ -113,6 +113,7 @@ def test_a_shape_that_is_off_breaks_its_gate(study: Study) -> None:
     """One point 0.11 mm away; no row is an error; where the solid keeps no points nothing is asked."""
     fe, ancf = curves("fe", 1.0), curves("ancf_wheel", 1.0)
     row = {"orientation_deg": 0.0, "deflection_m": 0.01, "rms_m": 3e-5, "rms_tire_m": 2e-5, "rms_springs_outer_m": 5e-5}
+    row |= {"load_N": 80.0, "rim_force_N": 0.0, "solid_rim_force_N": 0.0}
 
     def shape(rows: list[dict[str, float]] | None) -> list[str]:
         checks = ANCF_WHEEL.checks(study, AncfWheelRuns(ancf=ancf, fe=fe, shapes=rows))
@@ -122,6 +123,21 @@ def test_a_shape_that_is_off_breaks_its_gate(study: Study) -> None:
     assert shape([row, row | {"rms_m": 1.1e-4}]) == ["fail"]
     assert shape([]) == ["error"]
     assert shape(None) == []
+
+
+def test_forces_on_the_rim_are_held_over_the_load(study: Study) -> None:
+    """6 N apart at 100 N of load fail, 4 N pass; where nothing touches nothing is asked."""
+    fe, ancf = curves("fe", 1.0), curves("ancf_wheel", 1.0)
+    row = {"orientation_deg": 0.0, "deflection_m": 0.01, "rms_m": 3e-5, "load_N": 100.0, "rim_force_N": 20.0}
+
+    def status(*solid: float, own: float = 20.0) -> list[str]:
+        rows = [row | {"rim_force_N": own, "solid_rim_force_N": force} for force in solid]
+        checks = ANCF_WHEEL.checks(study, AncfWheelRuns(ancf=ancf, fe=fe, shapes=rows))
+        return [c.status for c in checks if c.id == "ancf_wheel.rim_force"]
+
+    assert status(20.0, 16.0) == ["pass"]
+    assert status(20.0, 26.0) == ["fail"]
+    assert status(0.0, own=0.0) == []
 
 
 def test_one_task_an_orientation_at_every_second_point(study: Study) -> None:

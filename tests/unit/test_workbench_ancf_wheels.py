@@ -23,14 +23,20 @@ AMALIA = next(wheel for wheel in compared_wheels() if wheel.name == "amalia")
 
 def found(wheel: ComparedWheel, off: float = 1.01) -> dict[str, Any]:
     """Plates are ``off`` at the last orientation's second point, else equal; finer meshes take 1 and 3 %."""
-    solid = [20.0, 40.0]
+    solid, deflection = [20.0, 40.0], [0.001, 0.002]
     curves = [
-        {"orientation_deg": o, "deflection_m": [0.001, 0.002], "fe_N": solid, "plates_N": list(solid)}
+        {
+            "orientation_deg": o,
+            "deflection_m": deflection,
+            "fe_N": solid,
+            "plates_N": list(solid),
+            "stress_apart": 0.01,
+        }
         for o in wheel.orientations
     ]
-    curves[-1]["plates_N"] = [20.0, 40.0 * off]
+    curves[-1] |= {"plates_N": [20.0, 40.0 * off], "stress_apart": -0.03}
     counts = {name: [k] * len(curves) for name, k in (("plates", 900), ("fe", 5000))}
-    fine = {"deflection_m": [0.001, 0.002], "fe_N": [19.8, 39.6], "plates_N": [19.4, 38.8 * off]}
+    fine = {"deflection_m": [0.001, 0.002], "fe_N": [19.8, 39.6], "plates_N": [19.4, 38.8 * off], "stress_apart": 0.02}
     return {"curves": curves, "fine": fine, "unknowns": counts, "solve_s": counts}
 
 
@@ -55,6 +61,7 @@ def test_the_numbers_of_a_record() -> None:
     assert (says.plates_mesh, says.solid_mesh) == (pytest.approx(-0.03), pytest.approx(-0.01))
     assert says.finer == pytest.approx(19.4 / 19.8 - 1.0)
     assert says.unknowns == (900.0, 5000.0)
+    assert (says.stress, says.stress_finer) == (-0.03, 0.02)
 
 
 @pytest.mark.parametrize("wheel", compared_wheels(), ids=lambda wheel: wheel.name)

@@ -85,6 +85,7 @@ def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequ
 
 
 def _shape_task(study: Study, shared: Mapping[str, Any]) -> Task:
+    given = {name: shared[name] for name in ("wheel", "options", "inner_contact_stiffness")}
     names = [
         (degrees(o), orientation_name("ancf_wheel", degrees(o)), orientation_name("fe", degrees(o)))
         for o in study.fe.orientations
@@ -92,7 +93,7 @@ def _shape_task(study: Study, shared: Mapping[str, Any]) -> Task:
     return Task(
         name="ancf_wheel_shape",
         function="workbench.questions.ancf_wheel.shape_task:compare_shapes",
-        inputs={"wheel": shared["wheel"], "options": shared["options"], "mesh": "mesh", "pairs": names},
+        inputs=given | {"mesh": "mesh", "pairs": names},
         needs=("mesh", *(name for row in names for name in row[1:])),
         cost=15.0,
     )

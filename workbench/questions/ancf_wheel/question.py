@@ -76,6 +76,9 @@ def _checks(study: Study, runs: AncfWheelRuns) -> Sequence[Check]:
     if runs.shapes is not None:
         shape = claim("shape", "deformed middle surfaces of rim and springs", unit="m")
         checks.append(at_most(shape, runs.shape_distance, limits.ancf_wheel_shape))
+    if runs.touching:
+        force = claim("rim_force", "force between springs and rim, over the load", "finding")
+        checks.append(at_most(force, runs.rim_force_difference, limits.ancf_wheel_stress))
     return checks
 
 

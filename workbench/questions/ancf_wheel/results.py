@@ -105,6 +105,15 @@ class AncfWheelRuns:
         return max(row["rms_m"] for row in self.shapes)
 
     @property
+    def touching(self) -> list[Mapping[str, float]]:
+        """Rows at which springs lie on the rim in either model."""
+        return [row for row in self.shapes or () if max(row["rim_force_N"], row["solid_rim_force_N"]) > 0.0]
+
+    def rim_force_difference(self) -> float:
+        """Between the two models' forces of springs on the rim, over the load, largest at any orientation and point."""
+        return max(abs(row["rim_force_N"] - row["solid_rim_force_N"]) / row["load_N"] for row in self.touching)
+
+    @property
     def pairs(self) -> list[tuple[StiffnessCurve, StiffnessCurve]]:
         """Curves at orientations where both carry load."""
         solid = self.fe.loaded

@@ -15,6 +15,7 @@ from contracts.archive import read_archive
 from contracts.curves import read_curve
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
+from reference_fe.contact.rim_force import RimForce
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.questions.ancf_wheel.task import STATES
 from workbench.questions.fe.field_file import POINTS_FILE, read_points
@@ -32,7 +33,8 @@ _LARGEST = 1_000_000_000
 
 
 def compare_shapes(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``result.json``: rows of orientation, deflection and distances of the middle surfaces; returns their number.
+    """``result.json``: rows of orientation, deflection, load, distances of the middle surfaces, forces of springs on
+    the rim by both models; returns their number.
 
     No row, and the reason, where the solid has no nodes on a middle surface. Needs the mesh, and the curves of both
     models at each orientation. A point counts where both models have it.
@@ -44,10 +46,15 @@ def compare_shapes(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Pa
     except InputError as error:
         write_result(out, {"rows": [], FAILURE: str(error)})
         return 0
-    rows = list[dict[str, Any]]()
+    rows, penalty = list[dict[str, Any]](), inputs["inner_contact_stiffness"]
+    on_rim = RimForce(mesh, penalty) if penalty > 0.0 else None
     for i, (orientation, ancf, fe) in enumerate(inputs["pairs"]):
+        curve = read_curve(needs[ancf] / CURVE)
         for deflection, q, moved in _common_points(wheel, needs[ancf], needs[fe]):
             row: dict[str, Any] = {"orientation_deg": orientation, "deflection_m": deflection}
+            row["load_N"] = curve.load_at(deflection)
+            row["rim_force_N"] = float(np.interp(deflection, curve.deflection, curve.columns["rim_force_N"]))
+            row["solid_rim_force_N"] = on_rim(moved) if on_rim is not None else 0.0
             every = list[NDArray[np.float64]]()
             for part, (surface, points) in surfaces.items():
                 apart = surface.distances(q, points + moved[_nodes_of(mesh, part)])

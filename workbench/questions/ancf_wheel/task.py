@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
+from ancf_reduced.wheel.mesh import build_ancf_wheel
 from ancf_reduced.wheel.stability import unstable_mode
 from ancf_reduced.wheel.static import Equilibrium, WheelOnGround, press
 from ancf_reduced.wheel.stress import largest_spring_stress
@@ -54,7 +54,7 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
                 break
     except ConvergenceError as error:
         failure = str(error)
-    write_curve(_curve(states, wheel, orientation, partial=failure is not None), out / CURVE)
+    write_curve(_curve(problem, states, partial=failure is not None), out / CURVE)
     if inputs["keep_points"]:
         deflection, free = np.array([s.deflection for s in states]), np.array([s.free for s in states])
         np.savez_compressed(out / STATES, allow_pickle=False, deflection=deflection, free=free)
@@ -81,15 +81,17 @@ def _does_not_stand(problem: WheelOnGround, states: list[Equilibrium]) -> str | 
     return f"the wheel does not stand from {where} on (negative eigenvalues: {first.negative}), it moves {place}"
 
 
-def _curve(states: list[Equilibrium], wheel: AncfWheel, orientation: float, *, partial: bool) -> StiffnessCurve:
+def _curve(problem: WheelOnGround, states: list[Equilibrium], *, partial: bool) -> StiffnessCurve:
+    wheel = problem.wheel
     stresses = [largest_spring_stress(wheel, wheel.coordinates(s.free)) for s in states]
     return StiffnessCurve(
         model="ancf_wheel",
-        orientation_deg=orientation,
+        orientation_deg=round(math.degrees(problem.orientation), 9),
         deflection=np.array([s.deflection for s in states]),
         load=np.array([s.load for s in states]),
         columns={
             "stored_energy_J": np.array([s.energy for s in states]),
+            "rim_force_N": np.array([problem.rim_force(s) for s in states]),
             "negative_pivots": np.array([float(s.negative) for s in states]),
             **{f"max_linearised_{part}_Pa": np.array([s[part] for s in stresses]) for part in stresses[0]},
         },

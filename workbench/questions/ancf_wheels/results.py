@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from workbench.questions.ancf_wheels.cases import ComparedWheel
 
-__all__ = ["Agreement", "agreement"]
+__all__ = ["Agreement", "agreement", "largest"]
 
 Array = NDArray[np.float64]
 
@@ -29,6 +29,8 @@ class Agreement:
     mean : of the differences' sizes
     plates_mesh, solid_mesh : what a mesh twice as fine moves each model's load by, largest at any point, sign kept
     finer : largest difference of the two finer models, sign kept
+    stress, stress_finer : of the springs' largest stress before they touch anything, sign kept; at any orientation, and
+        of the two finer models
     unknowns, seconds : of plates and solid, means over orientations
     """
 
@@ -41,6 +43,8 @@ class Agreement:
     plates_mesh: float
     solid_mesh: float
     finer: float
+    stress: float
+    stress_finer: float
     unknowns: tuple[float, float]
     seconds: tuple[float, float]
 
@@ -74,9 +78,11 @@ def agreement(wheel: ComparedWheel, found: Mapping[str, Any]) -> Agreement:
         at_deg=at_deg,
         at_m=float(curves[at_deg]["deflection_m"][k]),
         mean=float(np.abs(every).mean()),
-        plates_mesh=_largest(moved["plates_N"]),
-        solid_mesh=_largest(moved["fe_N"]),
-        finer=_largest(_apart(fine["plates_N"], fine["fe_N"])),
+        plates_mesh=largest(moved["plates_N"]),
+        solid_mesh=largest(moved["fe_N"]),
+        finer=largest(_apart(fine["plates_N"], fine["fe_N"])),
+        stress=largest(np.array([float(one["stress_apart"]) for one in curves.values()])),
+        stress_finer=float(fine["stress_apart"]),
         unknowns=_means(found["unknowns"]),
         seconds=_means(found["solve_s"]),
     )
@@ -95,7 +101,8 @@ def _apart(one: Any, other: Any) -> Array:
     return np.asarray(both[0] / both[1] - 1.0)
 
 
-def _largest(values: Array) -> float:
+def largest(values: Array) -> float:
+    """The value of largest size, its sign kept."""
     return float(values[np.abs(values).argmax()])
 
 
