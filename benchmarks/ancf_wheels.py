@@ -40,11 +40,12 @@ from workbench.study.reading import built_in_study  # noqa: E402
 def both(solid: StiffnessCurve, plates: StiffnessCurve) -> dict[str, Any]:
     """Loads at the plates' points within the solid's curve; largest difference of springs' stress before they touch."""
     at = [d for d in plates.deflection.tolist() if 0.0 < d <= solid.deflection[-1] + 1e-12]
+    stress = stress_differences(plates, solid, touching=False)
     return {
         "deflection_m": at,
         "fe_N": [solid.load_at(min(d, float(solid.deflection[-1]))) for d in at],
         "plates_N": [plates.load_at(d) for d in at],
-        "stress_apart": largest(stress_differences(plates, solid, touching=False)),
+        "stress_apart": largest(stress) if len(stress) else None,
     }
 
 
@@ -80,9 +81,10 @@ def _show(wheel: ComparedWheel, says: Agreement) -> list[dict[str, object]]:
         "stress of springs, largest difference": says.stress,
         "stress, both twice as fine": says.stress_finer,
     }
-    for metric, value in shown.items():
+    found = {metric: value for metric, value in shown.items() if value is not None}
+    for metric, value in found.items():
         print(f"{wheel.name:<10}{metric:<42}{100.0 * value:>+8.2f} %", flush=True)
-    return [{"case": wheel.name, "metric": metric, "unit": "%", "ours": 100.0 * v} for metric, v in shown.items()]
+    return [{"case": wheel.name, "metric": metric, "unit": "%", "ours": 100.0 * v} for metric, v in found.items()]
 
 
 def main() -> None:

@@ -64,6 +64,15 @@ def test_the_numbers_of_a_record() -> None:
     assert (says.stress, says.stress_finer) == (-0.03, 0.02)
 
 
+def test_springs_that_touch_at_once_have_no_stress_to_compare(studies: Path) -> None:
+    numbers = found(AMALIA)
+    numbers["fine"]["stress_apart"] = None
+    says = agreement(AMALIA, numbers)
+    assert (says.stress, says.stress_finer) == (-0.03, None)
+    (one,) = ANCF_WHEELS.read(study_with(studies, AMALIA, numbers), {})
+    assert one.agreement == says
+
+
 @pytest.mark.parametrize("wheel", compared_wheels(), ids=lambda wheel: wheel.name)
 def test_every_wheel_is_computed_by_both_models_and_finer(wheel: ComparedWheel) -> None:
     tasks = {task.name: task for task in wheel_tasks(wheel, wheel.read(STUDIES / wheel.study))}

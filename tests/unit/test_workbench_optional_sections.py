@@ -41,7 +41,7 @@ ADDED = {
     "environment": {"environment"},
     "rover": {"rover", "rover_ancf"},
     "full": set(),
-    "reference": {"validation"},
+    "reference": {"ancf_wheels", "validation"},
     "tolerances": set(),
     "inferred": set(),
 }

@@ -167,6 +167,7 @@ def ring_loads(count: int, thickness: float = 0.004) -> tuple[Array, Array]:
     kept = np.ones(nodes.shape, dtype=bool)
     mirror(kept, i == 0, 0, 1)
     mirror(kept, i == count, 2, 1)
+    kept[0, 0, 1] = False
     free = kept.ravel()
     at, weight = np.polynomial.legendre.leggauss(8)
     rows = shape_tables((float(sizes[0, 0]), width), 0.5 + 0.5 * at, 0.5 + 0.0 * at)[:, 0]
@@ -192,7 +193,7 @@ def ring_loads(count: int, thickness: float = 0.004) -> tuple[Array, Array]:
             settled = settle(solve, tangent.dot, residual, (gap, G, penalty), touching)
             assert settled is not None
             held = np.maximum(-penalty * gap, 0.0)
-            if step_number and abs((residual + G.T @ held) @ settled[0]) < 1e-8 * energy:
+            if step_number and abs((residual - G.T @ held) @ settled[0]) < 1e-8 * energy:
                 break
             step = np.zeros(q.size)
             step[free] = settled[0]

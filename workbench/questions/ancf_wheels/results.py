@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,7 +30,7 @@ class Agreement:
     plates_mesh, solid_mesh : what a mesh twice as fine moves each model's load by, largest at any point, sign kept
     finer : largest difference of the two finer models, sign kept
     stress, stress_finer : of the springs' largest stress before they touch anything, sign kept; at any orientation, and
-        of the two finer models
+        of the two finer models; None where they touch from the first point on
     unknowns, seconds : of plates and solid, means over orientations
     """
 
@@ -43,8 +43,8 @@ class Agreement:
     plates_mesh: float
     solid_mesh: float
     finer: float
-    stress: float
-    stress_finer: float
+    stress: float | None
+    stress_finer: float | None
     unknowns: tuple[float, float]
     seconds: tuple[float, float]
 
@@ -81,8 +81,8 @@ def agreement(wheel: ComparedWheel, found: Mapping[str, Any]) -> Agreement:
         plates_mesh=largest(moved["plates_N"]),
         solid_mesh=largest(moved["fe_N"]),
         finer=largest(_apart(fine["plates_N"], fine["fe_N"])),
-        stress=largest(np.array([float(one["stress_apart"]) for one in curves.values()])),
-        stress_finer=float(fine["stress_apart"]),
+        stress=_stress(list(curves.values())),
+        stress_finer=_stress([fine]),
         unknowns=_means(found["unknowns"]),
         seconds=_means(found["solve_s"]),
     )
@@ -99,6 +99,11 @@ def _apart(one: Any, other: Any) -> Array:
     ):
         raise ValueError("loads are lists of equal length, all above zero")
     return np.asarray(both[0] / both[1] - 1.0)
+
+
+def _stress(curves: Sequence[Mapping[str, Any]]) -> float | None:
+    found = [float(one["stress_apart"]) for one in curves if one["stress_apart"] is not None]
+    return largest(np.array(found)) if found else None
 
 
 def largest(values: Array) -> float:
