@@ -8,13 +8,14 @@ count; pipes between processes of this machine do not either.
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 from pathlib import Path
 
 import pytest
 
-from tests.end_to_end.small_study import command, environment, small_study_text
+from tests.end_to_end.small_study import ROOT, command, environment, small_study_text
 from tests.small_report_folder import write_small_report
 
 HOOK = """
@@ -89,11 +90,12 @@ def test_commands_stay_at_home(tmp_path: Path, name: str) -> None:
     home.mkdir()
     (home / "кривая 1.csv").write_text(CURVE, encoding="utf-8")
     (home / "étude.toml").write_text(f"{small_study_text()}\n{SWEEP}", encoding="utf-8")
+    shutil.copy(ROOT / "studies" / "first.toml", home / "малое колесо.toml")
     out, store = home / "résultats", home / "запас"
     arguments: dict[str, tuple[str | Path, ...]] = {
         "compare": ("compare", home / "кривая 1.csv", home / "кривая 1.csv", "--out", out),
         "stiffness": ("stiffness", home / "étude.toml", "--model", "brush", "--out", out, "--store", store),
-        "mesh": ("mesh", home / "étude.toml", "--out", out, "--store", store),
+        "mesh": ("mesh", home / "малое колесо.toml", "--out", out, "--store", store),
         "sweep": ("sweep", home / "étude.toml", "--out", out, "--store", store),
         "rover": ("rover", "static", "--out", out, "--store", store),
     }

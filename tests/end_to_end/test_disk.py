@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.end_to_end.small_study import command, environment, run, small_study_text
+from tests.end_to_end.small_study import ROOT, command, environment, run, small_study_text
 
 CURVE = "deflection_m,load_N\n0,0\n0.01,80\n0.02,165\n"
 
@@ -111,8 +111,7 @@ def _small_disk(folder: Path, size: str, arguments: list[str], **more: str) -> s
 
 def test_each_full_disk_is_named(tmp_path: Path) -> None:
     """The store's, while a worker writes its result or the log; the output's; never said to be a want of memory."""
-    study = tmp_path / "study.toml"
-    study.write_text(small_study_text(), encoding="utf-8")
+    study = ROOT / "studies" / "first.toml"
     small, roomy = tmp_path / "small", tmp_path / "roomy"
     on_store = command("mesh", study, "--out", roomy / "out", "--store", small / "store")
     ended = _small_disk(small, "100k", on_store)

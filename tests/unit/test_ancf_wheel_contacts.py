@@ -108,7 +108,7 @@ def test_slopes_and_tangents_are_derivatives(wheel: AncfWheel, kind: str) -> Non
 
 @pytest.mark.parametrize("kind", ["hub", "rim", "spring"])
 def test_what_is_near_is_found_although_searches_are_rare(wheel: AncfWheel, kind: str) -> None:
-    """On the way from rest to contact and back, a tenth of a millimetre at a time, as a search at every place finds it.
+    """From rest to contact and back, a tenth of a millimetre at a time, as a search at every eighth place finds it.
 
     Without any search after the first nothing is near at the end.
     """
@@ -118,12 +118,15 @@ def test_what_is_near_is_found_although_searches_are_rare(wheel: AncfWheel, kind
     forces = [np.zeros(count) for count in inner.counts]
     furthest = float(np.linalg.norm(end - start, axis=2)[:, 0].max())
     shares = np.linspace(0.0, 1.0, max(int(furthest / 1e-4), 10))
-    searches = 0
+    searches = place = 0
     for share in [*shares.tolist(), *shares[::-1].tolist()]:
         q = start + share * (end - start)
         before = inner.parts[0]._near
         found = inner.near(q, forces, none)
         searches += inner.parts[0]._near is not before
+        place += 1
+        if place % 8 and share < 1.0:
+            continue
         for part, near, held in zip(fresh.parts, found, forces, strict=True):
             part.search(q)
             wanted = part.near(q, held, none)
