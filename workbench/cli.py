@@ -202,7 +202,9 @@ def rover(
     scenario: Annotated[
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)
     ] = None,
-    tire: Annotated[str, typer.Option(help="rigid, brush or ancf: six flexible tires.")] = "brush",
+    tire: Annotated[
+        str, typer.Option(help="rigid; brush; fe: the wheel by its solid model; ancf: flexible tires.")
+    ] = "brush",
     study: Annotated[
         Path | None,
         typer.Option(

@@ -23,6 +23,8 @@ from rover_dynamics.tires.brush_force import (
     BrushScratch,
     HubMotions,
     brush_result,
+    contact_size,
+    hub_axes,
     wheel_answer,
 )
 from rover_dynamics.tires.brush_settings import WheelNumbers
@@ -63,27 +65,28 @@ def brush_derivatives(
     work, pair = scratch
     for i in range(motions.position.shape[0]):
         p, v, omega = vector(motions.position[i]), vector(motions.velocity[i]), vector(motions.angular_velocity[i])
-        e = motions.rotation[i, 0, 1], motions.rotation[i, 1, 1], motions.rotation[i, 2, 1]
+        e, ahead = hub_axes(motions.rotation[i])
         for column in range(2 * 3):
             for side in range(2):
-                moved_p, moved_e = _moved(p, e, column, STEPS[column // 3] * (1.0 - 2.0 * side))
-                size = numbers.radius, numbers.width
-                find_contacts(moved_p, moved_e, size, terrain, work.contacts, work.samples)
-                wheel_answer((moved_e, v, omega), state[i], numbers, work.contacts, pair, side)
+                step = STEPS[column // 3] * (1.0 - 2.0 * side)
+                moved_p = _shifted(p, column, step)
+                moved_e, moved_ahead = _turned(e, column - 3, step), _turned(ahead, column - 3, step)
+                find_contacts(moved_p, moved_e, contact_size(numbers), terrain, work.contacts, work.samples)
+                wheel_answer((moved_e, v, omega, moved_ahead), state[i], numbers, work.contacts, pair, side)
             _difference(pair, jacobian[i], column, STEPS[column // 3])
-        find_contacts(p, e, (numbers.radius, numbers.width), terrain, work.contacts, work.samples)
+        find_contacts(p, e, contact_size(numbers), terrain, work.contacts, work.samples)
         for column in range(2 * 3, MOTION):
             for side in range(2):
                 step = STEPS[column // 3] * (1.0 - 2.0 * side)
                 moved_v, moved_omega = (_shifted(v, column - 6, step), _shifted(omega, column - 9, step))
-                wheel_answer((e, moved_v, moved_omega), state[i], numbers, work.contacts, pair, side)
+                wheel_answer((e, moved_v, moved_omega, ahead), state[i], numbers, work.contacts, pair, side)
             _difference(pair, jacobian[i], column, STEPS[column // 3])
-        _by_state((e, v, omega), state[i], numbers, jacobian[i], work, pair)
+        _by_state((e, v, omega, ahead), state[i], numbers, jacobian[i], work, pair)
 
 
 @compiled
 def _by_state(
-    motion: tuple[Vector, Vector, Vector],
+    motion: tuple[Vector, Vector, Vector, Vector],
     state: FloatArray,
     numbers: WheelNumbers,
     jacobian: FloatArray,
@@ -101,12 +104,9 @@ def _by_state(
 
 
 @compiled
-def _moved(p: Vector, e: Vector, column: int, step: float) -> tuple[Vector, Vector]:
-    """Hub centre and axle after a small move (columns 0..2) or rotation (3..5)."""
-    if column < 3:
-        return _shifted(p, column, step), e
-    turn = _shifted((0.0, 0.0, 0.0), column - 3, math.tan(step))
-    return p, over_length(along(e, 1.0, cross(turn, e)))
+def _turned(axis: Vector, m: int, step: float) -> Vector:
+    """A unit vector after a small rotation about world axis m, unchanged for another m."""
+    return over_length(along(axis, 1.0, cross(_shifted((0.0, 0.0, 0.0), m, math.tan(step)), axis)))
 
 
 @compiled

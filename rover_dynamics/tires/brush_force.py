@@ -3,7 +3,8 @@
 In each contact, with the unit vectors n out of the ground, t = e x n / |e x n| forward and l = n x t to the left, the
 velocity v_c of the wheel at the contact, and the deflection lambda of `brush_contact` with its rate -n . v_c / q:
 
-    N = max(0, k lambda + c lambda_dot w) / q,    w = ramp(lambda / d_0), or 1 for the damper as printed,
+    N = max(0, S + c lambda_dot w) / q,    w = ramp(lambda / d_0), or 1 for the damper as printed,
+    S = k lambda, or dU/dlambda of a wheel's own potential (`wheel_potential`) with the moment -dU/dbeta e,
     v = -(v_r . t, v_c . l),    V = omega R = t . (r_r x omega) (brush) or t . v_hub (Fiala),
     force on the hub  N n + F_y l  at the contact r,  F_x t  at r_r,
     moment            M_z n  and against the spin  -f N |r| tanh(omega R / v_0) e,
@@ -35,8 +36,11 @@ from rover_dynamics.tires.brush_graph import is_beside
 from rover_dynamics.tires.brush_profile import SAMPLES
 from rover_dynamics.tires.brush_settings import WheelNumbers
 from rover_dynamics.tires.brush_standstill import BRUSH, bristle_force
+from rover_dynamics.tires.wheel_potential import facing, load_and_slope
 
 __all__ = [
+    "BESIDE",
+    "DEEP",
     "OUTPUT_SIZE",
     "BrushResult",
     "BrushScratch",
@@ -44,12 +48,16 @@ __all__ = [
     "brush_forces",
     "brush_result",
     "brush_scratch",
+    "contact_size",
+    "hub_axes",
     "wheel_answer",
 ]
 
 FloatArray = NDArray[np.float64]
 OUTPUT_SIZE = 10
-"""Outputs of a wheel: penetration, load, slip (2), patch point (3), tractive force, lateral force, 1 if beside."""
+"""Outputs of a wheel: penetration, load, slip (2), patch point (3), tractive and lateral force, `BESIDE` or `DEEP`."""
+BESIDE, DEEP = 1.0, 2.0
+"""The hub lies beside the ground's height field; the rim is pressed deeper than its potential was sampled."""
 
 
 class HubMotions(NamedTuple):
@@ -130,15 +138,21 @@ def brush_forces(
     """
     for i in range(motions.position.shape[0]):
         p, v, omega = vector(motions.position[i]), vector(motions.velocity[i]), vector(motions.angular_velocity[i])
-        e = motions.rotation[i, 0, 1], motions.rotation[i, 1, 1], motions.rotation[i, 2, 1]
-        find_contacts(p, e, (numbers.radius, numbers.width), terrain, scratch.contacts, scratch.samples)
-        wheel_answer((e, v, omega), state[i], numbers, scratch.contacts, result, i)
+        e, ahead = hub_axes(motions.rotation[i])
+        find_contacts(p, e, contact_size(numbers), terrain, scratch.contacts, scratch.samples)
+        wheel_answer((e, v, omega, ahead), state[i], numbers, scratch.contacts, result, i)
         _finish_output(p, terrain, result.output[i])
 
 
 @compiled
+def hub_axes(rotation: FloatArray) -> tuple[Vector, Vector]:
+    """Axle and what is ahead, of a hub frame (3, 3)."""
+    return (rotation[0, 1], rotation[1, 1], rotation[2, 1]), (rotation[0, 0], rotation[1, 0], rotation[2, 0])
+
+
+@compiled
 def wheel_answer(
-    motion: tuple[Vector, Vector, Vector],
+    motion: tuple[Vector, Vector, Vector, Vector],
     state: FloatArray,
     numbers: WheelNumbers,
     contacts: FloatArray,
@@ -149,7 +163,7 @@ def wheel_answer(
 
     Parameters
     ----------
-    motion : axle e, velocity of the hub centre and angular velocity
+    motion : axle e, velocity of the hub centre, angular velocity, and what is ahead in the hub frame
     state : (2 n_pieces,) float [m]
     numbers, contacts : of the wheel
     result : its row i is overwritten; the patch point is the sum of load times place from the hub centre
@@ -160,10 +174,11 @@ def wheel_answer(
     largest = 0.0
     for k in range(contacts.shape[0]):
         u, contact = (state[2 * k], state[2 * k + 1]), contacts[k]
-        w = ramp(contact[0] / numbers.touch_depth)
+        spring = _spring(motion[3], motion[0], numbers, contact, result.output[i])
+        w = ramp(spring[0] / numbers.touch_depth)
         rate = 0.0, 0.0
-        if contact[0] > 0.0:
-            load, rate, slip = _add_contact(motion, u, numbers, contact, result.wrench[i], result.output[i])
+        if spring[0] > 0.0:
+            load, rate, slip = _add_contact(motion, u, numbers, contact, spring, result.wrench[i], result.output[i])
             if load > largest:
                 largest = load
                 result.output[i, 2], result.output[i, 3] = slip
@@ -173,22 +188,23 @@ def wheel_answer(
 
 @compiled
 def _add_contact(
-    motion: tuple[Vector, Vector, Vector],
+    motion: tuple[Vector, Vector, Vector, Vector],
     u: tuple[float, float],
     numbers: WheelNumbers,
     contact: FloatArray,
+    spring: Vector,
     wrench: FloatArray,
     output: FloatArray,
 ) -> tuple[float, tuple[float, float], tuple[float, float]]:
     """Add one contact to the wheel's wrench and output; its load, rate of u and slip."""
-    e, v_hub, omega = motion
+    e, v_hub, omega = motion[:3]
     n, r, q = (contact[1], contact[2], contact[3]), (contact[4], contact[5], contact[6]), contact[10]
     t = over_length(cross(e, n))
     left = cross(n, t)
     turning = cross(omega, r)
     v = along(v_hub, 1.0, turning)
-    load = _normal_load(contact[0], -dot(n, v) / q, q, numbers)
     u_hub = contact[7], contact[8], contact[9]
+    load = _normal_load(spring, -dot(n, v) / q, q, numbers)
     to_rim = -(numbers.radius + dot(r, u_hub))
     rolling = -dot(turning, t) - to_rim * dot(cross(omega, u_hub), t)
     speed = rolling if int(numbers.law) == BRUSH else dot(v_hub, t)
@@ -202,11 +218,12 @@ def _add_contact(
     resistance = numbers.rolling_resistance * load * arm * math.tanh(rolling / numbers.standstill_speed)
     M = along(along(cross(r, F), M_z, n), -resistance, e)
     M = along(M, to_rim * F_x, cross(u_hub, t))
+    M = along(M, -spring[2], e)
     for m in range(3):
         wrench[m] += F[m]
         wrench[3 + m] += M[m]
         output[4 + m] += load * r[m]
-    output[0] = max(output[0], contact[0])
+    output[0] = max(output[0], spring[0])
     output[1] += load
     output[7] += F_x
     output[8] += F_y
@@ -214,10 +231,30 @@ def _add_contact(
 
 
 @compiled
-def _normal_load(deflection: float, rate: float, q: float, numbers: WheelNumbers) -> float:
+def contact_size(numbers: WheelNumbers) -> tuple[float, float]:
+    """Radius that reaches the tips of grousers, and width [m]."""
+    return numbers.radius + numbers.potential.tips.height, numbers.width
+
+
+@compiled
+def _spring(ahead: Vector, e: Vector, numbers: WheelNumbers, contact: FloatArray, output: FloatArray) -> Vector:
+    """Of one contact: deflection since touch [m], radial force [N], and its potential's slope over a turn [N m]."""
+    if numbers.potential.energy.shape[0] == 0:
+        return contact[0], numbers.radial_stiffness * contact[0], 0.0
+    if contact[0] <= 0.0:
+        return 0.0, 0.0, 0.0
+    approach = contact[0] - numbers.potential.tips.height
+    if approach > numbers.potential.last:
+        output[9] = DEEP
+    return load_and_slope(numbers.potential, approach, facing((contact[7], contact[8], contact[9]), ahead, e))
+
+
+@compiled
+def _normal_load(spring: Vector, rate: float, q: float, numbers: WheelNumbers) -> float:
     """Normal force N of one contact [N]: spring and damper, never tensile."""
+    deflection, force, _ = spring
     share = ramp(deflection / numbers.damping_ramp) if numbers.damping_ramp > 0.0 else 1.0
-    radial = numbers.radial_stiffness * deflection + numbers.radial_damping * rate * share
+    radial = force + numbers.radial_damping * rate * share
     return max(radial, 0.0) * fading(q) / q
 
 
@@ -229,4 +266,4 @@ def _finish_output(p: Vector, terrain: TerrainPieces, output: FloatArray) -> Non
         output[4 + m] = p[m] + output[4 + m] / load
     for k in range(terrain.rows.shape[0]):
         if is_beside(terrain.rows[k], terrain.knots, p[0], p[1]):
-            output[9] = 1.0
+            output[9] = BESIDE

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import NamedTuple
 
 from contracts.errors import InputError
 from rover_dynamics.tires.brush_tire import BrushTireParameters
+from rover_dynamics.tires.wheel_potential import NO_POTENTIAL, WheelPotential
 
 __all__ = ["BrushSettings", "DamperLaw", "SlipLaw", "WheelNumbers", "wheel_numbers"]
 
@@ -45,6 +46,7 @@ class BrushSettings:
     contact_half_length : a, half the length of the patch, for the brush's aligning moment [m]
     retardation_time : tau of the bristles, which damps oscillations at standstill and nothing in steady rolling [s]
     touch_depth : deflection over which the bristles' rate goes over from fading to that of the contact [m]
+    potential : of a wheel that carries differently on every orientation; k_r is only its mean then
     standstill_speed : below it the wheel counts as standing for friction falling with slip, and the rolling
         resistance passes smoothly through zero [m/s]
 
@@ -66,6 +68,7 @@ class BrushSettings:
     retardation_time: float = 0.005
     standstill_speed: float = 0.001
     touch_depth: float = 1e-4
+    potential: WheelPotential | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for name in (
@@ -84,7 +87,8 @@ class BrushSettings:
 class WheelNumbers(NamedTuple):
     """All numbers of a wheel [SI], as `BrushTireParameters` and `BrushSettings` define them.
 
-    ``damping_ramp`` is 0 for the damper as printed, ``law`` the value of `SlipLaw`.
+    ``damping_ramp`` is 0 for the damper as printed, ``law`` the value of `SlipLaw`; ``potential`` takes the place of
+    ``radial_stiffness`` where it has pieces.
     """
 
     radius: float
@@ -103,6 +107,7 @@ class WheelNumbers(NamedTuple):
     standstill_speed: float
     touch_depth: float
     law: float
+    potential: WheelPotential
 
 
 def wheel_numbers(parameters: BrushTireParameters, settings: BrushSettings) -> WheelNumbers:
@@ -128,6 +133,7 @@ def wheel_numbers(parameters: BrushTireParameters, settings: BrushSettings) -> W
         standstill_speed=settings.standstill_speed,
         touch_depth=settings.touch_depth,
         law=float(settings.slip_law),
+        potential=NO_POTENTIAL if settings.potential is None else settings.potential,
     )
 
 

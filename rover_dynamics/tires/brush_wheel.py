@@ -9,7 +9,7 @@ from contracts.errors import InputError
 from contracts.terrain import Terrain
 from contracts.tire import HubMotion, HubWrench, TireOutput, TireResponse
 from rover_dynamics.tires.brush_derivatives import MOTION, brush_derivatives, derivative_result
-from rover_dynamics.tires.brush_force import BrushResult, HubMotions, brush_forces, brush_result, brush_scratch
+from rover_dynamics.tires.brush_force import BESIDE, BrushResult, HubMotions, brush_forces, brush_result, brush_scratch
 from rover_dynamics.tires.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 
@@ -65,7 +65,7 @@ class BrushWheels:
         self._check(motions, state)
         result = brush_result(self._wheels, self.pieces)
         brush_forces(motions, state, self.numbers, self.pieces, result, self._scratch)
-        beside = np.flatnonzero(result.output[:, 9])
+        beside = np.flatnonzero(result.output[:, 9] == BESIDE)
         if beside.size:
             place = motions.position[beside[0], :2]
             rule = "must lie over the terrain's height field"

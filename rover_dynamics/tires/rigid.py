@@ -42,6 +42,7 @@ def rigid_settings(settings: BrushSettings | None = None) -> BrushSettings:
         settings,
         damping_ramp=settings.damping_ramp / TIMES_STIFFER,
         touch_depth=settings.touch_depth / TIMES_STIFFER,
+        potential=None,
     )
 
 

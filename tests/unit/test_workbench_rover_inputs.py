@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, fields, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
-from workbench.commands.rover_tires import on_tires
+from workbench.commands.rover_tires import TireSource, on_tires
 from workbench.execution.task import Task
 from workbench.questions.rover.question import ROVER
 from workbench.questions.rover.tires import AncfRide, contact_law
@@ -125,10 +126,14 @@ def test_the_built_in_studys_ancf_tire_and_contact_are_the_thesis() -> None:
     assert contact_law(found.preset) == replace(THESIS_LAW, damping_depth=1e-3)
 
 
+def source(study: Study) -> TireSource:
+    return TireSource(study=study, path=None, store=Path("nowhere"))
+
+
 def test_the_scenarios_on_the_built_in_studys_brush_are_those_of_the_catalogue() -> None:
     frictions = {"traction": (0.6, 0.6), "stability": (10.0, 10.0)}
     for name, scenario in SCENARIOS.items():
-        driven = on_tires(scenario, "brush", STUDY, DESIGN)
+        driven = on_tires(scenario, "brush", source(STUDY), DESIGN)
         assert replace(driven, tire=scenario.tire) == scenario
         before, after = scenario.vehicle(DESIGN), driven.vehicle(DESIGN)
         assert replace(after.tire, source=before.tire.source) == before.tire
@@ -179,7 +184,7 @@ def test_a_load_sweep_begins_on_a_spoke_wherever_the_spokes_stand() -> None:
 
 @pytest.mark.parametrize("tire", ["rigid", "brush", "ancf"])
 def test_the_ground_reaches_every_tire_of_the_command(tire: str) -> None:
-    driven = on_tires(SCENARIOS["traction"], tire, changed("ground", friction=0.25), DESIGN)
+    driven = on_tires(SCENARIOS["traction"], tire, source(changed("ground", friction=0.25)), DESIGN)
     assert (driven.friction, driven.tire_model) == (0.25, tire)
     assert driven.title.endswith("friction 0.25")
     if isinstance(driven.ride, AncfRide):
@@ -191,13 +196,13 @@ def test_the_ground_reaches_every_tire_of_the_command(tire: str) -> None:
 def test_a_study_of_another_wheel_is_refused_and_its_ancf_tire_not_driven() -> None:
     amalia = read_study(built_in_study().parent / "amalia.toml")
     with pytest.raises(InputError, match=r"study's wheel = 90 mm: is not that of the rover's wheels, 142\.5 mm"):
-        on_tires(SCENARIOS["static"], "brush", amalia, DESIGN)
+        on_tires(SCENARIOS["static"], "brush", source(amalia), DESIGN)
     small = replace(DESIGN, wheel_radius=0.09)
     for tire in ("brush", "ancf"):  # the thesis' tires are none of a smaller wheel
         with pytest.raises(InputError, match=rf"\[{tire}\]: is not in the study"):
-            on_tires(SCENARIOS["static"], tire, amalia, small)
+            on_tires(SCENARIOS["static"], tire, source(amalia), small)
     own = amalia.model_copy(update={"brush": changed("brush", radial_stiffness=16500.0).brush})
-    assert on_tires(SCENARIOS["static"], "brush", own, small).tire.radial_stiffness == 16500.0
+    assert on_tires(SCENARIOS["static"], "brush", source(own), small).tire.radial_stiffness == 16500.0
     assert (fits_rover(STUDY), fits_rover(amalia)) == (True, False)
     questions: Mapping[str, Any] = {t.name: t for t in (ROVER_ANCF, ROVER_CROSSCHECK, ROVER_MISSION, ROVER_CLOSER)}
     assert [t.applies(amalia) for t in questions.values()] == [False] * 4

@@ -19,7 +19,7 @@ from rover_dynamics.rover.scenarios.ground import on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from workbench.commands.computing import read_and_warn, warn
-from workbench.commands.rover_tires import check_tire, on_tires
+from workbench.commands.rover_tires import TireSource, check_tire, on_tires
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console, empty_table
 from workbench.report.folders import check_folder, check_targets
@@ -77,7 +77,7 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
     RunError
         If the motion stops early; its series is written, marked partial.
     """
-    scenario, design = _chosen(name, choices)
+    scenario, design = _chosen(name, choices, store)
     check_folder(out)
     stem = f"{scenario.name}_{choices.tire}"
     targets = (f"{SERIES_FOLDER}/{stem}.csv", f"{MOTIONS_FOLDER}/{stem}.npz", f"{scenario.name}.html")
@@ -159,7 +159,7 @@ def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Pa
     write_animation(run.motion, design, ground, page, title=title, up=(-x, -y, -z), tire=tire)
 
 
-def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDesign]:
+def _chosen(name: str | None, choices: RoverChoices, store: Path) -> tuple[Scenario, RoverDesign]:
     """The scenario with the tires and on the ground asked for, and the rover."""
     check_tire(choices.tire)
     if name is None:
@@ -170,7 +170,7 @@ def _chosen(name: str | None, choices: RoverChoices) -> tuple[Scenario, RoverDes
     if choices.gravity is not None:
         design = replace(design, gravity=gravity_named(choices.gravity))
     study = None if choices.study is None else read_and_warn(choices.study)
-    scenario = on_tires(scenario, choices.tire, study, design)
+    scenario = on_tires(scenario, choices.tire, TireSource(study=study, path=choices.study, store=store), design)
     return _on_ground(scenario, design, choices), design
 
 

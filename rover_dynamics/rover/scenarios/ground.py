@@ -21,8 +21,17 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.scenario import FloatArray, Scenario
 from rover_dynamics.tires.brush_tire import BrushTireParameters
 from rover_dynamics.tires.rigid import rigid_parameters, rigid_settings
+from rover_dynamics.tires.wheel_potential import WheelPotential, mean_stiffness
 
-__all__ = ["on_brush_tires", "on_friction", "on_rigid_tires", "on_terrain", "rocks_on_the_way", "touching_height"]
+__all__ = [
+    "on_brush_tires",
+    "on_friction",
+    "on_rigid_tires",
+    "on_terrain",
+    "on_wheel_curves",
+    "rocks_on_the_way",
+    "touching_height",
+]
 
 ABUNDANCE = 0.2
 """Share of the ground under random rocks, as in `benchmarks/rover_brush.py`: a rocky site."""
@@ -92,6 +101,16 @@ def on_rigid_tires(scenario: Scenario) -> Scenario:
         settings=rigid_settings(scenario.settings),
         tire_model="rigid",
     )
+
+
+def on_wheel_curves(scenario: Scenario, potential: WheelPotential, source: str) -> Scenario:
+    """The same on six wheels that carry as their own curves say, with friction, slip and damper of the brush tire.
+
+    All six stand on their position 0 at the start, and none is the mirror image of another.
+    """
+    tire = replace(scenario.tire, radial_stiffness=mean_stiffness(potential), source=source)
+    settings = replace(scenario.settings, potential=potential)
+    return replace(scenario, tire=tire, settings=settings, tire_model="fe", has_closed_forms=False)
 
 
 def touching_height(terrain: Terrain, design: RoverDesign) -> float:

@@ -23,6 +23,7 @@ from contracts.terrain import Plane, Terrain
 from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.tires.brush_force import BESIDE, DEEP
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, with_friction
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
@@ -39,7 +40,7 @@ __all__ = [
 ]
 
 FloatArray = NDArray[np.float64]
-_PENETRATION, _LOAD, _SLIP, _PATCH, _TRACTIVE, _LATERAL, _BESIDE = 0, 1, 2, 4, 7, 8, 9
+_PENETRATION, _LOAD, _SLIP, _PATCH, _TRACTIVE, _LATERAL, _MARK = 0, 1, 2, 4, 7, 8, 9
 """Columns of `rover_dynamics.tires.brush_force.OUTPUT_SIZE`."""
 
 
@@ -253,7 +254,9 @@ def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
         raise ConvergenceError(message, []) from error
     _check_covered(motion)
     begin = int(np.searchsorted(motion.times, 0.0))
-    kept = {name: rows[begin:] for name, rows in sampled(motion).items()}
+    end, deep = _within_curves(motion, scenario, design)
+    kept = {name: rows[begin:end] for name, rows in sampled(motion).items()}
+    stopped = deep or stopped
     return ScenarioRun(scenario=scenario, design=design, motion=replace(motion, **kept), stopped=stopped)
 
 
@@ -265,12 +268,28 @@ def sampled(motion: VehicleMotion) -> dict[str, Any]:
 
 def _check_covered(motion: VehicleMotion) -> None:
     """Refuse a motion in which a hub came to lie beside the terrain's height field."""
-    times, wheels = np.nonzero(motion.tires[:, :, _BESIDE])
+    times, wheels = np.nonzero(motion.tires[:, :, _MARK] == BESIDE)
     if times.size:
         x, y = motion.tires[times[0], wheels[0], _PATCH : _PATCH + 2]
         place, when = f"x, y = {x:g}, {y:g} m", motion.times[times[0]]
         rule = f"lies beside the terrain, which the rover left by t = {when:g} s"
         raise InputError("path", place, rule, "give a larger field or another start")
+
+
+def _within_curves(motion: VehicleMotion, scenario: Scenario, design: RoverDesign) -> tuple[int, str | None]:
+    """Rows up to where a wheel is pressed deeper than its curves go, and words for that; ConvergenceError at rest."""
+    times, wheels = np.nonzero(motion.tires[:, :, _MARK] == DEEP)
+    if not times.size or scenario.settings.potential is None:
+        return len(motion.times), None
+    k, wheel = int(times[0]), int(wheels[0])
+    depth, load = 1e3 * motion.tires[k, wheel, _PENETRATION], motion.tires[k, wheel, _LOAD]
+    message = (
+        f"wheel {design.legs[wheel].name} is pressed {depth:.3g} mm deep at t = {motion.times[k]:.4g} s,"
+        f" with {load:.0f} N: its curves end at {1e3 * scenario.settings.potential.last:.3g} mm"
+    )
+    if motion.times[k] <= 0.0:
+        raise ConvergenceError(message, [])
+    return k, message
 
 
 def scenario_series(run: ScenarioRun) -> TimeSeries:

@@ -1,0 +1,57 @@
+"""From a study and its solid model's curves to the potential of its wheel."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contracts.curves import StiffnessCurve, write_curve
+from rover_dynamics.tires.wheel_potential import load_and_slope, raise_and_slope
+from workbench.questions.model_curves import CURVE
+from workbench.questions.models.wheel_curves import curves_around, orientations_to_solve, wheel_potential_of
+from workbench.study.model import Study
+from workbench.study.orientation import orientation_name
+from workbench.study.reading import built_in_study, read_study
+
+STUDIES = built_in_study().parent
+
+
+def curve(orientation: float) -> StiffnessCurve:
+    """Stiffer by a tenth where a mirrored wheel stands on its position 0."""
+    d = np.linspace(0.0, 40e-3, 9)
+    load = 8000.0 * d * (1.0 + 0.1 * math.cos(math.radians(3.0 * orientation)))
+    return StiffnessCurve(model="fe", orientation_deg=orientation, deflection=d, load=load, source="made up")
+
+
+def solved(study: Study, folder: Path) -> dict[str, Path]:
+    folders = {}
+    for one in orientations_to_solve(study):
+        name = orientation_name("fe", one)
+        (folder / name).mkdir()
+        write_curve(curve(one), folder / name / CURVE)
+        folders[name] = folder / name
+    return folders
+
+
+@pytest.mark.parametrize(("name", "count"), [("exomars", 24), ("exomars_hoops", 13)])
+def test_a_mirrored_wheel_is_solved_over_half_of_its_period(name: str, count: int, tmp_path: Path) -> None:
+    study = read_study(STUDIES / f"{name}.toml")
+    assert len(orientations_to_solve(study)) == count
+    found = curves_around(study, solved(study, tmp_path))
+    assert [one.orientation_deg for one in found] == [5.0 * k for k in range(24)]
+    for one in found:
+        np.testing.assert_allclose(one.load, curve(one.orientation_deg or 0.0).load)
+
+
+def test_the_potential_knows_the_studys_grousers(tmp_path: Path) -> None:
+    """Twelve, 3 mm high, the first at 0.97 degrees, 1 mm thick: sin of the tip's half angle is 0.5 / 145.5."""
+    study = read_study(built_in_study())
+    wheel = wheel_potential_of(study, curves_around(study, solved(study, tmp_path)))
+    assert wheel.tips.half == pytest.approx(math.asin(0.5 / 145.5))
+    assert raise_and_slope(wheel.tips, math.radians(30.97))[0] == pytest.approx(3e-3)
+    assert raise_and_slope(wheel.tips, math.radians(15.0))[0] == 0.0
+    assert load_and_slope(wheel, 20e-3, math.radians(15.0))[1] == pytest.approx(curve(15.0).load_at(20e-3), rel=1e-3)
+    assert wheel.last == pytest.approx(37e-3, rel=1e-3)

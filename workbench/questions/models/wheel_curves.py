@@ -1,0 +1,56 @@
+"""Curves of a study's wheel all around, and the potential that the rover's tires make of them.
+
+Verified by tests/unit/test_workbench_wheel_curves.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from contracts.curves import StiffnessCurve, read_curve
+from rover_dynamics.tires.wheel_potential import Tips, WheelPotential, wheel_potential
+from workbench.questions.model_curves import CURVE
+from workbench.study.full import is_mirrored, rotational_period, steps_around
+from workbench.study.model import Study
+from workbench.study.orientation import orientation_name
+from workbench.study.wheel_design import wheel_design
+
+__all__ = ["curves_around", "orientations_to_solve", "wheel_potential_of"]
+
+
+def orientations_to_solve(study: Study) -> list[float]:
+    """Orientations [deg] by ``full.orientation_step``, over one period, or half of one where it mirrors itself."""
+    steps = steps_around(study)
+    return [one for one in steps if not is_mirrored(study) or one <= 0.5 * rotational_period(study) + 1e-9]
+
+
+def curves_around(study: Study, folders: Mapping[str, Path]) -> list[StiffnessCurve]:
+    """Curves of the solid model at every step of one period, from the folders of those solved."""
+    solved = {
+        one: read_curve(folders[orientation_name("fe", one)] / CURVE, model="fe", orientation_deg=one)
+        for one in orientations_to_solve(study)
+    }
+    period = rotational_period(study)
+    return [
+        solved[one] if one in solved else replace(_nearest(solved, period - one), orientation_deg=one)
+        for one in steps_around(study)
+    ]
+
+
+def _nearest(solved: Mapping[float, StiffnessCurve], orientation: float) -> StiffnessCurve:
+    return solved[min(solved, key=lambda one: abs(one - orientation))]
+
+
+def wheel_potential_of(study: Study, curves: Sequence[StiffnessCurve]) -> WheelPotential:
+    """Potential of the study's wheel through curves at every step of one period."""
+    design = wheel_design(study)
+    radius, grousers = design.tire.outer_radius, design.grousers
+    tips = Tips(radius=radius, height=0.0, number=1.0, phase=0.0, half=0.0)
+    if grousers is not None:
+        half = math.asin(0.5 * grousers.thickness / (radius + grousers.height))
+        height, number = grousers.height, float(grousers.count)
+        tips = Tips(radius=radius, height=height, number=number, phase=grousers.phase, half=half)
+    return wheel_potential(curves, math.radians(rotational_period(study)), tips)
