@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from contracts.curves import StiffnessCurve, write_curve
+from contracts.errors import InputError
 from rover_dynamics.tires.wheel_potential import load_and_slope, raise_and_slope
 from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_curves import curves_around, orientations_to_solve, wheel_potential_of
@@ -55,3 +56,10 @@ def test_the_potential_knows_the_studys_grousers(tmp_path: Path) -> None:
     assert raise_and_slope(wheel.tips, math.radians(15.0))[0] == 0.0
     assert load_and_slope(wheel, 20e-3, math.radians(15.0))[1] == pytest.approx(curve(15.0).load_at(20e-3), rel=1e-3)
     assert wheel.last == pytest.approx(37e-3, rel=1e-3)
+
+
+def test_curves_of_other_ground_are_refused() -> None:
+    study = read_study(built_in_study())
+    leaning = study.model_copy(update={"fe": study.fe.model_copy(update={"camber": math.radians(5.0)})})
+    with pytest.raises(InputError, match=r"ground of \[fe\] = plane, camber 5 deg: is not the level plane"):
+        orientations_to_solve(leaning)

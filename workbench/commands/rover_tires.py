@@ -53,8 +53,9 @@ def _on_ancf(scenario: Scenario, source: TireSource) -> Scenario:
 
 def _on_fe(scenario: Scenario, source: TireSource) -> Scenario:
     """The study's wheel by its solid model's curves all around, computed here if they are not kept."""
-    from workbench.commands.computing import computed, naming, read_and_warn
+    from workbench.commands.computing import complain_of_early_ends, computed, naming, read_and_warn
     from workbench.commands.options import computing
+    from workbench.execution.result_files import early_ends
     from workbench.questions.models.wheel_curves import curves_around, orientations_to_solve, wheel_potential_of
     from workbench.questions.study_graph import stiffness_tasks
     from workbench.study.reading import built_in_study
@@ -63,8 +64,10 @@ def _on_fe(scenario: Scenario, source: TireSource) -> Scenario:
     study = source.study or read_and_warn(path)
     tasks = stiffness_tasks(study, "fe", orientations_to_solve(study))
     entries = computed(path, tasks, source.store, computing(None, 1, None))
+    folders = {name: entry.path for name, entry in entries.items()}
+    complain_of_early_ends(path, early_ends(folders))
     with naming(path):
-        curves = curves_around(study, {name: entry.path for name, entry in entries.items()})
+        curves = curves_around(study, folders)
         potential = wheel_potential_of(study, curves)
     words = f"{len(curves)} curves of the solid model of {study.name}"
     return on_wheel_curves(_on_brush(scenario, source), potential, words)
