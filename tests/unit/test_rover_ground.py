@@ -19,12 +19,15 @@ from rover_dynamics.rover.scenarios.ground import (
     on_friction,
     on_rigid_tires,
     on_terrain,
+    on_wheel_curves,
     rocks_on_the_way,
     touching_height,
 )
 from rover_dynamics.rover.scenarios.scenario import run_scenario
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
+from rover_dynamics.tires.wheel_potential import load_and_slope, wheel_potential
+from tests.unit.test_wheel_potential import GROUSERS, PERIOD, curves
 
 DRIVES = ("straight", "traction", "slope_up", "slope_down", "slope_across", "point_turn")
 
@@ -133,3 +136,19 @@ def test_gravity_by_name() -> None:
     assert (gravity_named("mars"), gravity_named("earth")) == (3.711, 9.81)
     with pytest.raises(InputError, match="'moon': is not known; give mars or earth"):
         gravity_named("moon")
+
+
+def test_on_its_own_wheels_the_rover_stands_on_their_curves(design: RoverDesign) -> None:
+    """Drives held: every wheel still stands on position 0. Curves too short for its weight end it in words."""
+    wheel = wheel_potential(curves(GROUSERS), PERIOD, GROUSERS)
+    run = run_scenario(on_wheel_curves(SCENARIOS["drop"], wheel, "made up"), design)
+    assert (run.stopped, run.scenario.tire_model) == (None, "fe")
+    approach = run.deflections[-1] - (GROUSERS.radius + GROUSERS.height) * np.cos(GROUSERS.phase - GROUSERS.half)
+    approach += GROUSERS.radius
+    found = [load_and_slope(wheel, float(one), 0.0)[1] for one in approach]
+    np.testing.assert_allclose(run.loads[-1], found, rtol=2e-3)
+    short = [replace(one, deflection=0.4 * one.deflection, load=0.4 * one.load) for one in curves(GROUSERS)]
+    shallow = on_wheel_curves(SCENARIOS["drop"], wheel_potential(short, PERIOD, GROUSERS), "made up")
+    stopped = run_scenario(shallow, design).stopped
+    assert stopped is not None
+    assert "N: its curves end at 14.2 mm of the rim, 3 mm more on a grouser" in stopped

@@ -283,9 +283,10 @@ def _within_curves(motion: VehicleMotion, scenario: Scenario, design: RoverDesig
         return len(motion.times), None
     k, wheel = int(times[0]), int(wheels[0])
     depth, load = 1e3 * motion.tires[k, wheel, _PENETRATION], motion.tires[k, wheel, _LOAD]
+    end, tip = 1e3 * scenario.settings.potential.last, 1e3 * scenario.settings.potential.tips.height
     message = (
         f"wheel {design.legs[wheel].name} is pressed {depth:.3g} mm deep at t = {motion.times[k]:.4g} s,"
-        f" with {load:.0f} N: its curves end at {1e3 * scenario.settings.potential.last:.3g} mm"
+        f" with {load:.0f} N: its curves end at {end:.3g} mm of the rim, {tip:.3g} mm more on a grouser; go deeper"
     )
     if motion.times[k] <= 0.0:
         raise ConvergenceError(message, [])
