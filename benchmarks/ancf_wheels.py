@@ -45,6 +45,7 @@ def both(solid: StiffnessCurve, plates: StiffnessCurve) -> dict[str, Any]:
         "deflection_m": at,
         "fe_N": [solid.load_at(min(d, float(solid.deflection[-1]))) for d in at],
         "plates_N": [plates.load_at(d) for d in at],
+        "partial": solid.partial or plates.partial,
         "stress_apart": largest(stress) if len(stress) else None,
     }
 

@@ -58,12 +58,13 @@ def plates_on_surface(
 
     Nodes (i, j) of the grid have the number i (n_v + 1) + j. The plates' parameters are u and v times the surface's
     mean lengths along them over their range. ``membrane_points`` as `ThinPlates`: (4, 2) for one more curved along v.
+    A surface that closes on itself stays slit where it begins.
 
     Raises
     ------
     InputError
-        For a degree above 3, a surface with a kink between its pieces, subdivisions below 1, and a surface that
-        `ThinPlates` refuses.
+        For a degree above 3, a surface whose slopes jump between its pieces (a kink, or parameters of unequal speed),
+        subdivisions below 1, and a surface that `ThinPlates` refuses.
     """
     if min(subdivisions) < 1:
         raise InputError("subdivisions", subdivisions, "must be 1 or more along u and v", "give (1, 1)")
@@ -83,7 +84,7 @@ def plates_on_surface(
         grid[:] = own
     jump = max(float(np.abs(grid - own).max()) for grid, own in grids)
     if jump > _KINK * float(np.abs(nodes[:, :, 0, 1]).max()):
-        rule = "has a kink between two of its pieces: plates keep their slopes"
+        rule = "must go on from piece to piece, which a kink or parameters of unequal speed prevent"
         raise InputError(f"{surface.name}: slopes", f"jump of {jump:.3g}", rule, "split the surface there")
     m, n = len(breaks[0]), len(breaks[1])
     numbers = np.arange(m * n).reshape(m, n)

@@ -31,12 +31,14 @@ def found(wheel: ComparedWheel, off: float = 1.01) -> dict[str, Any]:
             "fe_N": solid,
             "plates_N": list(solid),
             "stress_apart": 0.01,
+            "partial": False,
         }
         for o in wheel.orientations
     ]
     curves[-1] |= {"plates_N": [20.0, 40.0 * off], "stress_apart": -0.03}
     counts = {name: [k] * len(curves) for name, k in (("plates", 900), ("fe", 5000))}
-    fine = {"deflection_m": [0.001, 0.002], "fe_N": [19.8, 39.6], "plates_N": [19.4, 38.8 * off], "stress_apart": 0.02}
+    fine = {"deflection_m": [0.001, 0.002], "fe_N": [19.8, 39.6], "plates_N": [19.4, 38.8 * off]}
+    fine |= {"stress_apart": 0.02, "partial": False}
     return {"curves": curves, "fine": fine, "unknowns": counts, "solve_s": counts}
 
 
@@ -62,6 +64,18 @@ def test_the_numbers_of_a_record() -> None:
     assert says.finer == pytest.approx(19.4 / 19.8 - 1.0)
     assert says.unknowns == (900.0, 5000.0)
     assert (says.stress, says.stress_finer) == (-0.03, 0.02)
+
+
+def test_curves_that_end_early_are_told_and_decide_nothing(studies: Path) -> None:
+    numbers = found(AMALIA)
+    numbers["curves"][0] |= {"deflection_m": [0.001], "fe_N": [20.0], "plates_N": [20.0]}
+    assert agreement(AMALIA, numbers).ends == (0.001, 0.002)
+    assert not agreement(AMALIA, numbers).partial
+    numbers["curves"][0]["partial"] = True
+    study = study_with(studies, AMALIA, numbers)
+    (check,) = ANCF_WHEELS.checks(study, ANCF_WHEELS.read(study, {}))
+    assert check.status == "undecided"
+    assert check.tolerance.endswith("; a run ended early")
 
 
 def test_springs_that_touch_at_once_have_no_stress_to_compare(studies: Path) -> None:

@@ -73,7 +73,8 @@ def wheel_tasks(wheel: ComparedWheel, study: Study) -> list[Task]:
     """Curves of both models at every orientation, named as the report's; ``fe_fine`` and ``ancf_wheel_fine``."""
     curves = fe_curve_tasks(study, wheel.orientations)
     mesh = mesh_task(study, "mesh_fine", factor=FINER * study.mesh.factor)
-    inputs = fe_inputs(study, wheel.fine, every_second(curve_deflections(study)))
+    points = curve_deflections(study)
+    inputs = fe_inputs(study, wheel.fine, points if study.fe.friction else every_second(points))  # as the plates' own
     solid = [mesh_task(study, MESH), *curves, mesh, fe_task("fe_fine", without_fields(inputs), mesh.name)]
     plates = ancf_wheel_curve_tasks(study, wheel.orientations)
     (one,) = (task for task in plates if task.inputs["orientation_deg"] == wheel.fine)

@@ -76,7 +76,7 @@ def _checks(study: Study, results: Sequence[HeldWheel]) -> Sequence[Check]:
 
 
 def _check(found: HeldWheel, limit: float) -> Check:
-    """Undecided where the record is about another study of that wheel."""
+    """Undecided where the record is about another study of that wheel, or a run of it ended early."""
     claim = Claim(
         id=f"ancf_wheels.{found.wheel.name}",
         title=f"ANCF wheel against the solid model, {found.wheel.title}: load at any orientation",
@@ -86,9 +86,10 @@ def _check(found: HeldWheel, limit: float) -> Check:
         source="our own solid model of the same design: code to code, no number fitted",
     )
     check = at_most(claim, lambda: abs(found.agreement.largest), limit)
-    if found.state != "stale":
+    why = "the kept record is of another study" if found.state == "stale" else "a run ended early"
+    if found.state != "stale" and not found.agreement.partial:
         return check
-    return replace(check, tolerance=f"{check.tolerance}; the kept record is of another study", status="undecided")
+    return replace(check, tolerance=f"{check.tolerance}; {why}", status="undecided")
 
 
 ANCF_WHEELS = Question(

@@ -24,7 +24,8 @@ class Agreement:
     Attributes
     ----------
     orientations : [deg]
-    furthest : largest deflection compared [m]
+    ends : smallest and largest last deflection compared, over orientations [m]
+    partial : whether a run of either model ended before its target
     largest, at_deg, at_m : the difference of largest size, its sign kept, with orientation [deg] and deflection [m]
     mean : of the differences' sizes
     plates_mesh, solid_mesh : what a mesh twice as fine moves each model's load by, largest at any point, sign kept
@@ -35,7 +36,8 @@ class Agreement:
     """
 
     orientations: int
-    furthest: float
+    ends: tuple[float, float]
+    partial: bool
     largest: float
     at_deg: float
     at_m: float
@@ -71,9 +73,11 @@ def agreement(wheel: ComparedWheel, found: Mapping[str, Any]) -> Agreement:
     moved = {
         name: _apart(np.array(fine[name])[at_fine], np.array(coarse[name])[at_coarse]) for name in ("plates_N", "fe_N")
     }
+    ends = [float(one["deflection_m"][-1]) for one in curves.values()]
     return Agreement(
         orientations=len(curves),
-        furthest=max(float(one["deflection_m"][-1]) for one in curves.values()),
+        ends=(min(ends), max(ends)),
+        partial=any(bool(one["partial"]) for one in (*curves.values(), fine)),
         largest=float(apart[at_deg][k]),
         at_deg=at_deg,
         at_m=float(curves[at_deg]["deflection_m"][k]),
