@@ -16,7 +16,7 @@ LETTERS = {
     **{"kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ"},
     **{"tau": "τ", "phi": "ϕ", "varphi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ"},
     **{"Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω"},
-    "infty": "∞",
+    **{"infty": "∞", "ell": "ℓ"},
 }
 OPERATORS = {
     **{"cdot": "⋅", "times": "×", "otimes": "⊗", "pm": "±", "to": "→", "leftarrow": "←", "le": "≤", "ge": "≥"},

@@ -162,7 +162,9 @@ def test_half_a_wheel_carries_what_the_whole_does(states: list[Equilibrium]) -> 
     whole = build_ancf_wheel(small(), element_size=40e-3, axial_size=60e-3, half_width=False)
     found = list(press(WheelOnGround(whole, TURNED, friction=0.3), DEFLECTIONS))
     assert found[-1].load == pytest.approx(states[-1].load, rel=1e-6)
-    assert found[-1].pull.sum(axis=0)[1] == pytest.approx(0.0, abs=1e-6)
+    # works of 1e-12 that are left, of 5 N m, move a point of 1e7 N/m by 1e-9 m: 1e-2 N that may lie on one side
+    lateral = found[-1].pull[:, 1]
+    assert abs(lateral.sum()) < 5e-3 * abs(lateral).sum()
 
 
 def test_on_a_rock_its_upward_part_counts(on_rock: WheelOnGround, on_rock_states: list[Equilibrium]) -> None:
