@@ -155,6 +155,10 @@ def stiffness(
     orientation: Annotated[
         list[float] | None, typer.Option(help="Degrees; may be given several times. Default: those of the study.")
     ] = None,
+    travel: Annotated[
+        str | None, typer.Option(help="Move the pressed hub: fore_aft, lateral, turning or all (fe and ancf_wheel).")
+    ] = None,
+    load: Annotated[float, typer.Option(help="Load from which the hub moves [N]; with --travel.")] = 200.0,
     out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
     store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
@@ -165,6 +169,10 @@ def stiffness(
     from workbench.commands.stiffness import run_stiffness
 
     who = computing(workers, ranks, scheduler)
+    if travel is not None:
+        from workbench.commands.travel import run_travel
+
+        raise typer.Exit(run_travel(study, model, (travel, load), tuple(orientation or ()), out, store, who))
     raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who))
 
 

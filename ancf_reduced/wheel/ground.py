@@ -1,7 +1,8 @@
-"""Contact of an ANCF wheel's rim and grousers with rigid ground of any shape.
+"""Contact of an ANCF wheel's rim and of its grousers' tips with rigid ground of any shape.
 
 The ground is a terrain (`contracts.terrain`) in a frame of its own, whose pieces press each for themselves. It rises
-along its own z axis from where it first touches the wheel. Verified by tests/unit/test_ancf_wheel_ground.py.
+along its own z axis from where it first touches the wheel. A grouser's flanks do not touch.
+Verified by tests/unit/test_ancf_wheel_ground.py.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ from ancf_reduced.wheel.contacts import Near, Points, Surface
 from ancf_reduced.wheel.mesh import AncfWheel
 from contracts.errors import InputError
 from contracts.frames import ground_direction_h
-from contracts.terrain import PieceKind, Terrain
+from contracts.hub_travel import HubTravel, Way
+from contracts.terrain import PieceKind, Plane, Terrain
 
 __all__ = ["GroundContact", "Pose", "ground_frame"]
 
@@ -54,15 +56,26 @@ class GroundContact:
     terrain : in the ground's frame
     frame : rows (3, 3) forward, left, normal of the ground, from `ground_frame`
     penalty : [N/m^3]
+    travel : what follows the rise, or None
 
     Raises
     ------
     InputError
-        For half a wheel on ground that is not symmetric about its middle plane.
+        For half a wheel on ground that is not symmetric about its middle plane, or moved otherwise than along it; for a
+        travel over ground that is not plane.
     """
 
-    def __init__(self, wheel: AncfWheel, terrain: Terrain, frame: Array, penalty: float) -> None:
+    def __init__(
+        self, wheel: AncfWheel, terrain: Terrain, frame: Array, penalty: float, travel: HubTravel | None = None
+    ) -> None:
         self._points, self._frame, self._penalty = Points(wheel, wheel.ground), frame, penalty
+        self._travel = travel
+        if travel is not None and not isinstance(terrain, Plane):
+            rule = "must be a plane if the wheel is moved over it"
+            raise InputError("ground", type(terrain).__name__, rule, "leave out the travel")
+        if travel is not None and wheel.sides > 1.0 and travel.way is not Way.FORE_AFT:
+            rule = "is not symmetric about the wheel's middle plane"
+            raise InputError("travel", travel.way.value, rule, "build the full width (half_width=False)")
         self._rows, self._knots, _ = terrain.pieces()
         if wheel.sides > 1.0:
             _require_symmetric(self._rows, frame)
@@ -75,8 +88,13 @@ class GroundContact:
         self._touch = self._first_touch(places)
 
     def risen(self, deflection: float) -> Pose:
-        """The ground's pose where it has risen by a deflection [m] from first touch."""
-        return self._frame, np.array([0.0, 0.0, self._touch + deflection])
+        """The ground's pose where it has risen by a deflection [m] from first touch; what follows counts on from it."""
+        if self._travel is None or deflection <= self._travel.start:
+            return self._frame, np.array([0.0, 0.0, self._touch + deflection])
+        motion = self._travel.ground(deflection)
+        c, s = np.cos(motion.turned), np.sin(motion.turned)
+        back = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+        return back @ self._frame, back @ np.array([motion.forward, motion.left, self._touch + motion.up])
 
     def near(self, q: Array, pose: Pose, forces: Array, blocks: Array) -> Near:
         """Points within reach of the ground; adds to blocks what forces add.

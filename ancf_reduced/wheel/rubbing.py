@@ -107,11 +107,11 @@ def rubbed(ground: GroundContact, q: Array, pose: Pose, near: Near, pressed: Arr
     assert near.surface is not None
     under = np.flatnonzero(pressed[near.points] > 0.0)
     numbers, normals = near.points[under], near.surface.normals[under]
-    risen = pose[0].T @ (pose[1] - since.pose[1])
-    way = near.surface.places[under] - ground.places(since.q, numbers) - risen
+    (R, origin), (R_then, then) = pose, since.pose
+    way = near.surface.places[under] - (ground.places(since.q, numbers) @ R_then.T + (origin - then)) @ R
     across = np.eye(3) - normals[:, :, None] * normals[:, None, :]
     stick = near.stiffness[under]
-    elastic = since.pull[numbers] - stick[:, None] * way
+    elastic = since.pull[numbers] @ (R_then.T @ R) - stick[:, None] * way
     trial = np.einsum("pij,pj->pi", across, elastic)
     size, limit = np.linalg.norm(trial, axis=1), since.coefficient * pressed[numbers]
     slides = np.where(size > limit, 1.0 / np.maximum(size, limit), 0.0)[:, None] * trial

@@ -25,6 +25,7 @@ from ancf_reduced.wheel.mesh import AncfWheel
 from ancf_reduced.wheel.reduction import Reduction
 from ancf_reduced.wheel.rubbing import Rubbed, Since, congruent, rubbed
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from contracts.hub_travel import HubTravel
 from contracts.terrain import Plane, Terrain
 
 __all__ = ["Equilibrium", "Mixed", "System", "WheelOnGround", "press"]
@@ -57,7 +58,8 @@ class Equilibrium:
     pressed : (n_ground,) force at each contact of a point with a piece of the ground [N]
     pull : (n_ground, 3) friction there, on the wheel [N]
     inner : (n_inner,) force at each pair of a point on a spring's or the rim's face and what it may touch [N]
-    negative : negative eigenvalues of the tangent, the contact's stiffness included: none where the wheel stands
+    negative : negative eigenvalues of the tangent, the contact's stiffness included: none where the wheel stands. With
+        friction, whose tangent is unsymmetric, negative pivots that say nothing
     residuals : work of the residual in each step, over load times deflection [-]
     """
 
@@ -109,6 +111,7 @@ class WheelOnGround:
     terrain : the ground in its own frame, x forward, z along its normal, the hub above its origin; a plane without it
     camber : of the ground about its forward direction; positive lifts its left side [rad]
     friction : Coulomb coefficient on the ground [-]
+    travel : how the hub is moved over the ground behind a deflection; `press` then takes its controls behind it
     """
 
     def __init__(
@@ -121,6 +124,7 @@ class WheelOnGround:
         terrain: Terrain | None = None,
         camber: float = 0.0,
         friction: float = 0.0,
+        travel: HubTravel | None = None,
     ) -> None:
         if not np.isfinite(orientation):
             raise InputError("orientation", f"{orientation} rad", "must be finite", "give an angle such as 0.785 rad")
@@ -135,9 +139,13 @@ class WheelOnGround:
             raise InputError("inner contact stiffness", told, "must be >= 0", "1e11 N/m^3 is usual, 0 is without")
         if not (np.isfinite(friction) and friction >= 0.0):
             raise InputError("friction coefficient", f"{friction:g}", "must be >= 0", "0 is without friction")
+        if travel is not None and friction == 0.0:
+            rule = "must be > 0 for a wheel that moves over the ground: without, nothing resists"
+            raise InputError("friction coefficient", "0", rule, "0.6 is the thesis'")
         self.wheel, self.orientation, self.camber, self.friction = wheel, orientation, camber, friction
         plates, ties = wheel.plates, wheel.ties
-        self.ground = GroundContact(wheel, terrain or Plane(), ground_frame(orientation, camber), contact_stiffness)
+        frame = ground_frame(orientation, camber)
+        self.ground = GroundContact(wheel, terrain or Plane(), frame, contact_stiffness, travel)
         self._inner = InnerContacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else None
         self.counts = [self.ground.count, *(self._inner.counts if self._inner else [])]
         at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
@@ -228,6 +236,22 @@ class WheelOnGround:
             return 0.0
         on_rim = np.split(state.inner, np.cumsum(self._inner.counts)[:-1])[RIM]
         return self.wheel.sides * float(on_rim.sum())
+
+    def wrench(self, state: Equilibrium) -> tuple[Array, Array]:
+        """Force [N] and moment about the hub's centre [N m] of the ground on the whole wheel.
+
+        Along its forward, left and up at first touch.
+        """
+        q, pose = self.wheel.coordinates(state.free), self.ground.risen(state.deflection)
+        near = self.ground.near(q, pose, np.zeros(self.ground.count), np.empty((0, 16, 3, 16, 3)))
+        assert near.surface is not None
+        forces = state.pressed[near.points, None] * near.surface.normals + state.pull[near.points]
+        axes = self.ground.risen(0.0)[0]
+        force = axes @ forces.sum(axis=0)
+        moment = axes @ np.cross(near.surface.places, forces).sum(axis=0)
+        if self.wheel.sides > 1.0:
+            force[1] = moment[0] = moment[2] = 0.0
+        return self.wheel.sides * force, self.wheel.sides * moment
 
     def _since(self, start: Equilibrium) -> Since:
         q, pose = self.wheel.coordinates(start.free), self.ground.risen(start.deflection)

@@ -14,10 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from contracts.hub_travel import HubTravel
 from reference_fe import dolfinx_api as api
 from reference_fe.contact import kernels
 from reference_fe.contact.facets import ContactFacets, gauss_line, local_stiffness, simpson_line
 from reference_fe.contact.friction_energy import sliding_dissipation, slip_energy
+from reference_fe.contact.obstacle_path import ObstaclePath
 from reference_fe.contact.obstacles import Obstacle, Plane, smallest_gap
 from reference_fe.contact.surface_term import SurfaceForces, TermState
 from reference_fe.problem.domain import Domain
@@ -54,6 +56,7 @@ class ObstacleContact:
     obstacle : its shape
     along : unit vector of the profile's s axis in the ground [-]; None where it does not matter (plane)
     rise : unit direction of the obstacle's motion r [-]; None is n
+    travel : what follows where the obstacle has risen enough; None: it rises on
     stiffness : penalty stiffness [N/m^3]; None takes `contact.facets.local_stiffness` on each facet
     ramp : gap below which the pressure begins, and above which (negative) it is linear [m]
     gauss_points : n Gauss points along each axis of a facet; the augmented Lagrangian takes 4 n - 3 evenly spaced
@@ -72,6 +75,7 @@ class ObstacleContact:
     obstacle: Obstacle = field(default_factory=Plane)
     along: tuple[float, ...] | None = None
     rise: tuple[float, ...] | None = None
+    travel: HubTravel | None = None
     stiffness: float | None = None
     ramp: float = 5e-6
     gauss_points: int = 5
@@ -88,6 +92,9 @@ class ObstacleContact:
             raise InputError("obstacle along", self.along, "must be at right angles to the normal", "turn it")
         if self.rise is not None and np.dot(self.rise, self.normal) <= 0.0:
             raise InputError("obstacle rise", self.rise, "must point to the body, as the normal does", "flip it")
+        if self.travel is not None and not isinstance(self.obstacle, Plane):
+            rule = "must be a plane if the wheel is moved over it"
+            raise InputError("obstacle", type(self.obstacle).__name__, rule, "leave out the travel")
         positive = {
             "contact stiffness": (self.stiffness, "N/m^3", "None takes it from the local stiffness"),
             "contact ramp": (self.ramp, "m", "5e-6 is usual"),
@@ -105,6 +112,11 @@ class ObstacleContact:
         """Whether multipliers close the gaps that the penalty leaves."""
         return self.method is ContactMethod.AUGMENTED_LAGRANGIAN
 
+    def path(self) -> ObstaclePath:
+        """Where the obstacle is over the control parameter."""
+        n, s, r = self.axes()
+        return ObstaclePath(normal=n, along=s, rise=r, travel=self.travel)
+
     def axes(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Unit vectors n, s and r, (dim,) each [-]."""
         n = np.array(self.normal)
@@ -113,8 +125,8 @@ class ObstacleContact:
 
     def gap(self, points: NDArray[np.float64], control: float) -> NDArray[np.float64]:
         """Normal gap of points (n, dim) from the obstacle at a control parameter, (n,) [m], open > 0."""
-        n, s, r = self.axes()
-        moved = points - control * r
+        n, s, _ = self.axes()
+        moved = points - self.path().place(control).moved
         return np.asarray(smallest_gap(self.obstacle.pieces(), moved @ s, moved @ n + self.distance_at_touch))
 
     def build(self, domain: Domain, V: api.Expr, young_modulus: NDArray[np.float64] | None = None) -> ObstacleTerm:
@@ -148,7 +160,8 @@ class ObstacleTerm:
         self._base_stiffness = STIFFENING * given if closed else given
         self.stiffness = self._base_stiffness.copy()
         self.symmetric = contact.friction == 0.0
-        self._normal, self._along, self._rise = contact.axes()
+        self._normal, self._along, _ = contact.axes()
+        self._path = contact.path()
         self._control, self._pieces = 0.0, contact.obstacle.pieces()
         facets, points, dim = self._facets.positions.shape
         self._out = kernels.PointForces.zeros(facets, points, len(self._pieces), dim)
@@ -177,12 +190,13 @@ class ObstacleTerm:
         displacement = u.reshape(-1, dim)[facets.nodes]
         x = facets.positions + np.einsum("mqk,mki->mqi", facets.shapes[facets.kind], displacement)
         self._last_x = x
-        control = self._control - lag
-        slip = x - control * self._rise - self._place
-        history = kernels.ContactHistory(multiplier=self._multiplier, traction=self._traction, place=self._place)
-        kernels.point_forces(x, slip, self._surface(control), history, out)
+        place = self._path.place(self._control - lag)
+        slip, held = x - place.of(self._place), place.turned(self._traction)
+        history = kernels.ContactHistory(multiplier=self._multiplier, traction=held, place=self._place)
+        kernels.point_forces(x, slip, self._surface(place.moved), history, out)
         if lag:
-            out.force[...] += lag * out.stiffness @ self._rise
+            way = self._path.place(self._control).of(self._place) - place.of(self._place)
+            out.force[...] += np.einsum("mqij,mqj->mqi", out.stiffness, way)
         active = np.flatnonzero(out.stiffness.any(axis=(1, 2, 3)) | out.force.any(axis=(1, 2)))
         per_facet = (active, facets.shapes, facets.kind, facets.weights)
         return SurfaceForces(
@@ -237,11 +251,12 @@ class ObstacleTerm:
         """Commit multipliers, and traction, place and dissipation for friction."""
         self._accepted_multiplier[...] = self._multiplier
         self._soften()
-        place = self._last_x - self._control * self._rise
+        now = self._path.place(self._control)
+        place, traction = now.back(self._last_x), now.turned_back(self._out.traction)
         if not self.symmetric:
-            tractions, slip = (self._traction, self._out.traction), place - self._place
+            tractions, slip = (self._traction, traction), place - self._place
             self._dissipated += sliding_dissipation(self._facets.weights, tractions, slip, self._stick)
-        self._traction[...], self._place[...] = self._out.traction, place
+        self._traction[...], self._place[...] = traction, place
 
     def state(self) -> TermState:
         """Committed multipliers [Pa], traction [Pa], places [m], dissipation [J], where the method needs them."""
@@ -278,13 +293,13 @@ class ObstacleTerm:
         largest = float(self._comm.allreduce(float(local.max(initial=0.0)), op=api.MPI.MAX))
         return np.where(local > 0.0, local, largest)
 
-    def _surface(self, control: float) -> kernels.Surface:
+    def _surface(self, moved: NDArray[np.float64]) -> kernels.Surface:
         contact = self.description
         return kernels.Surface(
             normal=self._normal,
             along=self._along,
-            level=control * float(self._rise @ self._normal) - contact.distance_at_touch,
-            start=control * float(self._rise @ self._along),
+            level=float(moved @ self._normal) - contact.distance_at_touch,
+            start=float(moved @ self._along),
             pieces=self._pieces,
             stiffness=self.stiffness,
             ramp=self._ramp,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import IncrementRecord, InputError
+from contracts.hub_travel import HubTravel
 from reference_fe.contact.obstacle import ContactMethod
 from reference_fe.contact.obstacles import Obstacle, Plane
 from reference_fe.material.hyperelastic import MaterialLaw
@@ -39,6 +40,7 @@ class WheelLoadCase:
     contact_method : penalty or augmented Lagrangian, see `contact.obstacle.ContactMethod`
     contact_stiffness : penalty stiffness per undeformed area [N/m^3]; None is `contact.facets.local_stiffness`
     friction : Coulomb coefficient on the obstacle [-]
+    travel : what follows the last deflection, if anything does; it needs friction, and the whole width but fore and aft
     inner_contact_stiffness : the same between the wheel's own parts [N/m^3]
     contact_ramp : gap at which the contact pressure begins [m], see `contact.law.ramped_pressure`
     gauss_points : Gauss points along the curved axis and the others of a cell, see `Discretisation`; a planar mesh
@@ -60,6 +62,7 @@ class WheelLoadCase:
     contact_method: ContactMethod = ContactMethod.PENALTY
     contact_stiffness: float | None = 1e11
     friction: float = 0.0
+    travel: HubTravel | None = None
     inner_contact_stiffness: float = 1e11
     contact_ramp: float = 5e-6
     gauss_points: tuple[int, ...] = (2, 3, 3)
@@ -73,6 +76,12 @@ class WheelLoadCase:
             raise InputError("camber", f"{self.camber_deg} deg", "must lie between -90 and 90 deg", "e.g. 10")
         if not self.maximum_load > 0.0:
             raise InputError("maximum load", f"{self.maximum_load:g} N", "must be > 0", "300 N covers the reference")
+        if self.travel is not None and not self.friction > 0.0:
+            rule = "must be > 0 for a wheel that moves over the ground: without, nothing resists"
+            raise InputError("friction coefficient", f"{self.friction:g}", rule, "0.6 is the thesis'")
+        if self.travel is not None and self.travel.start != self.deflections[-1]:
+            rule = f"must be the last deflection, {1e3 * self.deflections[-1]:g} mm"
+            raise InputError("start of a travel", f"{1e3 * self.travel.start:g} mm", rule, "press it to there")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,6 +109,7 @@ class WheelResult:
     Attributes
     ----------
     curve : load of the full wheel against the plane's rise from first touch; columns as in `solve_wheel`
+    travelled : rows behind it, if the load case has a travel: ``travel`` [m; rad of a turn] and the curve's columns
     increments : every attempted increment, in order
     snapshots : fields at the chosen loads that were reached
     points : fields at the points of the curve behind first touch, if the load case keeps them
@@ -109,6 +119,7 @@ class WheelResult:
     """
 
     curve: StiffnessCurve
+    travelled: tuple[Mapping[str, float], ...] = ()
     increments: tuple[IncrementRecord, ...]
     snapshots: tuple[FieldSnapshot, ...]
     points: tuple[FieldSnapshot, ...]

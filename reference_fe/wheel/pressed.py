@@ -31,6 +31,7 @@ from reference_fe.solver.increments import ConvergedState, solve_increments
 from reference_fe.solver.newton import NewtonSolver
 from reference_fe.wheel.case import HUB_PARTS, FieldSnapshot, WheelLoadCase, WheelResult
 from reference_fe.wheel.problem import wheel_problem
+from reference_fe.wheel.wrench import wrench
 
 __all__ = ["FieldSnapshot", "WheelLoadCase", "WheelResult", "solve_wheel"]
 
@@ -58,6 +59,8 @@ def solve_wheel(
     -------
     result : the curve's columns are ``contact_length_m`` (extent along the ground), ``contact_area_m2``,
         ``penetration_m`` (also between the points of contact), ``contact_point_penetration_m``,
+        ``force_forward_N``, ``force_left_N``, ``moment_forward_Nm``, ``moment_left_Nm``, ``moment_up_Nm`` (of the
+        ground on the wheel, with the load its whole wrench at the hub's centre; up is the ground's normal),
         ``force_imbalance`` (support plus contact force over contact force), ``moment_imbalance`` (support plus contact
         moment about the hub's centre, over contact force times the distance of hub and plane at first touch),
         ``relative_residual``, ``newton_iterations``, ``negative_pivots`` (negative eigenvalues of the tangent: none
@@ -83,11 +86,11 @@ def solve_wheel(
         key = problem_key(mesh, sorted(materials.items()), load_case)
         kept = Checkpoint(path=checkpoint, key=key, recorder=run)
     try:
-        for state in solve_increments(run.solver, load_case.deflections, run.history, checkpoint=kept):
+        for state in solve_increments(run.solver, run.targets(), run.history, checkpoint=kept):
             load = run.record(state)
             if progress is not None:
                 progress(state.control, load)
-            if load >= load_case.maximum_load:
+            if load >= load_case.maximum_load and load_case.travel is None:
                 break
     except ConvergenceError as error:
         where = f"orientation {load_case.orientation_deg:g} deg, {run.reach()}: "
@@ -114,6 +117,7 @@ class _WheelRun:
         self.history: list[IncrementRecord] = []
         self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
         self.rows[0] |= self._energies()
+        self.travelled: list[dict[str, float]] = []
         self.fields: dict[str, list[FieldSnapshot]] = {"snapshot": [], "point": []}
 
     @property
@@ -124,18 +128,39 @@ class _WheelRun:
     def _obstacle_term(self) -> ObstacleTerm:
         return next(term for term in self.problem.surfaces.terms if isinstance(term, ObstacleTerm))
 
+    def targets(self) -> list[float]:
+        """Values of the control parameter: the curve's deflections, what follows them behind."""
+        travel = self.load_case.travel
+        return [*self.load_case.deflections, *(travel.controls if travel is not None else ())]
+
     def record(self, state: ConvergedState) -> float:
         """Add one converged state to the curve, with the snapshots passed on the way; returns its load [N]."""
+        row, travel = self._measured(state), self.load_case.travel
+        if travel is not None and state.control > travel.start:
+            self.travelled.append({"travel": travel.at(state.control)} | row | {"deflection_m": travel.start})
+            return row["load_N"]
+        self.rows.append(row)
+        load = row["load_N"]
+        if self.load_case.keep_points:
+            self._keep("point", state.control, load)
+        for wanted in self.load_case.snapshot_loads:  # last: terms of contact keep what they found there
+            if self.rows[-2]["load_N"] < wanted <= load:
+                self._keep_snapshot(wanted)
+        return load
+
+    def _measured(self, state: ConvergedState) -> dict[str, float]:
+        """Everything a converged state tells."""
         load, depth = self._load(state.contact_force), self._obstacle_term.penetration()
-        moment = self._obstacle_term.moment() + support_moment(self.problem, state.outcome.residual)
-        turning = float(np.linalg.norm(moment)) / self.wheel.contact.distance_at_touch
+        moment = self._obstacle_term.moment()
+        left_over = moment + support_moment(self.problem, state.outcome.residual)
+        turning = float(np.linalg.norm(left_over)) / self.wheel.contact.distance_at_touch
         displacement = self.problem.nodal_displacement()
         ramp = self.load_case.contact_ramp
         gap = partial(self.wheel.contact.gap, control=state.control)
         patch = measure_patch(self.mesh, self.wheel.facets, displacement, gap, self.wheel.tangent, ramp)
         force = float(np.linalg.norm(state.contact_force))
         imbalance = float(np.linalg.norm(state.reaction + state.contact_force)) / force if force else 0.0
-        row = self._row(state.control, load, patch)
+        row = self._row(state.control, load, patch) | wrench(self.wheel, state.contact_force, moment)
         row["force_imbalance"], row["relative_residual"] = imbalance, state.outcome.residuals[-1]
         row["moment_imbalance"] = turning / force if force else 0.0
         row["contact_point_penetration_m"] = depth
@@ -148,13 +173,7 @@ class _WheelRun:
         row |= self._energies()
         row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
         row |= {f"max_linearised_{part}_Pa": value for part, value in self.linearised.largest_by_part().items()}
-        self.rows.append(row)
-        if self.load_case.keep_points:
-            self._keep("point", state.control, load)
-        for wanted in self.load_case.snapshot_loads:  # last: terms of contact keep what they found there
-            if self.rows[-2]["load_N"] < wanted <= load:
-                self._keep_snapshot(wanted)
-        return load
+        return row
 
     def _energies(self) -> dict[str, float]:
         """Energies of the full wheel at the last accepted state [J]."""
@@ -177,6 +196,7 @@ class _WheelRun:
         )
         return WheelResult(
             curve=curve,
+            travelled=tuple(self.travelled),
             increments=tuple(self.history),
             snapshots=tuple(self.fields["snapshot"]),
             points=tuple(self.fields["point"]),
@@ -193,7 +213,11 @@ class _WheelRun:
 
     def recorded(self) -> Arrays:
         """Rows, fields and time so far, for a checkpoint."""
-        arrays = {"rows": packed(self.rows), "wall_s": np.array(time.perf_counter() - self.started)}
+        arrays = {
+            "rows": packed(self.rows),
+            "travelled": packed(self.travelled),
+            "wall_s": np.array(time.perf_counter() - self.started),
+        }
         for kind, kept in self.fields.items():
             for i, one in enumerate(kept):
                 arrays |= {f"{kind}{i}/{name}": np.asarray(value) for name, value in asdict(one).items()}
@@ -201,7 +225,7 @@ class _WheelRun:
 
     def resume(self, arrays: Arrays) -> None:
         """Take up the rows, fields and time of a run that was killed."""
-        self.rows = unpacked(arrays["rows"])
+        self.rows, self.travelled = unpacked(arrays["rows"]), unpacked(arrays["travelled"])
         self.started -= float(arrays["wall_s"])
         for kind, kept in self.fields.items():
             while part := below(f"{kind}{len(kept)}", arrays):
@@ -216,6 +240,7 @@ class _WheelRun:
         return {
             "deflection_m": deflection,
             "load_N": load,
+            **wrench(self.wheel, np.zeros(self.mesh.dim), np.zeros(3 if self.mesh.dim == 3 else 1)),
             "contact_length_m": patch.length,
             "contact_area_m2": self.wheel.sides * patch.area,
             "penetration_m": patch.penetration,

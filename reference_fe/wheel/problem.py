@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from contracts.frames import ground_direction_h
+from contracts.hub_travel import Way
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from reference_fe.cells.orientation import curved_axis_first
@@ -120,6 +121,7 @@ def _ground(shape: TaggedMesh, load_case: WheelLoadCase) -> ObstacleContact:
         ramp=load_case.contact_ramp,
         method=load_case.contact_method,
         friction=load_case.friction,
+        travel=load_case.travel,
     )
 
 
@@ -133,10 +135,14 @@ def ground_axes(down: NDArray[np.float64], load_case: WheelLoadCase) -> tuple[ND
 
 def _check_symmetry(load_case: WheelLoadCase, *, prismatic: bool) -> None:
     """Refuse a half-width or planar wheel on an obstacle that is not symmetric about its mid-plane."""
-    turned = load_case.camber_deg or load_case.obstacle.yaw_deg
+    turned, rule = (
+        load_case.camber_deg or load_case.obstacle.yaw_deg,
+        "breaks the symmetry of a half-width or planar mesh",
+    )
     if prismatic and turned:
-        rule = "breaks the symmetry of a half-width or planar mesh"
         raise InputError("camber or yaw", f"{turned:g} deg", rule, "mesh the full width")
+    if prismatic and load_case.travel is not None and load_case.travel.way is not Way.FORE_AFT:
+        raise InputError("travel", load_case.travel.way.value, rule, "mesh the full width")
 
 
 def _inner_contact(mesh: TaggedMesh, load_case: WheelLoadCase) -> InnerContact | None:

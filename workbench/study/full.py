@@ -16,7 +16,7 @@ from workbench.study.reference import ReferenceSection
 from workbench.study.sections import RoverSection
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["around", "full_study", "is_mirrored", "rotational_period", "steps_around"]
+__all__ = ["around", "full_study", "is_mirrored", "require_level", "rotational_period", "steps_around"]
 
 _SAME = 1e-6
 """Two angles closer than this are one [deg]."""
@@ -51,6 +51,15 @@ def _patterns(study: Study) -> list[tuple[int, float]]:
     design = wheel_design(study)
     others = (design.grousers, design.sidewall_springs)
     return patterns + [(part.count, degrees(part.phase)) for part in others if part is not None]
+
+
+def require_level(study: Study) -> None:
+    """Refuse a study whose wheel is not pressed on level ground, which the rover's wheels stand on."""
+    if study.fe.obstacle.shape != "plane" or study.fe.camber:
+        shape, camber = study.fe.obstacle.shape, math.degrees(study.fe.camber)
+        rule = "is not the level plane that the rover's wheel is pressed on"
+        hint = 'give fe.obstacle = { shape = "plane" } and no camber'
+        raise InputError("ground of [fe]", f"{shape}, camber {camber:g} deg", rule, hint)
 
 
 def steps_around(study: Study) -> list[float]:

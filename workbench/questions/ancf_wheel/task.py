@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ancf_reduced.wheel.mesh import build_ancf_wheel
 from ancf_reduced.wheel.stability import unstable_mode
@@ -17,6 +18,7 @@ from ancf_reduced.wheel.static import Equilibrium, WheelOnGround, press
 from ancf_reduced.wheel.stress import largest_spring_stress
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, IncrementRecord
+from contracts.travel_curve import WRENCH
 from workbench.execution.result_files import FAILURE, UNSTABLE, write_result
 from workbench.questions.ancf_wheel.ground import terrain_of
 from workbench.questions.model_curves import CURVE
@@ -25,7 +27,9 @@ from workbench.study.wheel_design import design_from
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
 
-__all__ = ["STATES", "solve_orientation"]
+__all__ = ["STATES", "solve_orientation", "wrench_columns"]
+
+Array = NDArray[np.float64]
 
 STATES = "states.npz"
 """Deflections and free coordinates at the points of a curve, in a task's folder."""
@@ -71,7 +75,9 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
 
 
 def _does_not_stand(problem: WheelOnGround, states: list[Equilibrium]) -> str | None:
-    """Where the wheel first does not, and how it leaves."""
+    """Where the wheel first does not, and how it leaves; nothing with friction, whose tangent is unsymmetric."""
+    if problem.friction > 0.0:
+        return None
     first = next((state for state in states if state.negative), None)
     mode = None if first is None else unstable_mode(problem, first)
     if first is None or mode is None:
@@ -79,6 +85,12 @@ def _does_not_stand(problem: WheelOnGround, states: list[Equilibrium]) -> str | 
     where = f"{1e3 * first.deflection:.1f} mm, {first.load:.0f} N"
     place = f"most at {mode.angle_deg:.0f} deg, {1e3 * mode.radius:.0f} mm from the axle, {mode.part}"
     return f"the wheel does not stand from {where} on (negative eigenvalues: {first.negative}), it moves {place}"
+
+
+def wrench_columns(problem: WheelOnGround, states: Sequence[Equilibrium]) -> dict[str, Array]:
+    """The ground's force [N] and moment [N m] on the wheel at the hub's centre, without the load; (n,) each."""
+    both = np.array([np.concatenate(problem.wrench(s)) for s in states])
+    return {name: both[:, k] for k, name in enumerate(WRENCH) if name != "load_N"}
 
 
 def _curve(problem: WheelOnGround, states: list[Equilibrium], *, partial: bool) -> StiffnessCurve:
@@ -92,7 +104,8 @@ def _curve(problem: WheelOnGround, states: list[Equilibrium], *, partial: bool) 
         columns={
             "stored_energy_J": np.array([s.energy for s in states]),
             "rim_force_N": np.array([problem.rim_force(s) for s in states]),
-            "negative_pivots": np.array([float(s.negative) for s in states]),
+            **({} if problem.friction > 0.0 else {"negative_pivots": np.array([float(s.negative) for s in states])}),
+            **wrench_columns(problem, states),
             **{f"max_linearised_{part}_Pa": np.array([s[part] for s in stresses]) for part in stresses[0]},
         },
         source=f"thin ANCF plates of the wheel, {wheel.basis.shape[1]} unknowns, deflection from first touch",

@@ -18,13 +18,17 @@ from geometry.build import mesh_size
 from geometry.counting import MeshCount, count_planar, count_solid, require_buildable
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task
+from workbench.questions.travel_start import APPROACH
 from workbench.study.wheel_design import design_from
 
 __all__ = ["foreseen", "solve_bytes", "solve_seconds"]
 
 _MESH, _SOLVE = "workbench.questions.wheel.mesh_task:build", "workbench.questions.fe.task:solve_orientation"
+_TRAVEL = "workbench.questions.fe.travel_task:solve_travel"
 _SECTION = "workbench.questions.section.task:solve_orientation"
 
+_UNSYMMETRIC = 2.0
+"""Factors with friction over those without [-]: both triangles are kept."""
 ITERATIONS = 3.0
 """Factorisations for each point of a curve; counted on the built-in study's curves."""
 
@@ -75,11 +79,15 @@ def _with_needs(task: Task, counts: Mapping[str, MeshCount]) -> Task:
         count = counts[task.name]
         return replace(task, cost=mesh_seconds(count), memory=mesh_bytes(count))
     name, dim = (task.name, 2) if task.function == _SECTION else (next(iter(task.needs), ""), 3)
-    if task.function not in (_SOLVE, _SECTION) or name not in counts:
+    if task.function not in (_SOLVE, _SECTION, _TRAVEL) or name not in counts:
         return task
     unknowns = dim * counts[name].nodes
-    cost = solve_seconds(unknowns, len(task.inputs["deflections"]))
-    return replace(task, cost=cost, memory=solve_bytes(unknowns), unknowns=unknowns)
+    points = len(task.inputs["deflections"])
+    if task.function == _TRAVEL:
+        points = APPROACH + len(task.inputs["travel"]["steps"])
+    cost = solve_seconds(unknowns, points)
+    memory = solve_bytes(unknowns) * (_UNSYMMETRIC if task.function == _TRAVEL else 1.0)
+    return replace(task, cost=cost, memory=memory, unknowns=unknowns)
 
 
 def _count(task: Task) -> MeshCount:

@@ -11,10 +11,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
-from contracts.errors import InputError
 from rover_dynamics.tires.wheel_potential import Tips, WheelPotential, wheel_potential
 from workbench.questions.model_curves import CURVE
-from workbench.study.full import is_mirrored, rotational_period, steps_around
+from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.wheel_design import wheel_design
@@ -30,11 +29,7 @@ def orientations_to_solve(study: Study) -> list[float]:
     InputError
         For a study whose solid model does not stand on level ground, and a step that does not divide the period.
     """
-    if study.fe.obstacle.shape != "plane" or study.fe.camber:
-        shape, camber = study.fe.obstacle.shape, math.degrees(study.fe.camber)
-        rule = "is not the level plane that the rover's wheel is pressed on"
-        hint = 'give fe.obstacle = { shape = "plane" } and no camber'
-        raise InputError("ground of [fe]", f"{shape}, camber {camber:g} deg", rule, hint)
+    require_level(study)
     steps = steps_around(study)
     return [one for one in steps if not is_mirrored(study) or one <= 0.5 * rotational_period(study) + 1e-9]
 

@@ -1,0 +1,98 @@
+"""``workbench stiffness --travel``: the hub of the pressed wheel moved over the ground.
+
+Verified by tests/end_to_end/test_travel.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from contracts.errors import InputError
+from contracts.hub_travel import Way
+from contracts.travel_curve import TravelCurve, write_travel
+from workbench.commands.computing import (
+    complain_of_early_ends,
+    computed,
+    console,
+    naming,
+    read_and_warn,
+    tell_kept,
+)
+from workbench.commands.stiffness import check_orientation
+from workbench.execution.result_files import early_ends
+from workbench.execution.runner import Computing
+from workbench.execution.terminal import empty_table
+from workbench.questions.travels import travel_curves, travel_tasks
+from workbench.report.folders import check_folder, check_targets
+from workbench.report.outputs import publish
+from workbench.study.orientation import degrees, orientation_name
+
+__all__ = ["check_way", "run_travel"]
+
+
+def check_way(name: str) -> tuple[Way, ...]:
+    """The ways of a name, ``all`` for each of them."""
+    if name == "all":
+        return tuple(Way)
+    if name not in tuple(Way):
+        raise InputError("travel", repr(name), "is not known", f"give {', '.join(Way)} or all")
+    return (Way(name),)
+
+
+def run_travel(
+    study_path: Path,
+    model: str,
+    travel: tuple[str, float],
+    orientations: tuple[float, ...],
+    out: Path,
+    store: Path,
+    computing: Computing,
+) -> int:
+    """Curves of force and moment against the hub's travel at the orientations asked for.
+
+    travel : name of the way, and load from which the hub moves [N]
+    """
+    ways, load = check_way(travel[0]), travel[1]
+    for orientation in orientations:
+        check_orientation(orientation)
+    study = read_and_warn(study_path)
+    check_folder(out)
+    check_targets(out, ("travels/any",))
+    with naming(study_path):
+        tasks = travel_tasks(study, model, ways, load, tuple(dict.fromkeys(orientations)))
+    entries = computed(study_path, tasks, store, computing)
+    folders = {name: entry.path for name, entry in entries.items()}
+    asked = tuple(dict.fromkeys(orientations)) or tuple(degrees(o) for o in study.fe.orientations)
+    with naming(study_path):
+        curves = travel_curves(model, ways, asked, folders)
+    tell_kept(publish(out, f"stiffness {model} travel", _texts(curves)))
+    _print(curves)
+    if curves:
+        console.print(f"curves: {out / 'travels'}", soft_wrap=True)
+    complain_of_early_ends(study_path, early_ends(folders))
+    return 0
+
+
+def _texts(curves: Sequence[TravelCurve]) -> dict[str, str]:
+    found = {}
+    with TemporaryDirectory() as folder:
+        for curve in curves:
+            path = Path(folder) / "travel.csv"
+            write_travel(curve, path)
+            name = orientation_name(f"{curve.model}_{curve.way}", curve.orientation_deg)
+            found[f"travels/{name}.csv"] = path.read_text(encoding="utf-8")
+    return found
+
+
+def _print(curves: Sequence[TravelCurve]) -> None:
+    table = empty_table("what resists the hub", ("way", "orientation", "load", "stiffness", "most"), texts=["way"])
+    for curve in curves:
+        turn = curve.way is Way.TURNING
+        stiffness = f"{curve.stiffness:.1f} N m/rad" if turn else f"{1e-3 * curve.stiffness:.2f} N/mm"
+        most = float(curve.resistance.max())
+        largest = f"{most:.3g} N m" if turn else f"{most:.3g} N"
+        at = f"{curve.columns['load_N'][0]:.0f} N at {1e3 * curve.deflection:.1f} mm"
+        table.add_row(curve.way.value, f"{curve.orientation_deg:g} deg", at, stiffness, largest)
+    console.print(table)

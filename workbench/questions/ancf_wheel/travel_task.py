@@ -1,0 +1,76 @@
+"""Task of the ANCF wheel: its hub, pressed, moved over the ground. Verified by tests/end_to_end/test_travel.py."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ancf_reduced.wheel.mesh import build_ancf_wheel
+from ancf_reduced.wheel.static import Equilibrium, WheelOnGround, press
+from contracts.errors import ConvergenceError, IncrementRecord
+from contracts.hub_travel import HubTravel
+from contracts.travel_curve import TravelCurve, write_travel
+from workbench.execution.result_files import FAILURE, write_result
+from workbench.questions.ancf_wheel.task import wrench_columns
+from workbench.questions.travel_start import TRAVEL, approach, hub_travel
+from workbench.study.wheel_design import design_from
+
+if TYPE_CHECKING:
+    from workbench.execution.task import Progress
+
+__all__ = ["solve_travel"]
+
+
+def solve_travel(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
+    """``travel.csv`` and ``result.json``; returns the unknowns. Needs the curve ``inputs["curve"]``."""
+    wheel = build_ancf_wheel(design_from(inputs["wheel"]), **inputs["options"])
+    travel = hub_travel(inputs, needs)
+    problem = WheelOnGround(
+        wheel,
+        math.radians(inputs["orientation_deg"]),
+        inputs["contact_stiffness"],
+        inputs["inner_contact_stiffness"],
+        friction=inputs["travel"]["friction"],
+        travel=travel,
+    )
+    start, failure = time.perf_counter(), None
+    states, history = list[Equilibrium](), list[IncrementRecord]()
+    try:
+        for state in press(problem, [*approach(travel.start), *travel.controls], history=history):
+            progress(state.deflection / travel.controls[-1])
+            if state.deflection >= travel.start:
+                states.append(state)
+    except ConvergenceError as error:
+        failure = str(error)
+    if len(states) > 1:
+        write_travel(_curve(problem, states, travel, partial=failure is not None), out / TRAVEL)
+    numbers = {
+        "dofs": wheel.basis.shape[1],
+        "cells": len(wheel.plates.plates),
+        "solve_s": time.perf_counter() - start,
+        "increments": [asdict(record) for record in history],
+        FAILURE: failure,
+    }
+    write_result(out, numbers)
+    return wheel.basis.shape[1]
+
+
+def _curve(problem: WheelOnGround, states: list[Equilibrium], travel: HubTravel, *, partial: bool) -> TravelCurve:
+    at = f"at {1e3 * travel.start:.4g} mm from first touch"
+    load, energy = np.array([s.load for s in states]), np.array([s.energy for s in states])
+    return TravelCurve(
+        model="ancf_wheel",
+        way=travel.way,
+        orientation_deg=round(math.degrees(problem.orientation), 9),
+        deflection=travel.start,
+        travel=np.array([travel.at(s.deflection) for s in states]),
+        columns={"load_N": load, **wrench_columns(problem, states), "stored_energy_J": energy},
+        source=f"thin ANCF plates of the wheel, {problem.wheel.basis.shape[1]} unknowns, {at}",
+        partial=partial,
+    )

@@ -1,0 +1,126 @@
+"""Tasks of a pressed wheel whose hub is moved over the ground. Verified by tests/unit/test_workbench_travels.py."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from contracts.errors import InputError
+from contracts.hub_travel import Way
+from contracts.travel_curve import TravelCurve, read_travel
+from workbench.execution.task import Task
+from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks
+from workbench.questions.fe.foresight import foreseen
+from workbench.questions.fe.graph import fe_curve_tasks, fe_inputs, without_fields
+from workbench.questions.travel_start import TRAVEL
+from workbench.questions.wheel.graph import MESH, mesh_task, wheel_meshes
+from workbench.study.full import require_level
+from workbench.study.model import Study
+from workbench.study.orientation import degrees, orientation_name
+
+__all__ = ["FRICTION", "STEPS", "WORKING_LOAD", "travel_curves", "travel_tasks"]
+
+MESH_FULL = "mesh_full"
+"""Name of the task."""
+STEPS: Mapping[Way, tuple[float, ...]] = {
+    Way.FORE_AFT: (1e-3, 2e-3, 4e-3),
+    Way.LATERAL: (1e-3, 2e-3, 4e-3),
+    Way.TURNING: (5e-3, 10e-3, 20e-3, 40e-3),
+}
+"""Steps of the hub over the ground [m; rad of a turn]."""
+WORKING_LOAD = 200.0
+"""Between the 160 and 250 N on a wheel of Samarini 2020, section 3.2 [N]."""
+FRICTION = 0.6
+"""Of the thesis' contact, eq. 2.22, where neither [fe] nor [ground] states one [-]."""
+
+
+def travel_tasks(
+    study: Study, model: str, ways: Sequence[Way], load: float, orientations_deg: Sequence[float] = ()
+) -> tuple[Task, ...]:
+    """Each way from a load [N] at each orientation [deg], none means those of [fe], with the curves they start from.
+
+    Raises
+    ------
+    InputError
+        For another model than fe and ancf_wheel, and a study whose wheel is not pressed on level ground.
+    """
+    if model not in ("fe", "ancf_wheel"):
+        raise InputError("model", model, "has no hub that could be moved", "give fe or ancf_wheel")
+    if not load > 0.0:
+        raise InputError("load", f"{load:g} N", "must be > 0", f"{WORKING_LOAD:g} N is usual")
+    require_level(study)
+    asked = tuple(orientations_deg) or tuple(degrees(o) for o in study.fe.orientations)
+    make = _fe_tasks if model == "fe" else _ancf_wheel_tasks
+    return make(study, ways, load, asked)
+
+
+def travel_curves(
+    model: str, ways: Sequence[Way], orientations_deg: Sequence[float], folders: Mapping[str, Path]
+) -> list[TravelCurve]:
+    """What the tasks found; a run that ended before its first step has none."""
+    named = [
+        (way, o, folders[orientation_name(f"{model}_{way}", o)] / TRAVEL) for o in orientations_deg for way in ways
+    ]
+    return [read_travel(path, model, way, o) for way, o, path in named if path.exists()]
+
+
+def _friction(study: Study) -> float:
+    return study.fe.friction or study.ground.friction or FRICTION
+
+
+def _asked(study: Study, way: Way, load: float) -> dict[str, object]:
+    return {"way": way.value, "load": load, "steps": list(STEPS[way]), "friction": _friction(study)}
+
+
+def _fe_tasks(study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
+    curves = fe_curve_tasks(study, orientations_deg)
+    meshes = [wheel_meshes(study)[0]]
+    whole = any(way is not Way.FORE_AFT for way in ways) and study.mesh.half_width
+    if whole:
+        meshes.append(mesh_task(study, MESH_FULL, {"half_width": False}))
+    tasks = []
+    for curve, o in zip(curves, orientations_deg, strict=True):
+        for way in ways:
+            mesh = MESH_FULL if whole and way is not Way.FORE_AFT else MESH
+            inputs = without_fields(fe_inputs(study, o, ())) | {
+                "travel": _asked(study, way, load),
+                "mesh": mesh,
+                "curve": curve.name,
+            }
+            tasks.append(
+                Task(
+                    name=orientation_name(f"fe_{way}", o),
+                    function="workbench.questions.fe.travel_task:solve_travel",
+                    inputs=inputs,
+                    needs=(mesh, curve.name),
+                    resumable=True,
+                    shared=True,
+                )
+            )
+    return foreseen([*meshes, *curves, *tasks])
+
+
+def _ancf_wheel_tasks(
+    study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float]
+) -> tuple[Task, ...]:
+    curves = ancf_wheel_curve_tasks(study, orientations_deg)
+    tasks = []
+    for curve, o in zip(curves, orientations_deg, strict=True):
+        for way in ways:
+            kept = ("wheel", "contact_stiffness", "inner_contact_stiffness", "orientation_deg")
+            options = curve.inputs["options"] | ({} if way is Way.FORE_AFT else {"half_width": False})
+            inputs = {name: curve.inputs[name] for name in kept} | {
+                "options": options,
+                "travel": _asked(study, way, load),
+                "curve": curve.name,
+            }
+            tasks.append(
+                Task(
+                    name=orientation_name(f"ancf_wheel_{way}", o),
+                    function="workbench.questions.ancf_wheel.travel_task:solve_travel",
+                    inputs=inputs,
+                    needs=(curve.name,),
+                    cost=2.0 * curve.cost,
+                )
+            )
+    return (*curves, *tasks)
