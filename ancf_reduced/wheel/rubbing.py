@@ -24,6 +24,8 @@ from ancf_reduced.wheel.ground import GroundContact, Pose
 __all__ = ["Rubbed", "Since", "congruent", "rubbed"]
 
 Array = NDArray[np.float64]
+_STUCK = 1.0 - 1e-6
+"""Pull over mu N below which a point stuck [-]."""
 _SAME_WAY = 0.9
 """Least cosine between the pulls of two steps at a point that slides steadily [-]."""
 
@@ -39,6 +41,7 @@ class Since:
     coefficient : mu [-]
     slides : unit vectors of the pull in the Newton step before (n_ground, 3), zero where a contact did not slide
     turned : (n_ground,) whether it slid the other way in a step before that one
+    first : whether no Newton step has been made: what stuck there then sticks, however far the ground has moved on
     """
 
     q: Array
@@ -47,6 +50,7 @@ class Since:
     coefficient: float
     slides: Array
     turned: NDArray[np.bool_]
+    first: bool = True
 
     @classmethod
     def equilibrium(cls, q: Array, pose: Pose, pull: Array, coefficient: float) -> Since:
@@ -59,7 +63,7 @@ class Since:
         slides, turned = np.zeros_like(self.slides), self.turned.copy()
         slides[found.numbers] = found.slides
         turned[found.numbers] |= (found.slides * self.slides[found.numbers]).sum(axis=1) < 0.0
-        return replace(self, slides=slides, turned=turned)
+        return replace(self, slides=slides, turned=turned, first=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -114,6 +118,9 @@ def rubbed(ground: GroundContact, q: Array, pose: Pose, near: Near, pressed: Arr
     elastic = since.pull[numbers] @ (R_then.T @ R) - stick[:, None] * way
     trial = np.einsum("pij,pj->pi", across, elastic)
     size, limit = np.linalg.norm(trial, axis=1), since.coefficient * pressed[numbers]
+    if since.first:
+        stuck = np.linalg.norm(since.pull[numbers], axis=1) < _STUCK * limit
+        limit = np.where(stuck, np.maximum(size, limit), limit)
     slides = np.where(size > limit, 1.0 / np.maximum(size, limit), 0.0)[:, None] * trial
     share = limit / np.maximum(size, limit)
     steady = ((slides * since.slides[numbers]).sum(axis=1) > _SAME_WAY) & ~since.turned[numbers]

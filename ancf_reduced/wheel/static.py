@@ -195,11 +195,11 @@ class WheelOnGround:
                     matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
                 )
             except RuntimeError:  # singular
-                return (*residuals, float("inf"))
+                return tuple(residuals)
             contact = system.gaps, system.slopes, system.stiffness
             found = settle(factors.solve, system.tangent.dot, system.residual, contact, touching, system.push)
             if found is None or self._moved(found[0]) > self._farthest:
-                return (*residuals, float("inf"))
+                return tuple(residuals)
             step, forces = found
             held = -system.stiffness * np.minimum(system.gaps, 0.0)
             work = abs(float((system.residual - system.push.T @ held) @ step))

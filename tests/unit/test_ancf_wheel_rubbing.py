@@ -56,10 +56,12 @@ def on_rock_states(on_rock: WheelOnGround) -> list[Equilibrium]:
     return list(press(on_rock, [1e-3, 2e-3, 4e-3]))
 
 
-def at(problem: WheelOnGround, state: Equilibrium, *, pull: Array, mu: float, shift: Array) -> Rubbed:
-    """Friction where every node has moved by ``shift`` since a state that had ``pull``."""
+def at(
+    problem: WheelOnGround, state: Equilibrium, *, pull: Array, mu: float, shift: Array, first: bool = False
+) -> Rubbed:
+    """Friction where every node has moved by ``shift`` since a state that had ``pull``; in the first Newton step."""
     q, pose = problem.wheel.coordinates(state.free), problem.ground.risen(state.deflection)
-    since = Since.equilibrium(q, pose, pull, mu)
+    since = replace(Since.equilibrium(q, pose, pull, mu), first=first)
     moved = q.copy()
     moved[:, 0] += shift
     blocks = np.zeros((len(problem.wheel.plates.plates), 16, 3, 16, 3))
@@ -84,6 +86,20 @@ def test_the_law_by_hand(rough: WheelOnGround, states: list[Equilibrium]) -> Non
     np.testing.assert_allclose(kept.stuck, 0.9 * state.pull[kept.numbers], rtol=1e-9, atol=1e-9)
 
 
+def test_in_the_first_step_what_stuck_sticks_however_far(rough: WheelOnGround, states: list[Equilibrium]) -> None:
+    """As the ground takes it along; what slid slides on, and in the next step the law holds."""
+    state, forward = states[-1], rough.ground.risen(0.0)[0][0]
+    far = 1e-3 * forward
+    limit = 0.3 * state.pressed[:, None]
+    stuck = at(rough, state, pull=-0.5 * limit * forward, mu=0.3, shift=far, first=True)
+    k = 1e11 * rough.wheel.ground.area[stuck.numbers]
+    pulled = -(1e-3 * k[:, None] + 0.5 * limit[stuck.numbers]) * forward
+    np.testing.assert_allclose(stuck.stuck, pulled, rtol=1e-4, atol=1e-10)
+    np.testing.assert_array_equal(stuck.slides, 0.0)
+    for slid in (at(rough, state, pull=-limit * forward, mu=0.3, shift=far, first=first) for first in (True, False)):
+        np.testing.assert_allclose(slid.lean, np.broadcast_to(-0.3 * forward, slid.lean.shape), rtol=1e-9, atol=1e-12)
+
+
 @pytest.mark.parametrize("way", [1e-9, 1e-3])
 @pytest.mark.parametrize("ground", ["plane", "rock"])
 def test_its_stiffness_is_the_derivative(request: pytest.FixtureRequest, ground: str, way: float) -> None:
@@ -97,7 +113,7 @@ def test_its_stiffness_is_the_derivative(request: pytest.FixtureRequest, ground:
     direction[:, 0] = 0.6 * forward + 0.8 * left
 
     def found(step: float) -> Rubbed:
-        since = Since.equilibrium(q, pose, none, 0.3)
+        since = replace(Since.equilibrium(q, pose, none, 0.3), first=False)
         for _ in range(2):
             moved = q + step * direction
             moved[:, 0] += way * forward

@@ -182,7 +182,7 @@ def test_an_increment_that_goes_astray_is_given_up_at_once(
     assert [s.load for s in found] == pytest.approx([pressed[0].load])
     failed = [record for record in history if not record.converged]
     assert failed
-    assert all(len(record.residuals) == 1 and record.residuals[-1] == np.inf for record in failed)
+    assert all(record.residuals == () for record in failed)  # and so nothing that JSON has no number for
 
 
 def test_half_of_the_wheel_counts_twice(pressed: list[Equilibrium]) -> None:
