@@ -211,7 +211,10 @@ def rover(
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)
     ] = None,
     tire: Annotated[
-        str, typer.Option(help="rigid; brush; fe: the wheel by its solid model; ancf: flexible tires.")
+        str,
+        typer.Option(
+            help="rigid; brush; fe, ancf_wheel: the study's wheel by that model; ancf, ancf_fit:NAME: flexible."
+        ),
     ] = "brush",
     study: Annotated[
         Path | None,

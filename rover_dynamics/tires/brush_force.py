@@ -35,7 +35,7 @@ from rover_dynamics.tires.brush_contact import CONTACT_SIZE, fading, find_contac
 from rover_dynamics.tires.brush_graph import is_beside
 from rover_dynamics.tires.brush_profile import SAMPLES
 from rover_dynamics.tires.brush_settings import WheelNumbers
-from rover_dynamics.tires.brush_standstill import BRUSH, bristle_force
+from rover_dynamics.tires.brush_standstill import FIALA, bristle_force
 from rover_dynamics.tires.wheel_potential import facing, load_and_slope
 
 __all__ = [
@@ -207,7 +207,7 @@ def _add_contact(
     load = _normal_load(spring, -dot(n, v) / q, q, numbers)
     to_rim = -(numbers.radius + dot(r, u_hub))
     rolling = -dot(turning, t) - to_rim * dot(cross(omega, u_hub), t)
-    speed = rolling if int(numbers.law) == BRUSH else dot(v_hub, t)
+    speed = dot(v_hub, t) if int(numbers.law) == FIALA else rolling
     (F_x, F_y, M_z), rate, slip = bristle_force(load, u, (rolling - dot(v_hub, t), -dot(v, left)), speed, numbers)
     F = (
         load * n[0] + F_x * t[0] + F_y * left[0],

@@ -21,6 +21,8 @@ class SlipLaw(IntEnum):
     """Brush with parabolic pressure; the friction force never exceeds the friction circle."""
     FIALA = 1
     """Fiala's law, whose names Table II uses; longitudinal and lateral force each reach the friction limit."""
+    CARCASS = 2
+    """A carcass that yields in proportion to the force while its tread sticks, up to the friction circle."""
 
 
 class DamperLaw(IntEnum):
@@ -41,8 +43,9 @@ class BrushSettings:
     wheel_radius, wheel_width : [m]
     slip_law, damper_law : see `SlipLaw` and `DamperLaw`
     damping_ramp : d_0, deflection at which the damper has built up [m]; a fifth of the static one on Mars
-    relaxation_length : sigma_x, longitudinal [m]. Bristles are as stiff sideways, k_t = C_s / sigma_x, so the lateral
-        one is sigma_y = C_alpha / k_t
+    relaxation_length : sigma_x, longitudinal [m]. Bristles are as stiff forward as k_x = C_s / sigma_x
+    lateral_ratio : k_y / k_x, how stiff they are sideways [-]; the lateral length is sigma_y = C_alpha / k_y.
+        Other than 1 for a carcass only: the brush's bristles would then create energy in loops of partial slip
     contact_half_length : a, half the length of the patch, for the brush's aligning moment [m]
     retardation_time : tau of the bristles, which damps oscillations at standstill and nothing in steady rolling [s]
     touch_depth : deflection over which the bristles' rate goes over from fading to that of the contact [m]
@@ -64,6 +67,7 @@ class BrushSettings:
     damper_law: DamperLaw = DamperLaw.BUILDS_UP
     damping_ramp: float = 0.005
     relaxation_length: float = 0.03
+    lateral_ratio: float = 1.0
     contact_half_length: float = 0.03
     retardation_time: float = 0.005
     standstill_speed: float = 0.001
@@ -80,6 +84,10 @@ class BrushSettings:
             "touch_depth",
         ):
             _positive(name, getattr(self, name), "m")
+        _positive("lateral_ratio", self.lateral_ratio, "-")
+        if self.lateral_ratio != 1.0 and self.slip_law is not SlipLaw.CARCASS:
+            rule = f"must be 1 for the slip law {self.slip_law.name.lower()}"
+            raise InputError("brush lateral ratio", f"{self.lateral_ratio:g}", rule, "take the carcass")
         _positive("retardation_time", self.retardation_time, "s")
         _positive("standstill_speed", self.standstill_speed, "m/s")
 
@@ -100,6 +108,7 @@ class WheelNumbers(NamedTuple):
     friction_max: float
     rolling_resistance: float
     tangential_stiffness: float
+    lateral_ratio: float
     relaxation_x: float
     relaxation_y: float
     half_length: float
@@ -126,8 +135,9 @@ def wheel_numbers(parameters: BrushTireParameters, settings: BrushSettings) -> W
         friction_max=parameters.friction_max,
         rolling_resistance=parameters.rolling_resistance,
         tangential_stiffness=stiffness,
+        lateral_ratio=settings.lateral_ratio,
         relaxation_x=settings.relaxation_length,
-        relaxation_y=parameters.cornering_stiffness / stiffness,
+        relaxation_y=parameters.cornering_stiffness / (settings.lateral_ratio * stiffness),
         half_length=settings.contact_half_length,
         retardation_time=settings.retardation_time,
         standstill_speed=settings.standstill_speed,

@@ -20,6 +20,8 @@ Friction falls with slip in both, mu(s) = mu_max - (mu_max - mu_min) min(|s|, 1)
     F_x = C_s s_x                                   (|s_x| < kappa*),   mu N (1 - mu N / (4 C_s |s_x|)) sign s_x  else,
     F_y = mu N (1 - h^3) sign s_y,  M_z = -mu N b (1 - h) h^3 sign s_y   (h > 0),   F_y = mu N sign s_y  else.
 
+**Carcass**: the tread does not yield and F = (C_s s_x, C_alpha s_y), shortened to mu N where it is longer; M_z = 0.
+
 F_x and F_y of Fiala know of each other only by mu: sliding aslant, their resultant is up to sqrt(2) mu N.
 
 Verified by tests/verification/test_brush_steady.py.
@@ -31,7 +33,7 @@ import math
 
 from rover_dynamics.tires.brush_compiled import compiled, hypotenuse
 
-__all__ = ["brush_slip", "falling_friction", "fiala_slip"]
+__all__ = ["brush_slip", "carcass_slip", "falling_friction", "fiala_slip"]
 
 type ForceAndMoment = tuple[float, float, float]
 
@@ -89,3 +91,14 @@ def fiala_slip(
     h = max(1.0 - stiffness[1] * y / (3.0 * limit), 0.0)
     sideways, moment = limit * (1.0 - h**3), limit * width * (1.0 - h) * h**3
     return math.copysign(forward, slip[0]), math.copysign(sideways, slip[1]), -math.copysign(moment, slip[1])
+
+
+@compiled
+def carcass_slip(wanted: tuple[float, float], limit: float) -> ForceAndMoment:
+    """Force (F_x, F_y) [N] of a carcass that wants to pull with a force, held by friction up to a limit, both [N].
+
+    Verified by tests/unit/test_brush_bristles.py.
+    """
+    size = hypotenuse(wanted[0], wanted[1])
+    share = 1.0 if size <= limit else max(limit, 0.0) / size
+    return share * wanted[0], share * wanted[1], 0.0

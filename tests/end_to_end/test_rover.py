@@ -114,7 +114,10 @@ def test_six_ancf_tires_carry_the_rover(tmp_path: Path) -> None:
     [
         ([], "give one of static, drop"),
         (["fly"], "'fly': is not known"),
-        (["drop", "--tire", "rubber"], "'rubber': is not known; give rigid, brush, fe or ancf"),
+        (
+            ["drop", "--tire", "rubber"],
+            "'rubber': is not known; give rigid, brush, fe,",
+        ),
         (["drop", "--rover", "none.toml"], "none.toml: does not exist"),
         (["drop", "--gravity", "moon"], "'moon': is not known; give mars or earth"),
         (["straight", "--terrain", "none.npz"], "none.npz: does not exist"),

@@ -19,7 +19,7 @@ from rover_dynamics.rover.scenarios.ground import on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from workbench.commands.computing import read_and_warn, warn
-from workbench.commands.rover_tires import TireSource, check_tire, on_tires
+from workbench.commands.rover_tires import TireSource, check_tire, file_name, on_tires
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console, empty_table
 from workbench.report.folders import check_folder, check_targets
@@ -47,7 +47,7 @@ class RoverChoices:
 
     Attributes
     ----------
-    tire : name of `workbench.commands.rover_tires.TIRES`
+    tire : name of `workbench.commands.rover_tires.TIRES`, or a fitted tire's behind ``ancf_fit:``
     study : file whose tires and ground are the rover's, or None for the thesis'
     rover : rover file, or None for the thesis' rover
     gravity : mars or earth, or None for the rover file's
@@ -79,10 +79,10 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
     """
     scenario, design = _chosen(name, choices, store)
     check_folder(out)
-    stem = f"{scenario.name}_{choices.tire}"
+    stem = f"{scenario.name}_{file_name(choices.tire)}"
     targets = (f"{SERIES_FOLDER}/{stem}.csv", f"{MOTIONS_FOLDER}/{stem}.npz", f"{scenario.name}.html")
     check_targets(out, targets if choices.animate else targets[:2])
-    if choices.tire == "ancf":
+    if scenario.tire_model.startswith("ancf") and scenario.tire_model != "ancf_wheel":
         scenario = _resumed(scenario, design, store)
     with console.status(f"{scenario.name}: {scenario.title}"):
         run = run_scenario(scenario, design)

@@ -5,19 +5,21 @@ Verified by tests/unit/test_workbench_rover_inputs.py and tests/end_to_end/test_
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contracts.errors import InputError
+from contracts.hub_travel import Way
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction, on_rigid_tires, on_wheel_curves
 from rover_dynamics.rover.scenarios.scenario import Scenario
+from workbench.execution.task import Task, needed_for
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_brush, rover_on_ancf
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["TIRES", "TireSource", "check_tire", "on_tires"]
+__all__ = ["FITTED", "TIRES", "TireSource", "check_tire", "file_name", "on_tires"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,25 +54,83 @@ def _on_ancf(scenario: Scenario, source: TireSource) -> Scenario:
 
 
 def _on_fe(scenario: Scenario, source: TireSource) -> Scenario:
-    """The study's wheel by its solid model's curves all around, computed here if they are not kept."""
-    from workbench.commands.computing import complain_of_early_ends, computed, naming, read_and_warn
-    from workbench.commands.options import computing
+    """The study's wheel by its solid model: curves all around, and how it yields along the ground."""
+    return _on_solved(scenario, source, "fe", "the solid model")
+
+
+def _on_ancf_wheel(scenario: Scenario, source: TireSource) -> Scenario:
+    """The same by its ANCF model, at rest at every instant: the plates' own inertia is in the wheel's body."""
+    return _on_solved(scenario, source, "ancf_wheel", "the ANCF wheel, without inertia of its plates,")
+
+
+def _on_solved(scenario: Scenario, source: TireSource, model: str, words: str) -> Scenario:
+    """What is not kept is computed here."""
+    from workbench.commands.computing import complain_of_early_ends, naming
     from workbench.execution.result_files import early_ends
-    from workbench.questions.models.wheel_curves import curves_around, orientations_to_solve, wheel_potential_of
+    from workbench.questions.models.wheel_curves import (
+        carcass_of,
+        curves_around,
+        orientations_to_solve,
+        wheel_potential_of,
+        where_it_moves,
+    )
     from workbench.questions.study_graph import stiffness_tasks
+    from workbench.questions.travels import WORKING_LOAD, travel_curves, travel_tasks
+
+    study, path = _studied(source)
+    ways, moved = (Way.FORE_AFT, Way.LATERAL), where_it_moves(study)
+    tasks = {one.name: one for one in stiffness_tasks(study, model, orientations_to_solve(study))}
+    tasks |= {one.name: one for one in travel_tasks(study, model, ways, WORKING_LOAD, moved)}
+    folders = _computed(tasks.values(), source, path)
+    complain_of_early_ends(path, early_ends(folders))
+    with naming(path):
+        curves = curves_around(study, folders, model)
+        potential = wheel_potential_of(study, curves)
+        carcass = carcass_of(travel_curves(model, ways, moved, folders))
+    told = f"{len(curves)} curves of {words} of {study.name}"
+    return on_wheel_curves(_on_brush(scenario, source), potential, told, carcass, model)
+
+
+def _on_fitted(scenario: Scenario, source: TireSource, design: RoverDesign, name: str) -> Scenario:
+    """One of the study's fitted ANCF tires, fitted here if it is not kept; warns of one that does not stand."""
+    from workbench.commands.computing import warn
+    from workbench.execution.result_files import FAILURE, read_result
+    from workbench.questions.ancf_fit.graph import fit_name, stand_name, stand_task
+    from workbench.questions.ancf_fit.stand_task import reasons_against
+    from workbench.questions.rover_ancf.runs import fitted_run
+    from workbench.questions.study_graph import report_tasks
+    from workbench.study.ancf_tire import preset_from
+
+    study, path = _studied(source)
+    tires = () if study.ancf_fit is None else study.ancf_fit.tires
+    if name not in [one.name for one in tires]:
+        known = ", ".join(one.name for one in tires) or "it has none"
+        raise InputError("fitted tire", repr(name), f"is not one of the study's ({known})", "name one of [ancf_fit]")
+    needed = needed_for(fit_name(name), report_tasks(study))
+    folders = _computed([*needed, stand_task(study, name)], source, path)
+    found, stands = read_result(folders[fit_name(name)]), read_result(folders[stand_name(name)])
+    if found.get(FAILURE):
+        raise InputError("fitted tire", repr(name), f"is none: {found[FAILURE]}", "change its start or bounds")
+    warn(path, [f"fitted tire {name}: {reason}" for reason in reasons_against(stands)])
+    driven = fitted_run(scenario.name, preset_from(found["preset"]), design)
+    return replace(driven, name=scenario.name, tire_model=file_name(f"{FITTED}{name}"))
+
+
+def _studied(source: TireSource) -> tuple[Study, Path]:
+    """The study, the built-in one without any, and its file."""
+    from workbench.commands.computing import read_and_warn
     from workbench.study.reading import built_in_study
 
     path = source.path or built_in_study()
-    study = source.study or read_and_warn(path)
-    tasks = stiffness_tasks(study, "fe", orientations_to_solve(study))
-    entries = computed(path, tasks, source.store, computing(None, 1, None))
-    folders = {name: entry.path for name, entry in entries.items()}
-    complain_of_early_ends(path, early_ends(folders))
-    with naming(path):
-        curves = curves_around(study, folders)
-        potential = wheel_potential_of(study, curves)
-    words = f"{len(curves)} curves of the solid model of {study.name}"
-    return on_wheel_curves(_on_brush(scenario, source), potential, words)
+    return source.study or read_and_warn(path), path
+
+
+def _computed(tasks: Iterable[Task], source: TireSource, path: Path) -> dict[str, Path]:
+    from workbench.commands.computing import computed
+    from workbench.commands.options import computing
+
+    entries = computed(path, tuple(tasks), source.store, computing(None, 1, None))
+    return {name: entry.path for name, entry in entries.items()}
 
 
 TIRES: Mapping[str, Callable[[Scenario, TireSource], Scenario]] = {
@@ -78,15 +138,22 @@ TIRES: Mapping[str, Callable[[Scenario, TireSource], Scenario]] = {
     "brush": _on_brush,
     "fe": _on_fe,
     "ancf": _on_ancf,
+    "ancf_wheel": _on_ancf_wheel,
 }
 """Name on the command line -> what puts a study's tires of that kind, or the thesis' without one, under a scenario."""
+FITTED = "ancf_fit:"
+"""Before the name of a fitted tire of the study."""
 
 
 def check_tire(name: str) -> None:
     """Refuse a tire that is not known."""
-    if name not in TIRES:
-        *most, last = TIRES
-        raise InputError("tire", repr(name), "is not known", f"give {', '.join(most)} or {last}")
+    if name not in TIRES and not name.startswith(FITTED):
+        raise InputError("tire", repr(name), "is not known", f"give {', '.join(TIRES)} or {FITTED}NAME")
+
+
+def file_name(tire: str) -> str:
+    """What series and files call a tire."""
+    return tire.replace(":", "_")
 
 
 def on_tires(scenario: Scenario, name: str, source: TireSource, design: RoverDesign) -> Scenario:
@@ -100,7 +167,10 @@ def on_tires(scenario: Scenario, name: str, source: TireSource, design: RoverDes
     study = source.study
     if study is not None:
         _check_wheel(study, design)
-    driven = TIRES[name](scenario, source)
+    if name.startswith(FITTED):
+        driven = _on_fitted(scenario, source, design, name.removeprefix(FITTED))
+    else:
+        driven = TIRES[name](scenario, source)
     return driven if study is None else on_friction(driven, study.ground.friction)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 from workbench.execution.fingerprint import canonical_json, library_versions, text_sha256
 from workbench.execution.reach import reached, reached_libraries
 
-__all__ = ["Progress", "Task", "TaskFunction", "bare_name", "chain_costs", "task_keys"]
+__all__ = ["Progress", "Task", "TaskFunction", "bare_name", "chain_costs", "needed_for", "task_keys"]
 
 type Progress = Callable[[float], None]
 """Called by a task with the fraction done, 0 to 1."""
@@ -75,6 +75,15 @@ class Task:
 def bare_name(name: str) -> str:
     """Name of a task in a graph of its own: ``"fe_phi015"`` for ``"p3/fe_phi015"``."""
     return name.rpartition("/")[2]
+
+
+def needed_for(name: str, tasks: Sequence[Task]) -> tuple[Task, ...]:
+    """The task of this name and all it needs, in their order."""
+    by_name, wanted = {task.name: task for task in tasks}, {name}
+    for task in reversed(tasks):  # each stands behind those it needs
+        if task.name in wanted:
+            wanted |= set(by_name[task.name].needs)
+    return tuple(task for task in tasks if task.name in wanted)
 
 
 def task_keys(tasks: tuple[Task, ...]) -> dict[str, str]:

@@ -10,6 +10,7 @@ Verified by tests/unit/test_rover_ground.py.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,11 +20,13 @@ from contracts.terrain_cover import check_covered
 from contracts.terrain_rocks import RandomRocks
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.scenario import FloatArray, Scenario
+from rover_dynamics.tires.brush_settings import SlipLaw
 from rover_dynamics.tires.brush_tire import BrushTireParameters
 from rover_dynamics.tires.rigid import rigid_parameters, rigid_settings
 from rover_dynamics.tires.wheel_potential import WheelPotential, mean_stiffness
 
 __all__ = [
+    "Carcass",
     "on_brush_tires",
     "on_friction",
     "on_rigid_tires",
@@ -37,6 +40,13 @@ ABUNDANCE = 0.2
 """Share of the ground under random rocks, as in `benchmarks/rover_brush.py`: a rocky site."""
 MARGIN, ASIDE = 0.5, 0.25
 """A field of rocks beyond the wheels' places [m], and more by this share of the way, along which rocks turn a rover."""
+
+
+class Carcass(NamedTuple):
+    """How stiffly a wheel that sticks to the ground holds its hub, forwards and sideways [N/m]."""
+
+    forward: float
+    sideways: float
 
 
 def on_terrain(scenario: Scenario, design: RoverDesign, terrain: Terrain, words: str) -> Scenario:
@@ -103,14 +113,32 @@ def on_rigid_tires(scenario: Scenario) -> Scenario:
     )
 
 
-def on_wheel_curves(scenario: Scenario, potential: WheelPotential, source: str) -> Scenario:
-    """The same on six wheels that carry as their own curves say, with friction, slip and damper of the brush tire.
+def on_wheel_curves(
+    scenario: Scenario, potential: WheelPotential, source: str, carcass: Carcass | None = None, model: str = "fe"
+) -> Scenario:
+    """The same on six wheels that carry as their own curves say, with friction and damper of the brush tire.
 
-    All six stand on their position 0 at the start, and none is the mirror image of another.
+    A wheel that rolls slips as the brush tire does. Before it slides it yields as its carcass; without one, as the
+    brush's bristles. All six stand on their position 0 at the start, and none is the mirror image of another.
+
+    Parameters
+    ----------
+    scenario : on brush tires
+    potential : of the wheel
+    source : in words
+    carcass : of the wheel
+    model : what series and files call it
     """
     tire = replace(scenario.tire, radial_stiffness=mean_stiffness(potential), source=source)
     settings = replace(scenario.settings, potential=potential)
-    return replace(scenario, tire=tire, settings=settings, tire_model="fe", has_closed_forms=False)
+    if carcass is not None:
+        settings = replace(
+            settings,
+            slip_law=SlipLaw.CARCASS,
+            relaxation_length=tire.longitudinal_slip_stiffness / carcass.forward,
+            lateral_ratio=carcass.sideways / carcass.forward,
+        )
+    return replace(scenario, tire=tire, settings=settings, tire_model=model, has_closed_forms=False)
 
 
 def touching_height(terrain: Terrain, design: RoverDesign) -> float:

@@ -10,7 +10,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from contracts.curves import StiffnessCurve, read_curve
+from contracts.errors import InputError
+from contracts.hub_travel import Way
+from contracts.travel_curve import TravelCurve
+from rover_dynamics.rover.scenarios.ground import Carcass
 from rover_dynamics.tires.wheel_potential import Tips, WheelPotential, wheel_potential
 from workbench.questions.model_curves import CURVE
 from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
@@ -18,7 +24,9 @@ from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["curves_around", "orientations_to_solve", "wheel_potential_of"]
+__all__ = ["carcass_of", "curves_around", "orientations_to_solve", "wheel_potential_of", "where_it_moves"]
+
+_MOVED = 4
 
 
 def orientations_to_solve(study: Study) -> list[float]:
@@ -34,10 +42,10 @@ def orientations_to_solve(study: Study) -> list[float]:
     return [one for one in steps if not is_mirrored(study) or one <= 0.5 * rotational_period(study) + 1e-9]
 
 
-def curves_around(study: Study, folders: Mapping[str, Path]) -> list[StiffnessCurve]:
-    """Curves of the solid model at every step of one period, from the folders of those solved."""
+def curves_around(study: Study, folders: Mapping[str, Path], model: str = "fe") -> list[StiffnessCurve]:
+    """Curves of a model of the wheel at every step of one period, from the folders of those solved."""
     solved = {
-        one: read_curve(folders[orientation_name("fe", one)] / CURVE, model="fe", orientation_deg=one)
+        one: read_curve(folders[orientation_name(model, one)] / CURVE, model=model, orientation_deg=one)
         for one in orientations_to_solve(study)
     }
     period = rotational_period(study)
@@ -49,6 +57,31 @@ def curves_around(study: Study, folders: Mapping[str, Path]) -> list[StiffnessCu
 
 def _nearest(solved: Mapping[float, StiffnessCurve], orientation: float) -> StiffnessCurve:
     return solved[min(solved, key=lambda one: abs(one - orientation))]
+
+
+def where_it_moves(study: Study) -> list[float]:
+    """Four of the orientations [deg] solved, evenly spread, at which the hub is moved over the ground; fewer of few."""
+    solved = orientations_to_solve(study)
+    apart = max(1, len(solved) // _MOVED + 1)
+    return solved[::apart]
+
+
+def carcass_of(travels: Sequence[TravelCurve]) -> Carcass:
+    """Mean stiffness of the wheel forwards and sideways.
+
+    Raises
+    ------
+    InputError
+        If there is no travel one way, or one that does not resist.
+    """
+    found = {}
+    for way in (Way.FORE_AFT, Way.LATERAL):
+        stiffness = [one.stiffness for one in travels if one.way is way]
+        if not stiffness or not min(stiffness) > 0.0:
+            rule = "must be found at one orientation at least, and be > 0 at each"
+            raise InputError(f"stiffness {way} of the wheel", f"{stiffness} N/m", rule, "ask for closer points in [fe]")
+        found[way] = float(np.mean(stiffness))
+    return Carcass(forward=found[Way.FORE_AFT], sideways=found[Way.LATERAL])
 
 
 def wheel_potential_of(study: Study, curves: Sequence[StiffnessCurve]) -> WheelPotential:
