@@ -20,6 +20,7 @@ sys.path[:0] = [str(ROOT)]
 
 from benchmarks.output.run import Run  # noqa: E402
 from contracts.curves import StiffnessCurve, read_curve  # noqa: E402
+from contracts.hub_travel import Way  # noqa: E402
 from workbench.commands.computing import computed  # noqa: E402
 from workbench.commands.options import DEFAULT_STORE, computing  # noqa: E402
 from workbench.execution.result_files import read_result  # noqa: E402
@@ -33,6 +34,7 @@ from workbench.questions.ancf_wheels.cases import (  # noqa: E402
 from workbench.questions.ancf_wheels.results import Agreement, agreement, largest  # noqa: E402
 from workbench.questions.kept import keep  # noqa: E402
 from workbench.questions.model_curves import CURVE  # noqa: E402
+from workbench.questions.travels import travel_curves  # noqa: E402
 from workbench.study.orientation import orientation_name  # noqa: E402
 from workbench.study.reading import built_in_study  # noqa: E402
 
@@ -64,7 +66,17 @@ def found_of(wheel: ComparedWheel, folders: Mapping[str, Path]) -> dict[str, Any
         name: [read_result(folders[orientation_name(model, o)]) for o in wheel.orientations]
         for name, model in (("fe", "fe"), ("plates", "ancf_wheel"))
     }
+    travels = [
+        {"way": way.value, "orientation_deg": o}
+        | {
+            name: travel_curves(model, (way,), (o,), folders)[0].stiffness
+            for name, model in (("fe", "fe"), ("plates", "ancf_wheel"))
+        }
+        for o in wheel.moved
+        for way in Way
+    ]
     return {
+        "travels": travels,
         "curves": curves,
         "fine": both(*(curve(m, f"{m}_fine", wheel.fine) for m in ("fe", "ancf_wheel"))),
         "unknowns": {name: [run["dofs"] for run in of] for name, of in runs.items()},
@@ -81,10 +93,11 @@ def _show(wheel: ComparedWheel, says: Agreement) -> list[dict[str, object]]:
         "both twice as fine, largest difference": says.finer,
         "stress of springs, largest difference": says.stress,
         "stress, both twice as fine": says.stress_finer,
+        "stiffness along the ground, largest difference": says.travel,
     }
     found = {metric: value for metric, value in shown.items() if value is not None}
     for metric, value in found.items():
-        print(f"{wheel.name:<10}{metric:<42}{100.0 * value:>+8.2f} %", flush=True)
+        print(f"{wheel.name:<10}{metric:<48}{100.0 * value:>+8.2f} %", flush=True)
     return [{"case": wheel.name, "metric": metric, "unit": "%", "ours": 100.0 * v} for metric, v in found.items()]
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from contracts.errors import InputError
+from contracts.hub_travel import Way
 from workbench.questions.ancf_wheels.cases import COMMAND, ComparedWheel, compared_wheels, wheel_tasks
 from workbench.questions.ancf_wheels.question import ANCF_WHEELS
 from workbench.questions.ancf_wheels.results import agreement
@@ -90,11 +91,42 @@ def test_springs_that_touch_at_once_have_no_stress_to_compare(studies: Path) -> 
 @pytest.mark.parametrize("wheel", compared_wheels(), ids=lambda wheel: wheel.name)
 def test_every_wheel_is_computed_by_both_models_and_finer(wheel: ComparedWheel) -> None:
     tasks = {task.name: task for task in wheel_tasks(wheel, wheel.read(STUDIES / wheel.study))}
-    assert len(tasks) == 2 * len(wheel.orientations) + 4  # two meshes, two finer curves
+    travels = 6 * len(wheel.moved) + bool(wheel.moved)  # three ways by two models, and the whole wheel's mesh
+    assert len(tasks) == 2 * len(wheel.orientations) + 4 + travels  # two meshes, two finer curves
     assert tasks["ancf_wheel_fine"].inputs["options"]["factor"] == 2.0
     assert tasks["mesh_fine"].inputs["options"]["factor"] == 2.0 * tasks["mesh"].inputs["options"]["factor"]
     assert tasks["fe_fine"].inputs["deflections"] == tasks["ancf_wheel_fine"].inputs["deflections"]
     assert wheel.fine in wheel.orientations
+
+
+def travelled(wheel: ComparedWheel, off: float) -> dict[str, Any]:
+    """Plates are ``off`` sideways at the last orientation, else equal."""
+    rows = [{"way": way.value, "orientation_deg": o, "fe": 4e3, "plates": 4e3} for o in wheel.moved for way in Way]
+    next(row for row in reversed(rows) if row["way"] == "lateral")["plates"] = 4e3 * off
+    return found(wheel) | {"travels": rows}
+
+
+def test_stiffness_along_the_ground_is_judged_where_it_is_kept(studies: Path) -> None:
+    wheel = next(one for one in compared_wheels() if one.moved)
+    for off, status in ((0.96, "pass"), (1.06, "fail")):
+        study = study_with(studies, wheel, travelled(wheel, off))
+        results = ANCF_WHEELS.read(study, {})
+        check = {one.id: one for one in ANCF_WHEELS.checks(study, results)}["ancf_travel.built_in"]
+        assert (check.status, check.role, check.value) == (status, "finding", pytest.approx(abs(off - 1.0)))
+        template = page_environment().get_template("ancf_wheels/evidence.html.j2")
+        assert "turned about the normal" in template.render(results=results, study=study, figures={})
+    study = study_with(studies, wheel, found(wheel))
+    assert [one.id for one in ANCF_WHEELS.checks(study, ANCF_WHEELS.read(study, {}))] == ["ancf_wheels.built_in"]
+
+
+def test_a_record_that_lacks_a_travel_or_has_none_is_refused() -> None:
+    wheel = next(one for one in compared_wheels() if one.moved)
+    numbers = travelled(wheel, 1.0)
+    with pytest.raises(InputError, match="travels"):
+        agreement(wheel, numbers | {"travels": numbers["travels"][1:]})
+    numbers["travels"][0]["fe"] = 0.0
+    with pytest.raises(ValueError, match="above zero"):
+        agreement(wheel, numbers)
 
 
 def test_the_wheels_of_our_own_have_the_springs_they_are_named_for() -> None:

@@ -13,10 +13,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from contracts.hub_travel import Way
 from workbench.execution.task import Task
 from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks, every_second
 from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import curve_deflections, fe_curve_tasks, fe_inputs, fe_task, without_fields
+from workbench.questions.travels import WORKING_LOAD, travel_tasks
 from workbench.questions.wheel.graph import MESH, mesh_task
 from workbench.study.model import Study
 from workbench.study.reading import read_study_table, study_of
@@ -40,6 +42,7 @@ class ComparedWheel:
     orientations : at which both models are computed [deg]
     fine : the one of them at which both are computed on finer meshes too [deg]
     springs : what the study's first spring set has instead
+    moved : orientations at which both models' hub is moved over the ground, every way [deg]
     """
 
     name: str
@@ -48,6 +51,7 @@ class ComparedWheel:
     orientations: Sequence[float]
     fine: float
     springs: Mapping[str, Any] = field(default_factory=dict)
+    moved: Sequence[float] = ()
 
     @property
     def record(self) -> str:
@@ -70,7 +74,7 @@ def compared_wheels() -> tuple[ComparedWheel, ...]:
 
 
 def wheel_tasks(wheel: ComparedWheel, study: Study) -> list[Task]:
-    """Curves of both models at every orientation, named as the report's; ``fe_fine`` and ``ancf_wheel_fine``."""
+    """Curves of both models at every orientation, named as the report's, ``fe_fine``, ``ancf_wheel_fine``, travels."""
     curves = fe_curve_tasks(study, wheel.orientations)
     mesh = mesh_task(study, "mesh_fine", factor=FINER * study.mesh.factor)
     points = curve_deflections(study)
@@ -80,4 +84,7 @@ def wheel_tasks(wheel: ComparedWheel, study: Study) -> list[Task]:
     (one,) = (task for task in plates if task.inputs["orientation_deg"] == wheel.fine)
     options = {**one.inputs["options"], "factor": FINER}
     finer = replace(one, name="ancf_wheel_fine", inputs={**one.inputs, "options": options, "keep_points": False})
-    return [*foreseen(solid), *plates, finer]
+    tasks = {task.name: task for task in (*foreseen(solid), *plates, finer)}
+    for model in ("fe", "ancf_wheel") if wheel.moved else ():
+        tasks |= {task.name: task for task in travel_tasks(study, model, tuple(Way), WORKING_LOAD, wheel.moved)}
+    return list(tasks.values())

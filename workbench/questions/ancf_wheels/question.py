@@ -21,6 +21,9 @@ from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["ANCF_WHEELS", "HeldWheel"]
 
+_TRAVEL_LIMIT = 0.05
+"""Of a stiffness; ours [-]."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeldWheel:
@@ -72,11 +75,12 @@ def _asked(study: Study) -> bool:
 
 
 def _checks(study: Study, results: Sequence[HeldWheel]) -> Sequence[Check]:
-    return [_check(one, study.tolerances.ancf_wheel_largest) for one in results]
+    loads = [_check(one, study.tolerances.ancf_wheel_largest) for one in results]
+    return [*loads, *(_travel_check(one) for one in results if one.agreement.travel is not None)]
 
 
 def _check(found: HeldWheel, limit: float) -> Check:
-    """Undecided where the record is about another study of that wheel, or a run of it ended early."""
+    """Load at every orientation."""
     claim = Claim(
         id=f"ancf_wheels.{found.wheel.name}",
         title=f"ANCF wheel against the solid model, {found.wheel.title}: load at any orientation",
@@ -85,7 +89,24 @@ def _check(found: HeldWheel, limit: float) -> Check:
         role="finding",
         source="our own solid model of the same design: code to code, no number fitted",
     )
-    check = at_most(claim, lambda: abs(found.agreement.largest), limit)
+    return _decided(found, at_most(claim, lambda: abs(found.agreement.largest), limit))
+
+
+def _travel_check(found: HeldWheel) -> Check:
+    """Forwards, sideways and turned, at every orientation asked."""
+    claim = Claim(
+        id=f"ancf_travel.{found.wheel.name}",
+        title=f"ANCF wheel against the solid model, {found.wheel.title}: stiffness along the ground",
+        quantity="difference",
+        unit="-",
+        role="finding",
+        source="our own solid model of the same design: code to code, no number fitted",
+    )
+    return _decided(found, at_most(claim, lambda: abs(found.agreement.travel or 0.0), _TRAVEL_LIMIT))
+
+
+def _decided(found: HeldWheel, check: Check) -> Check:
+    """Undecided where the record is about another study of that wheel, or a run of it ended early."""
     why = "the kept record is of another study" if found.state == "stale" else "a run ended early"
     if found.state != "stale" and not found.agreement.partial:
         return check

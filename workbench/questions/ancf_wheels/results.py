@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from contracts.hub_travel import Way
 from workbench.questions.ancf_wheels.cases import ComparedWheel
 
 __all__ = ["Agreement", "agreement", "largest"]
@@ -33,6 +34,7 @@ class Agreement:
     stress, stress_finer : of the springs' largest stress before they touch anything, sign kept; at any orientation, and
         of the two finer models; None where they touch from the first point on
     unknowns, seconds : of plates and solid, means over orientations
+    travels : stiffness of plates and solid by way and orientation [deg] [N/m; N m/rad of a turn]
     """
 
     orientations: int
@@ -49,6 +51,12 @@ class Agreement:
     stress_finer: float | None
     unknowns: tuple[float, float]
     seconds: tuple[float, float]
+    travels: Mapping[tuple[str, float], tuple[float, float]]
+
+    @property
+    def travel(self) -> float | None:
+        """Largest difference of a stiffness along the ground, sign kept [-]; None where none was asked."""
+        return largest(np.array([a / b - 1.0 for a, b in self.travels.values()])) if self.travels else None
 
 
 def agreement(wheel: ComparedWheel, found: Mapping[str, Any]) -> Agreement:
@@ -89,7 +97,17 @@ def agreement(wheel: ComparedWheel, found: Mapping[str, Any]) -> Agreement:
         stress_finer=_stress([fine]),
         unknowns=_means(found["unknowns"]),
         seconds=_means(found["solve_s"]),
+        travels=_travels(wheel, found.get("travels", [])),
     )
+
+
+def _travels(wheel: ComparedWheel, rows: Sequence[Mapping[str, Any]]) -> dict[tuple[str, float], tuple[float, float]]:
+    found = {(str(row["way"]), float(row["orientation_deg"])): (row["plates"], row["fe"]) for row in rows}
+    if found and set(found) != {(way.value, float(o)) for way in Way for o in wheel.moved}:
+        raise InputError("record", wheel.record, "does not have the travels that are asked", "make it anew")
+    if not all(np.isfinite(one) and one > 0.0 for pair in found.values() for one in pair):
+        raise ValueError("stiffnesses are numbers above zero")
+    return found
 
 
 def _apart(one: Any, other: Any) -> Array:
