@@ -158,7 +158,7 @@ def stiffness(
     travel: Annotated[
         str | None, typer.Option(help="Move the pressed hub: fore_aft, lateral, turning or all (fe and ancf_wheel).")
     ] = None,
-    load: Annotated[float, typer.Option(help="Load from which the hub moves [N]; with --travel.")] = 200.0,
+    load: Annotated[float, typer.Option(help="Load in newtons from which the hub moves, with --travel.")] = 200.0,
     out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
     store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
