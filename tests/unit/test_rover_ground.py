@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from rover_dynamics.rover.planets import gravity_named
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import (
+    Carcass,
     on_brush_tires,
     on_friction,
     on_rigid_tires,
@@ -23,8 +25,8 @@ from rover_dynamics.rover.scenarios.ground import (
     rocks_on_the_way,
     touching_height,
 )
-from rover_dynamics.rover.scenarios.scenario import run_scenario
-from rover_dynamics.tires.brush_settings import BrushSettings
+from rover_dynamics.rover.scenarios.scenario import Tilt, run_scenario
+from rover_dynamics.tires.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from rover_dynamics.tires.wheel_potential import load_and_slope, wheel_potential
 from tests.unit.test_wheel_potential import GROUSERS, PERIOD, curves
@@ -152,3 +154,22 @@ def test_on_its_own_wheels_the_rover_stands_on_their_curves(design: RoverDesign)
     stopped = run_scenario(shallow, design).stopped
     assert stopped is not None
     assert "N: its curves end at 14.2 mm of the rim, 3 mm more on a grouser" in stopped
+
+
+def test_its_own_wheels_yield_along_the_ground_as_their_carcass_does(design: RoverDesign) -> None:
+    """Held on a slope of 5 degrees it swings about what friction has to hold, m g sin 5 deg, at some 1.2 Hz."""
+    wheel = wheel_potential(curves(GROUSERS), PERIOD, GROUSERS)
+    carcass = Carcass(forward=3e3, sideways=12e3)
+    scenario = on_wheel_curves(SCENARIOS["drop"], wheel, "made up", carcass, "ancf_wheel")
+    assert scenario.tire_model == "ancf_wheel"
+    numbers = wheel_numbers(scenario.tire, scenario.settings)
+    assert (numbers.tangential_stiffness, numbers.lateral_ratio) == (pytest.approx(3e3), pytest.approx(4.0))
+    assert numbers.tangential_stiffness * numbers.relaxation_x == pytest.approx(8250.0)
+    assert 12e3 * numbers.relaxation_y == pytest.approx(scenario.tire.cornering_stiffness)
+    run = run_scenario(replace(scenario, tilt=Tilt(angle=math.radians(5.0), heading=math.pi)), design)
+    assert run.stopped is None
+    held, pulled = run.loads.sum(axis=1), run.tractive.sum(axis=1)
+    period = 2.0 * math.pi * math.sqrt(held.mean() / 3.711 / (6.0 * carcass.forward))
+    last = run.motion.times > run.motion.times[-1] - period
+    assert run.motion.times[0] < run.motion.times[-1] - period
+    assert pulled[last].mean() == pytest.approx(held[last].mean() * math.tan(math.radians(5.0)), rel=0.05)

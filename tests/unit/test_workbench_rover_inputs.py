@@ -18,7 +18,7 @@ from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
-from workbench.commands.rover_tires import TireSource, on_tires
+from workbench.commands.rover_tires import TireSource, check_tire, file_name, on_tires
 from workbench.execution.task import Task
 from workbench.questions.rover.question import ROVER
 from workbench.questions.rover.tires import AncfRide, contact_law
@@ -207,3 +207,18 @@ def test_a_study_of_another_wheel_is_refused_and_its_ancf_tire_not_driven() -> N
     questions: Mapping[str, Any] = {t.name: t for t in (ROVER_ANCF, ROVER_CROSSCHECK, ROVER_MISSION, ROVER_CLOSER)}
     assert [t.applies(amalia) for t in questions.values()] == [False] * 4
     assert [t.applies(STUDY) for t in questions.values()] == [True] * 4
+
+
+def test_a_fitted_tire_is_named_as_the_study_names_it() -> None:
+    with pytest.raises(InputError, match=r"'seven_spokes'.*is not one of the study's \(four_spokes, six_spokes\)"):
+        on_tires(SCENARIOS["straight"], "ancf_fit:seven_spokes", source(STUDY), DESIGN)
+    without = STUDY.model_copy(update={"ancf_fit": None})
+    with pytest.raises(InputError, match="it has none"):
+        on_tires(SCENARIOS["straight"], "ancf_fit:", source(without), DESIGN)
+
+
+@pytest.mark.parametrize("name", ["ancf_fits:six_spokes", "Fe", "ancf_wheels", ""])
+def test_what_is_no_tire_is_refused(name: str) -> None:
+    with pytest.raises(InputError, match="ancf_wheel or ancf_fit:NAME"):
+        check_tire(name)
+    assert file_name("ancf_fit:six_spokes") == "ancf_fit_six_spokes"

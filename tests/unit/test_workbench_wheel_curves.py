@@ -10,9 +10,17 @@ import pytest
 
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import InputError
+from contracts.hub_travel import Way
+from contracts.travel_curve import WRENCH, TravelCurve
 from rover_dynamics.tires.wheel_potential import load_and_slope, raise_and_slope
 from workbench.questions.model_curves import CURVE
-from workbench.questions.models.wheel_curves import curves_around, orientations_to_solve, wheel_potential_of
+from workbench.questions.models.wheel_curves import (
+    carcass_of,
+    curves_around,
+    orientations_to_solve,
+    wheel_potential_of,
+    where_it_moves,
+)
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study, read_study
@@ -63,3 +71,31 @@ def test_curves_of_other_ground_are_refused() -> None:
     leaning = study.model_copy(update={"fe": study.fe.model_copy(update={"camber": math.radians(5.0)})})
     with pytest.raises(InputError, match=r"ground of \[fe\] = plane, camber 5 deg: is not the level plane"):
         orientations_to_solve(leaning)
+
+
+def travel(way: Way, orientation: float, stiffness: float) -> TravelCurve:
+    held = np.array([-1.0, -1.0 - 1e-3 * stiffness])
+    return TravelCurve(
+        model="fe",
+        way=way,
+        orientation_deg=orientation,
+        deflection=0.02,
+        travel=np.array([0.0, 1e-3]),
+        columns=dict.fromkeys(WRENCH, held),
+        source="made up",
+    )
+
+
+def test_the_carcass_is_the_mean_over_orientations() -> None:
+    stiffness = {Way.FORE_AFT: (2e3, 4e3), Way.LATERAL: (12e3, 14e3)}
+    travels = [travel(way, 30.0 * k, s) for way, both in stiffness.items() for k, s in enumerate(both)]
+    assert carcass_of(travels) == pytest.approx((3e3, 13e3))
+    with pytest.raises(InputError, match="stiffness lateral of the wheel"):
+        carcass_of(travels[:2])
+    with pytest.raises(InputError, match="must be found at one orientation at least, and be > 0"):
+        carcass_of([*travels, travel(Way.LATERAL, 60.0, -1.0)])
+
+
+@pytest.mark.parametrize(("name", "at"), [("exomars", [0.0, 35.0, 70.0, 105.0]), ("exomars_hoops", [0, 20, 40, 60])])
+def test_the_hub_is_moved_at_four_of_the_orientations_solved(name: str, at: list[float]) -> None:
+    assert where_it_moves(read_study(STUDIES / f"{name}.toml")) == pytest.approx(at)
