@@ -46,7 +46,7 @@ __all__ = [
 FloatArray = NDArray[np.float64]
 _EVEN = 1e-6
 """Largest difference of orientations from equal spacing, over it [-]."""
-_CELLS = 48
+_CELLS = 80
 """Pieces of the splines over x."""
 _FADES = 2.0
 """l over the height of the grousers [-]; above 1, so that x rises with d."""

@@ -17,10 +17,12 @@ from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_curves import (
     carcass_of,
     curves_around,
+    deep_tasks,
     orientations_to_solve,
     wheel_potential_of,
     where_it_moves,
 )
+from workbench.questions.study_graph import stiffness_tasks
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study, read_study
@@ -38,7 +40,7 @@ def curve(orientation: float) -> StiffnessCurve:
 def solved(study: Study, folder: Path) -> dict[str, Path]:
     folders = {}
     for one in orientations_to_solve(study):
-        name = orientation_name("fe", one)
+        name = orientation_name("fe_deep", one)
         (folder / name).mkdir()
         write_curve(curve(one), folder / name / CURVE)
         folders[name] = folder / name
@@ -99,3 +101,25 @@ def test_the_carcass_is_the_mean_over_orientations() -> None:
 @pytest.mark.parametrize(("name", "at"), [("exomars", [0.0, 35.0, 70.0, 105.0]), ("exomars_hoops", [0, 20, 40, 60])])
 def test_the_hub_is_moved_at_four_of_the_orientations_solved(name: str, at: list[float]) -> None:
     assert where_it_moves(read_study(STUDIES / f"{name}.toml")) == pytest.approx(at)
+
+
+@pytest.mark.parametrize("model", ["fe", "ancf_wheel"])
+def test_tires_curves_go_on_beyond_the_studys(model: str) -> None:
+    """Up to 1.6 times 40 mm, which is less than 0.6 times the 111 mm between rim and hub; no load ends them."""
+    study = read_study(built_in_study())
+    tasks = {task.name: task for task in deep_tasks(study, model)}
+    (own,) = (task for task in stiffness_tasks(study, model, (15.0,)) if task.name == f"{model}_phi015")
+    deep = tasks[f"{model}_deep_phi015"].inputs
+    asked = own.inputs["deflections"]
+    assert deep["deflections"] == pytest.approx([*asked, 0.045, 0.05, 0.055, 0.06])
+    assert (deep["max_load"], deep["keep_points"]) == (1e6, False)
+    assert len(tasks) == 24 + (model == "fe")
+
+
+def test_a_hub_that_is_near_ends_them() -> None:
+    study = read_study(STUDIES / "exomars_hoops.toml")
+    fe = study.fe.model_copy(update={"max_deflection": 0.09})
+    (deep,) = {
+        tuple(t.inputs["deflections"])[-1] for t in deep_tasks(study.model_copy(update={"fe": fe}), "ancf_wheel")
+    }
+    assert deep == pytest.approx(0.09)

@@ -65,26 +65,28 @@ def _on_ancf_wheel(scenario: Scenario, source: TireSource) -> Scenario:
 
 def _on_solved(scenario: Scenario, source: TireSource, model: str, words: str) -> Scenario:
     """What is not kept is computed here."""
-    from workbench.commands.computing import complain_of_early_ends, naming
+    from workbench.commands.computing import complain_of_early_ends, naming, warn
     from workbench.execution.result_files import early_ends
     from workbench.questions.models.wheel_curves import (
         carcass_of,
         curves_around,
-        orientations_to_solve,
+        deep_tasks,
         wheel_potential_of,
         where_it_moves,
     )
-    from workbench.questions.study_graph import stiffness_tasks
     from workbench.questions.travels import WORKING_LOAD, travel_curves, travel_tasks
 
     study, path = _studied(source)
     ways, moved = (Way.FORE_AFT, Way.LATERAL), where_it_moves(study)
-    tasks = {one.name: one for one in stiffness_tasks(study, model, orientations_to_solve(study))}
+    tasks = {one.name: one for one in deep_tasks(study, model)}
     tasks |= {one.name: one for one in travel_tasks(study, model, ways, WORKING_LOAD, moved)}
     folders = _computed(tasks.values(), source, path)
-    complain_of_early_ends(path, early_ends(folders))
+    ended = early_ends(folders)
     with naming(path):
         curves = curves_around(study, folders, model)
+        if min(curve.deflection[-1] for curve in curves) < study.fe.max_deflection - 1e-9:
+            complain_of_early_ends(path, ended)
+        warn(path, [f"{task} ends early: {why}" for task, why in ended.items()])
         potential = wheel_potential_of(study, curves)
         carcass = carcass_of(travel_curves(model, ways, moved, folders))
     told = f"{len(curves)} curves of {words} of {study.name}"

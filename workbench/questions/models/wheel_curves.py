@@ -18,15 +18,19 @@ from contracts.hub_travel import Way
 from contracts.travel_curve import TravelCurve
 from rover_dynamics.rover.scenarios.ground import Carcass
 from rover_dynamics.tires.wheel_potential import Tips, WheelPotential, wheel_potential
+from workbench.execution.task import Task
+from workbench.questions.fe.foresight import foreseen
+from workbench.questions.fe.graph import without_end
 from workbench.questions.model_curves import CURVE
+from workbench.questions.study_graph import stiffness_tasks
 from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["carcass_of", "curves_around", "orientations_to_solve", "wheel_potential_of", "where_it_moves"]
+__all__ = ["carcass_of", "curves_around", "deep_tasks", "orientations_to_solve", "wheel_potential_of", "where_it_moves"]
 
-_MOVED = 4
+_MOVED, _DEEPER, _ROOM, _APART = 4, 1.6, 0.6, 8.0
 
 
 def orientations_to_solve(study: Study) -> list[float]:
@@ -42,10 +46,34 @@ def orientations_to_solve(study: Study) -> list[float]:
     return [one for one in steps if not is_mirrored(study) or one <= 0.5 * rotational_period(study) + 1e-9]
 
 
+def deep_tasks(study: Study, model: str) -> tuple[Task, ...]:
+    """Curves at every orientation to be solved that go on beyond the study's, as deep as a rover may press a wheel.
+
+    Behind the study's points one every eighth of its last deflection, up to 1.6 times that or 0.6 times the room
+    between rim and hub, whatever is less; no load ends them.
+    """
+    design, last = wheel_design(study), study.fe.max_deflection
+    room = design.tire.outer_radius - design.outer_hub.outer_radius
+    deepest, apart = max(last, min(_DEEPER * last, _ROOM * room)), last / _APART
+    more = [round(last + k * apart, 12) for k in range(1, 1 + int((deepest - last) / apart + 1e-9))]
+    tasks = []
+    for task in stiffness_tasks(study, model, orientations_to_solve(study)):
+        if "deflections" in task.inputs:
+            inputs = without_end(task.inputs) | {"deflections": [*task.inputs["deflections"], *more]}
+            tasks.append(replace(task, name=_deep_name(model, task.inputs["orientation_deg"]), inputs=inputs))
+        else:
+            tasks.append(task)
+    return foreseen(tasks)
+
+
+def _deep_name(model: str, orientation_deg: float) -> str:
+    return orientation_name(f"{model}_deep", orientation_deg)
+
+
 def curves_around(study: Study, folders: Mapping[str, Path], model: str = "fe") -> list[StiffnessCurve]:
-    """Curves of a model of the wheel at every step of one period, from the folders of those solved."""
+    """Curves of `deep_tasks` at every step of one period, from the folders of those solved."""
     solved = {
-        one: read_curve(folders[orientation_name(model, one)] / CURVE, model=model, orientation_deg=one)
+        one: read_curve(folders[_deep_name(model, one)] / CURVE, model=model, orientation_deg=one)
         for one in orientations_to_solve(study)
     }
     period = rotational_period(study)
