@@ -25,7 +25,7 @@ type Limits = tuple[float, float]
 _SCALES = {
     **{"": 1.0, "m": 1.0, "mm": 1e-3, "deg": math.pi / 180.0, "K": 1.0, "m/s^2": 1.0},
     **{"kg": 1.0, "kg m^2": 1.0, "kg/m^3": 1.0, "MPa": 1e6, "GPa": 1e9},
-    **{"N": 1.0, "N/m": 1.0, "N/m^3": 1.0, "N*s/m": 1.0},
+    **{"N": 1.0, "N/m": 1.0, "N/m^3": 1.0, "N*s/m": 1.0, "N m": 1.0, "rad/s": 1.0, "N m s/rad": 1.0},
 }
 """Unit in which a row states its limits -> its size in SI."""
 _SLACK = 1e-9

@@ -23,7 +23,7 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import block_array, coo_array, csr_array, eye_array
 from scipy.sparse.linalg import splu
 
-from contracts.errors import ConvergenceError
+from contracts.errors import ConvergenceError, InputError
 from rover_dynamics.flexible.flexible_vehicle import FlexibleVehicle, rigid_vectors
 from rover_dynamics.flexible.node_constraints import SIZE, NodeConstraints, node_constraints
 from rover_dynamics.multibody.assembly import ITERATIONS, POSITION_TOLERANCE
@@ -53,6 +53,9 @@ class ConstrainedCoordinates:
     def __init__(self, vehicle: FlexibleVehicle) -> None:
         self.vehicle, self.tires = vehicle, vehicle.tires
         body = vehicle.vehicle
+        if body.motors:
+            rule = "are not known to the augmented equations"
+            raise InputError("motors of the vehicle", len(body.motors), rule, "drive the joints by laws")
         torques = tuple(HingeTorque(joint=one.joint, torque=_constant_in_angle(one)) for one in body.efforts)
         self.rigid = AugmentedEquations(replace(body.model, forces=torques))
         self._n_b = len(body.model.bodies)

@@ -17,7 +17,6 @@ from rover_dynamics.multibody.tree_kernels import TreeMotion, bias_and_mass, tre
 from rover_dynamics.tires.brush_force import HubMotions, brush_forces, brush_result, brush_scratch
 from rover_dynamics.tires.brush_settings import wheel_numbers
 from rover_dynamics.vehicle.implicit_method import Known
-from rover_dynamics.vehicle.joint_actions import JointActions
 
 __all__ = ["FlexibleSystem", "Instant", "Residual", "joined", "node_jacobians"]
 
@@ -58,12 +57,14 @@ class Residual:
     tires : (n_w, n_f, 3) float, of the free vectors [N, N m]
     mass : (n_v, n_v) float, of the rigid bodies in the joints
     hubs : (n_w, 4, 3) float, forces on the reference nodes
+    slopes : (n_m,) float, how motors' torques fall with speed [N m s/rad]
     """
 
     joints: FloatArray
     tires: FloatArray
     mass: FloatArray
     hubs: FloatArray
+    slopes: FloatArray
 
 
 class FlexibleSystem:
@@ -79,7 +80,7 @@ class FlexibleSystem:
     def __init__(self, vehicle: FlexibleVehicle) -> None:
         self.vehicle, self.tires = vehicle, vehicle.tires
         rigid = vehicle.vehicle
-        self.actions = JointActions(rigid.model, rigid.efforts)
+        self.actions = rigid.joint_actions()
         self.tree = self.actions.coordinates.tree
         self.free, self.driven = self.actions.free, self.actions.driven
         self.wheels = np.array([rigid.model.number(name) for name in rigid.wheels], dtype=np.int64)
@@ -216,7 +217,8 @@ class FlexibleSystem:
         forces = self.tire_forces(instant)
         hubs = np.ascontiguousarray(forces[:, -4:])
         h, M = self._bias(instant, hub_wrenches(instant.hub.z, hubs))
-        return Residual(joints=known.tau - h - M @ instant.a, tires=forces[:, :-4], mass=M, hubs=hubs)
+        tau, slopes = self.actions.torques(known, instant.v)
+        return Residual(joints=tau - h - M @ instant.a, tires=forces[:, :-4], mass=M, hubs=hubs, slopes=slopes)
 
     def _bias(self, instant: Instant, hub: FloatArray) -> tuple[FloatArray, FloatArray]:
         wrenches = np.zeros((len(self.tree.body_links), 6))
@@ -227,15 +229,18 @@ class FlexibleSystem:
         """Power that drives and efforts put in [W]."""
         known = self.known(t)
         drives = -self.residual(instant, known).joints[self.driven]
-        return float(drives @ instant.v[self.driven] + known.tau @ instant.v)
+        return float(drives @ instant.v[self.driven] + self.actions.torques(known, instant.v)[0] @ instant.v)
 
     def row(self, instant: Instant, t: float) -> tuple[FloatArray, ...]:
         """A row of each array of `FlexibleMotion` at an instant, t [s]: positions to efforts, vectors, rates."""
         z, v = self.whole(instant)
-        left = self.residual(instant, self.known(t))
+        known = self.known(t)
+        left = self.residual(instant, known)
+        motors = self.actions.torques(known, instant.v)[0][self.actions.motors.places]
+        efforts = np.concatenate([-left.joints[self.driven], motors])
         motion, wrench = instant.motion, hub_wrenches(instant.hub.z, left.hubs)
         bodies = motion.positions[:-1], motion.rotations[:-1], motion.velocities[:-1]
-        return (*bodies, self._outputs(instant, z, v), wrench, -left.joints[self.driven], z, v)
+        return (*bodies, self._outputs(instant, z, v), wrench, efforts, z, v)
 
     def _outputs(self, instant: Instant, z: FloatArray, v: FloatArray) -> FloatArray:
         """Outputs as of brush tires, (n_w, 10): the undeformed wheel's depth and slip, the tires' own forces."""

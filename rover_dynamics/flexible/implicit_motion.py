@@ -109,6 +109,7 @@ class _Run:
                     continue
                 self.accepted += 1
                 now, last, t = found, dt, (target if dt == target - t else t + dt)
+                self._look(now.instant, t, dt)
                 if self.watch is not None:
                     self._show(t, now.instant, rows)
             rows.append(system.row(now.instant, t))
@@ -117,6 +118,13 @@ class _Run:
                 self.solver.forget()
                 self._keep((t, length, last), now, rows)
         return self._motion(rows)
+
+    def _look(self, now: Instant, t: float, dt: float) -> None:
+        """Show the motors' controller the end of a step."""
+        system = self.system
+        if system.actions.motoring is not None:
+            loads = system.tires.contacts(*system.whole(now)).load
+            system.actions.saw(t, dt, now.v, now.motion, (system.wheels, loads))
 
     def _show(self, t: float, now: Instant, rows: list[tuple[FloatArray, ...]]) -> None:
         assert self.watch is not None
@@ -136,6 +144,8 @@ class _Run:
         joints = kept["joints0"], kept["joints1"], kept["joints2"]
         tires = kept["tires0"], kept["tires1"], kept["tires2"]
         now = StepEnd(instant=self.system.instant(joints, tires), A=kept["A"], Z=kept["Z"])
+        if self.system.actions.motoring is not None:
+            self.system.actions.motoring.restore(kept["motoring"])
         counts = [int(count) for count in kept["counts"]]
         self.accepted, self.rejected, self.solver.iterations, self.solver.linearisations = counts
         names = sorted(name for name in kept if name.startswith("rows"))
@@ -152,6 +162,8 @@ class _Run:
         arrays |= {f"tires{k}": part for k, part in enumerate((i.z, i.z_rate, i.z_acceleration))}
         arrays |= {f"rows{k}": column for k, column in enumerate(columns)}
         counts = np.array([self.accepted, self.rejected, self.solver.iterations, self.solver.linearisations])
+        if self.system.actions.motoring is not None:
+            arrays["motoring"] = self.system.actions.motoring.state()
         arrays |= {"A": now.A, "Z": now.Z, "clock": np.array(clock), "counts": counts}
         self.checkpoint.write(arrays)
 

@@ -64,7 +64,9 @@ def motion_key(vehicle: FlexibleVehicle, times: NDArray[np.float64], steps: Even
     ``times`` (n,) and ``settles_until`` are in [s].
     """
     model, tires = vehicle.vehicle.model, vehicle.tires
-    inputs = (model.gravity, model.bodies, model.joints, model.drives, vehicle.vehicle.wheels, steps, settles_until)
+    body = vehicle.vehicle
+    driven = (model.drives, body.motors, body.control)
+    inputs = (model.gravity, model.bodies, model.joints, driven, body.wheels, steps, settles_until)
     digest = hashlib.sha256(repr(inputs).encode())
     ground = [np.asarray(part) for part in vehicle.vehicle.terrain.pieces()]
     start = tires.reference()[None].repeat(tires.n_wheels, axis=0)

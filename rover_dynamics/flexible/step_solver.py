@@ -138,13 +138,15 @@ class StepSolver:
         A, Z = of
         assert self._matrix is not None
         tires, system, R, J = self._matrix.tires, self._system, self._system.axes(after), after.J
-        c, _, w_q = self._matrix.method.weights(self._matrix.dt)
+        c, w_v, w_q = self._matrix.method.weights(self._matrix.dt)
         to_hub = np.swapaxes(R, -1, -2)
         twists = np.concatenate([to_hub @ J[:, :3], to_hub @ J[:, 3:]], axis=1)
         in_hub = (residual.tires @ R).reshape(len(R), -1)
         pushed = np.matmul(tires.carry, in_hub[..., None])
         matrix = c * residual.mass + joined(twists, tires.stiffness @ twists)
         matrix -= w_q * joined(J[:, 3:], _turning(after.hub.z, residual.hubs) @ J[:, 3:])
+        motors = system.actions.motors.places
+        matrix[motors, motors] += w_v * residual.slopes
         right = residual.joints - joined(twists, pushed)[:, 0]
         change, free = np.zeros_like(A), system.free
         change[free] = np.linalg.solve(matrix[np.ix_(free, free)], right[free])

@@ -17,7 +17,9 @@ from rover_dynamics.multibody.motion_law import Hold, MotionLaw
 from rover_dynamics.rover.rover_file import Leg, RoverDesign
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
+from rover_dynamics.vehicle.drive_control import DriveControl
 from rover_dynamics.vehicle.joint_actions import JointEffort
+from rover_dynamics.vehicle.motors import JointMotor
 from rover_dynamics.vehicle.vehicle import Vehicle
 
 __all__ = ["Actuators", "build_rover", "degrees_of_freedom", "wheel_names"]
@@ -78,8 +80,11 @@ def build_rover(
     joints = _joints(design, bodies, lift)
     _check(actuators, [joint.name for joint in joints])
     held = [j.name for j in joints if j.name.startswith(("deploy_", "steer_"))]
-    laws = {name: Hold() for name in held if name not in actuators.free and name not in actuators.torques}
-    drives = tuple(Drive(joint=name, law=law) for name, law in ({**laws, **actuators.laws}).items())
+    laws: dict[str, MotionLaw] = {n: Hold() for n in held if n not in actuators.free and n not in actuators.torques}
+    laws |= actuators.laws
+    motors = _motors(design, laws)
+    powered = {motor.joint for motor in motors}
+    drives = tuple(Drive(joint=name, law=law) for name, law in laws.items() if name not in powered)
     model = MultibodyModel(
         bodies=tuple(bodies.values()), joints=tuple(joints), drives=drives, gravity=(0.0, 0.0, -design.gravity)
     )
@@ -91,7 +96,17 @@ def build_rover(
         tire=tire,
         settings=sized,
         efforts=tuple(JointEffort(joint=name, effort=torque) for name, torque in actuators.torques.items()),
+        motors=motors,
+        control=DriveControl() if design.drive is None else design.drive.control,
     )
+
+
+def _motors(design: RoverDesign, laws: Mapping[str, MotionLaw]) -> tuple[JointMotor, ...]:
+    """Of a rover whose drives have limits and all move; held ones are braked, and a drive without limits is a law."""
+    names = [f"drive_{leg.name}" for leg in design.legs]
+    if design.drive is None or any(isinstance(laws.get(name, Hold()), Hold) for name in names):
+        return ()
+    return tuple(JointMotor(joint=name, motor=design.drive.motor, law=laws[name]) for name in names)
 
 
 def degrees_of_freedom(model: MultibodyModel) -> int:

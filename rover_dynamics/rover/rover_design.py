@@ -7,7 +7,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-__all__ = ["SIDES", "BodyRow", "Leg", "PivotRow", "RoverDesign"]
+from rover_dynamics.vehicle.drive_control import DriveControl
+from rover_dynamics.vehicle.motors import Motor
+
+__all__ = ["SIDES", "BodyRow", "Leg", "PivotRow", "RoverDesign", "WheelDrive"]
 
 SIDES = {"left": 1.0, "right": -1.0}
 """Sign of y on each side."""
@@ -53,6 +56,14 @@ class Leg:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class WheelDrive:
+    """The motor of every wheel, and what tells it what to do."""
+
+    motor: Motor = field(default_factory=Motor)
+    control: DriveControl = field(default_factory=DriveControl)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RoverDesign:
     """A rover as numbers; mirrored rows have become two.
 
@@ -62,6 +73,7 @@ class RoverDesign:
     wheel_radius, wheel_width : [m]
     bodies, pivots, legs : see there
     leg_bodies : arm, spindle and wheel of every leg; x and y of their positions are the drive's, z counts from the axle
+    drive : the wheels' motors, or None for drives that follow their speed whatever torque that takes
     warnings : what is unusual in the file, a line each
     """
 
@@ -73,6 +85,7 @@ class RoverDesign:
     pivots: tuple[PivotRow, ...]
     legs: tuple[Leg, ...]
     leg_bodies: tuple[BodyRow, ...]
+    drive: WheelDrive | None = None
     warnings: tuple[str, ...] = field(default=(), repr=False)
 
     @property

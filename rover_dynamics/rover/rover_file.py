@@ -13,9 +13,11 @@ from typing import Any
 from contracts.errors import InputError
 from contracts.input_file import input_table
 from contracts.ranges import Key, dotted, oddities, range_table
-from rover_dynamics.rover.rover_design import SIDES, BodyRow, Leg, PivotRow, RoverDesign
+from rover_dynamics.rover.rover_design import SIDES, BodyRow, Leg, PivotRow, RoverDesign, WheelDrive
 from rover_dynamics.rover.rover_geometry import require_standing, strange_places
 from rover_dynamics.rover.rover_table import RoverTable, is_finite
+from rover_dynamics.vehicle.drive_control import Controller, DriveControl
+from rover_dynamics.vehicle.motors import Motor
 
 __all__ = [
     "EXOMARS_ROVER",
@@ -24,6 +26,7 @@ __all__ = [
     "Leg",
     "PivotRow",
     "RoverDesign",
+    "WheelDrive",
     "read_rover",
 ]
 
@@ -54,6 +57,7 @@ def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
         pivots=tuple(pivot for row in rover.rows("pivots") for pivot in _pivots(row)),
         legs=tuple(leg for row in legs for leg in _legs(row, rover)),
         leg_bodies=tuple(_leg_body(name, rover.table("leg_bodies").table(name)) for name in _LEG_BODIES),
+        drive=_drive(rover.table("drive")) if "drive" in content else None,
     )
     rover.finished()
     if path != EXOMARS_ROVER:  # it stands, a test says so; to ask costs a study half a second each time it is planned
@@ -118,6 +122,27 @@ def _legs(row: RoverTable, rover: RoverTable) -> list[Leg]:
         )
         for side, sign in SIDES.items()
     ]
+
+
+def _drive(row: RoverTable) -> WheelDrive:
+    """Motor numbers are those before the gear."""
+    gear, given = row.number("gear") if "gear" in row.content else 1.0, set(row.content)
+    if not gear > 0.0:
+        raise InputError(f"{row.place}: gear", f"{gear:g}", "must be > 0", "motor turns by wheel turn, e.g. 1000")
+    at_wheel = {"torque_limit": gear, "stall_torque": gear, "no_load_speed": 1.0 / gear, "gain": 1.0, "efficiency": 1.0}
+    motor = {key: times * row.number(key) for key, times in at_wheel.items() if key in given}
+    control: dict[str, Any] = {key: row.number(key) for key in ("allowed_slip", "share_gain") if key in given}
+    if "controller" in given:
+        word = row.word("controller")
+        if word not in list(Controller):
+            known = ", ".join(Controller)
+            raise InputError(f"{row.place}: controller", repr(word), "is not known", f"give one of {known}")
+        control["controller"] = Controller(word)
+    for key, needs in (("allowed_slip", Controller.SLIP), ("share_gain", Controller.SHARED)):
+        if key in control and control.get("controller", Controller.SPEED) is not needs:
+            rule = f"counts with controller = '{needs}' only"
+            raise InputError(f"{row.place}: {key}", f"{control[key]:g}", rule, "remove it, or name that controller")
+    return WheelDrive(motor=Motor(**motor), control=DriveControl(**control))
 
 
 def _leg_body(name: str, row: RoverTable) -> BodyRow:

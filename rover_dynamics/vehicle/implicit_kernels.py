@@ -1,8 +1,8 @@
 """One step of the generalised-alpha method for a tree of bodies on tires, compiled.
 
-Unknown are the accelerations a of the joint velocities v, M a + h = tau with the tires' wrenches in h, and the rates of
-the tires' own states, s' = g. The method (`rover_dynamics.multibody.generalised_alpha`) has accelerations A of its
-own, and rates B for the states:
+Unknown are the accelerations a of the joint velocities v, M a + h = tau with the tires' wrenches in h and the motors'
+torques in tau, and the rates of the tires' own states, s' = g. The method
+(`rover_dynamics.multibody.generalised_alpha`) has accelerations A of its own, and rates B for the states:
 
     s = s_n + dt (1 - gamma) B_n + dt gamma B
     (1 - alpha_m) B + alpha_m B_n = (1 - alpha_f) s' + alpha_f s'_n
@@ -32,6 +32,7 @@ from rover_dynamics.tires.brush_derivatives import brush_derivatives
 from rover_dynamics.tires.brush_force import BrushResult, HubMotions, brush_forces
 from rover_dynamics.vehicle.implicit_method import Known, Moment
 from rover_dynamics.vehicle.linearisation import changes, linearise
+from rover_dynamics.vehicle.motors import add_motor_torques
 from rover_dynamics.vehicle.system import Newton, System, Work
 
 __all__ = ["evaluate", "implicit_step"]
@@ -118,13 +119,14 @@ def _end(
 
 @compiled
 def _residuals(
-    system: System, after: Moment, known: Known, motion: TreeMotion, result: BrushResult
-) -> tuple[HubMotions, FloatArray, FloatArray]:
-    """Motions of the hubs, tau - h - M a, and g - s'; fills ``motion`` and ``result``."""
+    system: System, after: Moment, known: Known, motion: TreeMotion, work: Work
+) -> tuple[HubMotions, FloatArray, FloatArray, bool]:
+    """Motions of the hubs, tau - h - M a, g - s', whether motors' slopes changed; fills ``motion`` and ``work``."""
     move_tree(system.tree, after.q, after.v, motion)
-    hubs, wrenches = _tires(system, motion, after.s, result)
-    needed = needed_efforts(system.tree, motion, after.a, wrenches, system.gravity)
-    return hubs, known.tau - needed, result.rate - after.s_rate
+    hubs, wrenches = _tires(system, motion, after.s, work.result)
+    residual = known.tau - needed_efforts(system.tree, motion, after.a, wrenches, system.gravity)
+    changed = add_motor_torques(system.motors, known.asked, after.v, residual, work.slopes)
+    return hubs, residual, work.result.rate - after.s_rate, changed
 
 
 @compiled
@@ -180,8 +182,9 @@ def implicit_step(
     after = _end(system, before, start, (A, B), known, step_of)
     last, iteration = np.inf, 0
     while iteration < method.iterations and last >= limit:
-        hubs, residual, state_residual = _residuals(system, after, known, motion, result)
+        hubs, residual, state_residual, switched = _residuals(system, after, known, motion, work)
         other_length, due = changes(work.newton, dt, result.output)
+        other_length = other_length or switched
         if due or iteration % _FRESH == _FRESH - 1:
             memory = tires.scratch, tires.pair
             brush_derivatives(hubs, after.s, tires.numbers, tires.pieces, work.derivatives, memory)

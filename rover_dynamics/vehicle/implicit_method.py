@@ -27,12 +27,14 @@ class Known(NamedTuple):
     ----------
     q, v, a : (n_d,) float, coordinates, velocities and accelerations of the driven joints
     tau : (n_v,) float, joint efforts [N m, N]
+    asked : (n_m, 3) float, of the motors, see `rover_dynamics.vehicle.motors.add_motor_torques`
     """
 
     q: FloatArray
     v: FloatArray
     a: FloatArray
     tau: FloatArray
+    asked: FloatArray
 
 
 class Moment(NamedTuple):

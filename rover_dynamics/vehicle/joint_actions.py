@@ -14,8 +14,11 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.motion_law import Hold, MotionLaw
+from rover_dynamics.multibody.tree_arrays import TreeMotion
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
+from rover_dynamics.vehicle.drive_control import Motoring, Sight
 from rover_dynamics.vehicle.implicit_method import Known
+from rover_dynamics.vehicle.motors import add_motor_torques, motor_numbers
 
 __all__ = ["JointActions", "JointEffort"]
 
@@ -45,15 +48,21 @@ class JointActions:
     coordinates : of the tree
     free, driven : (n_f,), (n_d,) int, velocities that are unknown, and those that follow laws
     driven_q : (n_d,) int, coordinates of the driven velocities
+    motors, motoring : numbers of the motors, and what is asked of them, or None without any
 
     Raises
     ------
     InputError
-        If the bodies form loops; if every joint is driven; for an effort at a joint that is driven, or neither a hinge
-        nor a slider.
+        If the bodies form loops; if every joint is driven; for an effort or a motor at a joint that is driven, or
+        neither a hinge nor a slider.
     """
 
-    def __init__(self, model: MultibodyModel, efforts: Sequence[JointEffort]) -> None:
+    def __init__(
+        self,
+        model: MultibodyModel,
+        efforts: Sequence[JointEffort],
+        motoring: Motoring | None = None,
+    ) -> None:
         self._held, self._moving = _laws(model)
         self.coordinates = TreeCoordinates(model)
         if self.coordinates.spanning.cut:
@@ -67,23 +76,57 @@ class JointActions:
         self.free: IntArray = np.setdiff1d(np.arange(tree.v_at[-1]), self.driven)
         if len(self.free) == 0:
             raise InputError("joints of the vehicle", len(moved), "are all driven", "leave one free to move")
-        self._efforts: list[tuple[int, JointEffort]] = []
-        for effort in efforts:
-            places = [int(tree.v_at[link]) for (joint, _), link in at.items() if joint == effort.joint]
-            if len(places) != 1 or places[0] in self.driven:
-                rule = "must be a hinge or a slider that no drive moves"
-                raise InputError("joint of an effort", repr(effort.joint), rule, "name another, or remove its drive")
-            self._efforts.append((places[0], effort))
+        self._places: dict[str, list[int]] = {}
+        for (joint, _), link in at.items():
+            self._places.setdefault(joint, []).append(int(tree.v_at[link]))
+        self._efforts = [(self._free_place("an effort", one.joint), one) for one in efforts]
+        motors = () if motoring is None else motoring.motors
+        places = [self._free_place("a motor", one.joint) for one in motors]
+        self.motors = motor_numbers(np.array(places, dtype=np.int64), motors)
+        self.motoring = motoring
+
+    def _free_place(self, what: str, joint: str) -> int:
+        """Velocity of a hinge or slider that is free."""
+        places = self._places.get(joint, [])
+        if len(places) != 1 or places[0] in self.driven:
+            rule = "must be a hinge or a slider that no drive moves"
+            raise InputError(f"joint of {what}", repr(joint), rule, "name another, or remove its drive")
+        return places[0]
 
     def known(self, t: float) -> Known:
-        """What is prescribed at t [s]."""
+        """What is prescribed at t [s], by controllers as of the last step they saw."""
         q, v, a = self._held.copy()
         for law, rows in self._moving:
             q[rows], v[rows], a[rows] = law.at(t)
         tau = np.zeros(self.coordinates.tree.v_at[-1])
         for place, effort in self._efforts:
             tau[place] += effort.effort(t)
-        return Known(q, v, a, tau)
+        asked = np.zeros((0, 3)) if self.motoring is None else self.motoring.asked(t)
+        return Known(q, v, a, tau, asked)
+
+    def torques(self, known: Known, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Efforts and motors' torques at joint velocities v, (n_v,) [N m, N], and -dT/dv of motors, (n_m,)."""
+        tau, slopes = known.tau.copy(), np.zeros(len(self.motors.places))
+        add_motor_torques(self.motors, known.asked, v, tau, slopes)
+        return tau, slopes
+
+    def saw(self, t: float, dt: float, v: FloatArray, motion: TreeMotion, wheels: tuple[IntArray, FloatArray]) -> None:
+        """Show the motors' controller the end of a step, if there is one.
+
+        Parameters
+        ----------
+        t, dt : end and length of the step [s]
+        v : (n_v,) float, joint velocities [rad/s, m/s]
+        motion : of the bodies
+        wheels : rows of their bodies (n_w,), their loads (n_w,) [N]
+        """
+        if self.motoring is None:
+            return
+        bodies, loads = wheels
+        velocities, axles = motion.velocities[bodies, :3], motion.rotations[bodies, :, 1]
+        across = np.sum(velocities * axles, axis=1, keepdims=True) * axles
+        hub_speeds = np.linalg.norm(velocities - across, axis=1)
+        self.motoring.saw(Sight(t, dt, v[self.motors.places], loads.copy(), hub_speeds))
 
     def start(self, t: float) -> tuple[FloatArray, FloatArray]:
         """Coordinates (n_q,) [rad, m, -], velocities (n_v,) [rad/s, m/s] of the model's start, corrected at t [s]."""

@@ -1,8 +1,9 @@
 """Newton's matrix of an implicit step of a vehicle, from its mass matrix and its tires' derivatives, compiled.
 
-The matrix is c M - sum J^T E J of the free joint velocities, see `implicit_kernels`; J has columns for the joints
-between a wheel and the ground only. The tires' derivatives do not depend on the step's length: for another length the
-matrix is put together again from the same ones. Its inverse is kept, as it serves many iterations.
+The matrix is c M - sum J^T E J of the free joint velocities, see `implicit_kernels`, and on the diagonal how motors'
+torques fall with speed; J has columns for the joints between a wheel and the ground only. The tires' derivatives do not
+depend on the step's length: for another length the matrix is put together again from the same ones. Its inverse is
+kept, as it serves many iterations.
 
 Verified by tests/verification/test_vehicle_step.py.
 """
@@ -62,6 +63,8 @@ def linearise(system: System, motion: TreeMotion, work: Work, weights: tuple[flo
     """
     M, free = mass_matrix(system.tree, motion), system.free
     matrix = weights[0] * M
+    for i in range(len(system.motors.places)):
+        matrix[system.motors.places[i], system.motors.places[i]] += weights[1] * work.slopes[i]
     J, path = np.zeros((len(M), 6)), np.zeros(len(M), dtype=np.int64)
     for i in range(len(work.derivatives)):
         n = _wheel_jacobian(system.tree, motion, system.tires.bodies[i], J, path)

@@ -14,6 +14,7 @@ from contracts.terrain import TerrainPieces
 from rover_dynamics.multibody.tree_kernels import Tree
 from rover_dynamics.tires.brush_force import BrushResult, BrushScratch, brush_result
 from rover_dynamics.tires.brush_settings import WheelNumbers
+from rover_dynamics.vehicle.motors import MotorNumbers
 
 __all__ = ["Newton", "System", "Tires", "Work", "work_for"]
 
@@ -47,6 +48,7 @@ class System(NamedTuple):
     gravity : (3,) float, acceleration of free fall [m/s^2]
     free, driven : (n_f,), (n_d,) int, velocities that are unknown, and those that follow laws
     driven_q : (n_d,) int, coordinates of the driven velocities
+    motors : of the joints
     """
 
     tree: Tree
@@ -55,6 +57,7 @@ class System(NamedTuple):
     free: IntArray
     driven: IntArray
     driven_q: IntArray
+    motors: MotorNumbers
 
 
 class Newton(NamedTuple):
@@ -83,11 +86,13 @@ class Work(NamedTuple):
     result : of the tires, as last evaluated
     newton : as last linearised
     derivatives : (n_w, 6 + n_s, 12 + n_s) float, of the tires
+    slopes : (n_m,) float, -dT/dv of the motors [N m s/rad]
     """
 
     result: BrushResult
     newton: Newton
     derivatives: FloatArray
+    slopes: FloatArray
 
 
 def work_for(system: System) -> Work:
@@ -102,4 +107,4 @@ def work_for(system: System) -> Work:
         np.zeros((n_w, n_s, n_s)),
         np.full(2 + n_w, -1.0),
     )
-    return Work(result, newton, np.zeros((n_w, 6 + n_s, 12 + n_s)))
+    return Work(result, newton, np.zeros((n_w, 6 + n_s, 12 + n_s)), np.zeros(len(system.motors.places)))

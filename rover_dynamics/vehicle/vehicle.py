@@ -16,13 +16,16 @@ from contracts.terrain import Terrain
 from rover_dynamics.multibody.generalised_alpha import generalised_alpha
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 from rover_dynamics.multibody.model import MultibodyModel
+from rover_dynamics.multibody.tree_kernels import tree_motion
 from rover_dynamics.tires.brush_derivatives import derivative_result
 from rover_dynamics.tires.brush_force import BrushResult, brush_scratch
 from rover_dynamics.tires.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
+from rover_dynamics.vehicle.drive_control import DriveControl, Motoring
 from rover_dynamics.vehicle.implicit_kernels import evaluate, implicit_step
 from rover_dynamics.vehicle.implicit_method import Moment, rescaled
 from rover_dynamics.vehicle.joint_actions import JointActions, JointEffort
+from rover_dynamics.vehicle.motors import JointMotor
 from rover_dynamics.vehicle.system import System, Tires, work_for
 
 __all__ = ["JointEffort", "Vehicle", "VehicleMotion", "drive_vehicle"]
@@ -47,11 +50,12 @@ class Vehicle:
     terrain : the ground
     tire, settings : of all wheels
     efforts : torques and forces in joints
+    motors, control : of the wheels, one each in their order or none, and what they are told
 
     Raises
     ------
     InputError
-        For a model with forces of its own, or a wheel that is no body of it or named twice.
+        For a model with forces of its own, a wheel that is no body of it or named twice, or motors of some wheels only.
     """
 
     model: MultibodyModel
@@ -60,6 +64,8 @@ class Vehicle:
     tire: BrushTireParameters = THESIS_BRUSH
     settings: BrushSettings = field(default_factory=BrushSettings)
     efforts: tuple[JointEffort, ...] = ()
+    motors: tuple[JointMotor, ...] = ()
+    control: DriveControl = field(default_factory=DriveControl)
 
     def __post_init__(self) -> None:
         if self.model.forces:
@@ -68,6 +74,19 @@ class Vehicle:
         for wheel in self.wheels:
             if self.model.number(wheel) < 0 or self.wheels.count(wheel) > 1:
                 raise InputError("wheel", repr(wheel), "must be a body, and named once", "name the wheels' bodies")
+        if self.motors and len(self.motors) != len(self.wheels):
+            rule = f"must be one for each of the {len(self.wheels)} wheels"
+            raise InputError("motors of the vehicle", len(self.motors), rule, "drive the others by motors too")
+
+    @property
+    def actuated(self) -> tuple[str, ...]:
+        """Joints of the drives, then of the motors: what the columns of `VehicleMotion.efforts` belong to."""
+        return (*[drive.joint for drive in self.model.drives], *[one.joint for one in self.motors])
+
+    def joint_actions(self) -> JointActions:
+        """What drives, efforts and motors do in one motion, from its start."""
+        motoring = Motoring(self.motors, self.control, self.settings.wheel_radius) if self.motors else None
+        return JointActions(self.model, self.efforts, motoring)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -80,7 +99,7 @@ class VehicleMotion:
     positions, rotations, velocities : (n, n_b, 3), (n, n_b, 3, 3), (n, n_b, 6) float, of all bodies, world
     tires : (n, n_w, 10) float, outputs of the tires, see `rover_dynamics.tires.brush_force.OUTPUT_SIZE`
     wrenches : (n, n_w, 6) float, on the hubs, world [N, N m]
-    efforts : (n, n_d) float, of the drives, in the order of the model's [N m, N]
+    efforts : (n, n_d + n_m) float, of the drives, in the order of the model's, then of the motors [N m, N]
     steps, iterations, rejected : counts
     """
 
@@ -129,7 +148,7 @@ class _Run:
 
     def __init__(self, vehicle: Vehicle, times: FloatArray, steps: ImplicitSteps) -> None:
         self.vehicle, self.times, self.steps = vehicle, times, steps
-        self.actions = JointActions(vehicle.model, vehicle.efforts)
+        self.actions = vehicle.joint_actions()
         self.system = self._system()
         self.work = work_for(self.system)
         self.result: BrushResult = self.work.result
@@ -145,7 +164,8 @@ class _Run:
         numbers = wheel_numbers(vehicle.tire, vehicle.settings)
         tires = Tires(wheels, numbers, pieces, brush_scratch(pieces), derivative_result(pieces))
         gravity = np.array(vehicle.model.gravity, dtype=np.float64)
-        return System(actions.coordinates.tree, tires, gravity, actions.free, actions.driven, actions.driven_q)
+        tree, free, driven = actions.coordinates.tree, actions.free, actions.driven
+        return System(tree, tires, gravity, free, driven, actions.driven_q, actions.motors)
 
     def start(self, t: float) -> Moment:
         """State and consistent accelerations at t [s]; the method's own begin as these."""
@@ -155,7 +175,7 @@ class _Run:
         _, _, h, M = evaluate(self.system, q, v, s, self.result)
         a = np.zeros(len(h))
         a[self.system.driven] = known.a
-        a[free] = np.linalg.solve(M[np.ix_(free, free)], (known.tau - h - M @ a)[free])
+        a[free] = np.linalg.solve(M[np.ix_(free, free)], (self.actions.torques(known, v)[0] - h - M @ a)[free])
         rate = self.result.rate.copy()
         return Moment(q, v, a, a.copy(), s, rate, rate.copy())
 
@@ -173,6 +193,7 @@ class _Run:
                 if self.steps.accepts(error):
                     now, last = after, dt
                     t = target if dt == target - t else t + dt
+                    self._look(now, t, dt)
                 elif length < self.steps.shortest or self.steps.fixed is not None:
                     raise self._stopped(t)
             self._keep(now)
@@ -189,10 +210,16 @@ class _Run:
         self.rejected += not self.steps.accepts(error)
         return error, after
 
+    def _look(self, now: Moment, t: float, dt: float) -> None:
+        """Show the motors' controller the end of a step."""
+        if self.actions.motoring is not None:
+            motion = tree_motion(self.system.tree, now.q, now.v)
+            self.actions.saw(t, dt, now.v, motion, (self.system.tires.bodies, self.result.output[:, 1]))
+
     def _keep(self, now: Moment) -> None:
         """Record bodies, tires and drives."""
         motion, _, h, M = evaluate(self.system, now.q, now.v, now.s, self.result)
-        efforts = (M @ now.a + h)[self.system.driven]
+        efforts = (M @ now.a + h)[np.concatenate([self.system.driven, self.system.motors.places])]
         row = (motion.positions[:-1], motion.rotations[:-1], motion.velocities[:-1])
         self.rows.append((*row, self.result.output.copy(), self.result.wrench.copy(), efforts))
 

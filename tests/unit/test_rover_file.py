@@ -34,6 +34,44 @@ def test_mirrored_rows_stand_on_both_sides() -> None:
     assert legs["rear_right"].drive == (-0.72, -0.6012, 0.0)
 
 
+def with_drive(text: str) -> str:
+    return SHIPPED.replace('[[bodies]]\nname = "principal"', f'[drive]\n{text}\n\n[[bodies]]\nname = "principal"')
+
+
+def test_motors_are_given_before_their_gear(tmp_path: Path) -> None:
+    path = tmp_path / "rover.toml"
+    text = "gear = 1000\nefficiency = 0.6\ntorque_limit = 0.04\nstall_torque = 0.08\nno_load_speed = 400\n"
+    path.write_text(with_drive(text + 'controller = "slip"\nallowed_slip = 0.1'), encoding="utf-8")
+    drive = read_rover(path).drive
+    assert drive is not None
+    motor = drive.motor
+    assert (motor.torque_limit, motor.stall_torque, motor.efficiency) == pytest.approx((40.0, 80.0, 0.6))
+    assert motor.no_load_speed == pytest.approx(0.4)
+    assert (drive.control.controller.value, drive.control.allowed_slip) == ("slip", 0.1)
+    assert read_rover().drive is None
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("controller = 'cruise'", "drive: controller = 'cruise': is not known; give one of speed, slip, shared"),
+        ("allowed_slip = 0.1", "counts with controller = 'slip' only"),
+        ("share_gain = 50", "counts with controller = 'shared' only"),
+        ("torque_limit = 0", "drive.torque_limit"),
+        ("stall_torque = 2", "are the two ends of one line"),
+        ("power = 3", "drive: power = 3: is not a known key"),
+        ("gear = 0", "drive.gear"),
+        ("gear = true", "must be a number"),
+    ],
+)
+def test_a_bad_drive_gives_one_clear_message(tmp_path: Path, text: str, words: str) -> None:
+    path = tmp_path / "rover.toml"
+    path.write_text(with_drive(text), encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_rover(path)
+    assert words in str(caught.value)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [

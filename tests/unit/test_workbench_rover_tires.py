@@ -14,10 +14,13 @@ from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Plane
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, on_flexible_tires
+from rover_dynamics.rover.rover_design import WheelDrive
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_terrain, touching_height
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario, scenario_series
+from rover_dynamics.vehicle.drive_control import Controller, DriveControl
+from rover_dynamics.vehicle.motors import Motor
 from workbench.questions.rover.tire_shapes import TireShapes
 from workbench.questions.rover.tires import START_HEIGHT, on_ancf_tires
 
@@ -47,6 +50,27 @@ def test_tires_turned_by_half_a_spoke_are_softer(held: ScenarioRun) -> None:
     short = replace(SCENARIOS["straight"], settles=4.0, lasts=0.1)
     between = run_scenario(on_ancf_tires(short, turned=np.pi / 4), DESIGN)
     assert between.deflections[-1].mean() > held.deflections[-1].mean() + 2e-3
+
+
+def test_motors_turn_flexible_tires_as_laws_do() -> None:
+    """Gain enough: as fast as by law; motors too weak to hold a wheel on its spoke keep their limit and let it roll."""
+    short, speeds = replace(SCENARIOS["straight"], settles=4.0, lasts=3.0, every=0.25), {}
+    for name, drive in (
+        ("law", None),
+        ("motor", WheelDrive()),
+        ("weak", WheelDrive(motor=Motor(torque_limit=0.02))),
+        ("shared", WheelDrive(control=DriveControl(controller=Controller.SHARED))),
+    ):
+        run = run_scenario(on_ancf_tires(short), replace(DESIGN, drive=drive))
+        assert run.stopped is None
+        speeds[name] = float(run.motion.velocities[-1, 0, 0])
+        torques = run.torques("drive")
+        assert torques.shape == (len(run.motion.times), 6)
+        if name == "weak":
+            assert np.abs(torques[run.motion.times > 0.0]).max() == pytest.approx(0.02, rel=1e-9)
+    assert speeds["motor"] == pytest.approx(speeds["law"], rel=0.02)
+    assert abs(speeds["weak"] / speeds["law"] - 1.0) > 0.5
+    assert speeds["shared"] == pytest.approx(speeds["law"], rel=0.3)  # it lags while the speed still grows
 
 
 def test_what_is_handed_on_and_what_is_left() -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
 
-__all__ = ["STARTED", "largest_lean", "stated"]
+__all__ = ["STARTED", "energy_of_drives", "largest_lean", "stated"]
 
 STARTED = 5.0
 """Time at which the drives have reached their speed [s]; slip while a wheel stands says nothing."""
@@ -28,7 +28,17 @@ def stated(run: ScenarioRun) -> tuple[Outcome, ...]:
         ("largest wheel load", run.loads, "N"),
     )
     found = [Outcome(quantity=words, value=float(np.abs(all_of).max()), unit=unit) for words, all_of, unit in numbers]
-    return (*found, Outcome(quantity="smallest wheel load", value=float(run.loads.min()), unit="N"))
+    return (
+        *found,
+        Outcome(quantity="smallest wheel load", value=float(run.loads.min()), unit="N"),
+        Outcome(quantity="largest power of all drives", value=float(run.drive_power.sum(axis=1).max()), unit="W"),
+        Outcome(quantity="energy of the drives", value=energy_of_drives(run), unit="J"),
+    )
+
+
+def energy_of_drives(run: ScenarioRun) -> float:
+    """What the drives took from time zero to the end [J], by the trapezoidal rule over the samples."""
+    return float(np.trapezoid(run.drive_power.sum(axis=1), run.motion.times))
 
 
 def largest_lean(run: ScenarioRun, limit: float) -> Outcome:

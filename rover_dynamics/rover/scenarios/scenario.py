@@ -26,6 +26,7 @@ from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.tires.brush_force import BESIDE, DEEP
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, with_friction
+from rover_dynamics.vehicle.motors import Motor, electrical_power
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 
 __all__ = [
@@ -121,8 +122,26 @@ class ScenarioRun:
 
     def torques(self, kind: str) -> FloatArray:
         """Of all actuators whose names begin so, such as ``drive`` (n, n_a) [N m], as they move or hold."""
-        drives = self.scenario.vehicle(self.design).model.drives
-        return self.motion.efforts[:, [k for k, drive in enumerate(drives) if drive.joint.startswith(f"{kind}_")]]
+        joints = self.scenario.vehicle(self.design).actuated
+        return self.motion.efforts[:, [k for k, joint in enumerate(joints) if joint.startswith(f"{kind}_")]]
+
+    @property
+    def drive_speeds(self) -> FloatArray:
+        """Speeds of the drives' joints (n, n_w) [rad/s]: of the wheels against their spindles, about the axles."""
+        wheels = self.wheel_bodies
+        spindles = slice(wheels.start - 1, None, wheels.step)
+        axles = self.motion.rotations[:, wheels, :, 1]
+        relative = self.motion.velocities[:, wheels, 3:] - self.motion.velocities[:, spindles, 3:]
+        return np.asarray(np.sum(axles * relative, axis=-1))
+
+    @property
+    def drive_power(self) -> FloatArray:
+        """What each drive takes (n, n_w) [W], nothing where it would give back.
+
+        Of motors the electrical power; of drives without limits what they give to the wheels.
+        """
+        motor = Motor() if self.design.drive is None else self.design.drive.motor
+        return np.maximum(electrical_power(motor, self.torques("drive"), self.drive_speeds), 0.0)
 
     @property
     def lean(self) -> FloatArray:
