@@ -25,7 +25,7 @@ APT := DEBIAN_FRONTEND=noninteractive apt-get --quiet --quiet --yes --no-install
 # Certificates of the machine, not uv's own list: works behind a company's proxy too.
 export UV_SYSTEM_CERTS ?= true
 
-.PHONY: help setup report test test-long search sample docs lint unit evidence bench test-debian test-bare clean distclean
+.PHONY: help setup report test test-long search sample mission docs lint unit evidence bench test-debian test-bare clean distclean
 
 help: ## show this list
 	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 18
@@ -48,6 +48,9 @@ search: $(READY) ## look for the wheels the thesis' words allow (an hour; goes o
 
 sample: $(READY) ## how the curves vary with what is not exactly known of the wheel (STUDY=file.toml; goes on where it stopped)
 	$(VENV)/bin/workbench sample $(if $(STUDY),"$(STUDY)")
+
+mission: $(READY) ## what each requirement of the mission takes on each kind of tire; half an hour, for the report (STUDY=file.toml)
+	$(VENV)/bin/workbench mission $(if $(STUDY),"$(STUDY)")
 
 docs: $(READY) ## the manual, build/site/index.html; strict: no warning, no broken link
 	NO_MKDOCS_2_WARNING=1 $(VENV)/bin/mkdocs build --site-dir build/site

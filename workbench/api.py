@@ -89,9 +89,9 @@ def stiffness(
     from workbench.execution.result_files import early_ends
     from workbench.execution.runner import run_tasks
     from workbench.execution.store import Store
+    from workbench.questions.curve_graph import MODELS, stiffness_tasks
     from workbench.questions.models.curves import stiffness_curves
     from workbench.questions.strength.yielding import yield_strengths
-    from workbench.questions.study_graph import MODELS, stiffness_tasks
 
     if not isinstance(study, Study):
         raise InputError("study", repr(study), "is no study", "give what read_study returns")

@@ -206,6 +206,24 @@ def sample(
 
 
 @app.command()
+def mission(
+    study: StudyOrBuiltIn = None,
+    tire: Annotated[
+        list[str] | None,
+        typer.Option(help="rigid, brush, fe, ancf_wheel, ancf; may be given several times.", show_default="all"),
+    ] = None,
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
+) -> None:
+    """Drive the mission on every kind of tire, search the torque and friction it needs; the report reads the record."""
+    from workbench.commands.mission import run_mission
+
+    raise typer.Exit(run_mission(study, tire or (), store, computing(workers, ranks, scheduler)))
+
+
+@app.command()
 def rover(
     scenario: Annotated[
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)

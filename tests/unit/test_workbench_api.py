@@ -22,7 +22,7 @@ from workbench.execution import runner
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.store import Store
 from workbench.execution.task import task_keys
-from workbench.questions.study_graph import stiffness_tasks
+from workbench.questions.curve_graph import stiffness_tasks
 
 ROOT = Path(__file__).parents[2]
 FIRST = ROOT / "studies" / "first.toml"

@@ -9,8 +9,9 @@ import pytest
 
 from contracts.errors import InputError
 from workbench.execution.task import Task, chain_costs, task_keys
+from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
 from workbench.questions.fe.foresight import solve_bytes, solve_seconds
-from workbench.questions.study_graph import mesh_tasks, report_tasks, stiffness_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 

@@ -12,13 +12,14 @@ from contracts.materials import TI_6AL_4V
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task, task_keys
 from workbench.questions.ancf_wheel.graph import ancf_wheel_tasks
+from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
 from workbench.questions.multibody.question import MULTIBODY
 from workbench.questions.registry import QUESTIONS
 from workbench.questions.rover.question import ROVER
 from workbench.questions.rover_ancf.question import ROVER_ANCF
 from workbench.questions.rover_closer.question import ROVER_CLOSER
 from workbench.questions.rover_mission.question import ROVER_MISSION
-from workbench.questions.study_graph import mesh_tasks, report_tasks, stiffness_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.questions.verification.question import VERIFICATION
 from workbench.questions.words.graph import hoops_tasks
 from workbench.questions.words.readings import reading_tasks

@@ -14,10 +14,11 @@ import tomlkit
 from contracts.errors import InputError, StudyError
 from workbench.commands.calibrate import run_calibrate
 from workbench.execution.runner import Computing
+from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.fe.checks import overlap_checks
 from workbench.questions.model_curves import ModelCurves
 from workbench.questions.registry import questions_of
-from workbench.questions.study_graph import report_tasks, stiffness_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.report.chosen import chosen_groups
 from workbench.report.contents import section_titles
 from workbench.study.full import full_study

@@ -10,10 +10,11 @@ import pytest
 from contracts.curves import StiffnessCurve, average_curve
 from contracts.errors import IncrementRecord, InputError
 from workbench.execution.task import task_keys
+from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.model_curves import ModelCurves, RunNumbers
 from workbench.questions.registry import questions_of
 from workbench.questions.section.question import SectionRuns, largest_difference, section_checks
-from workbench.questions.study_graph import report_tasks, stiffness_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.sections import ToleranceSection

@@ -18,7 +18,8 @@ from contracts.errors import StudyError
 from geometry.surface_step import write_surfaces_step
 from workbench.execution.task import Task
 from workbench.questions.ancf.task import solve_orientation
-from workbench.questions.study_graph import report_tasks, stiffness_tasks
+from workbench.questions.curve_graph import stiffness_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.study.ancf_tire import tire_from, tire_values
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset

@@ -16,7 +16,7 @@ from contracts.curves import StiffnessCurve, read_curve, write_curve
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.store import Entry
 from workbench.execution.task import task_keys
-from workbench.questions.study_graph import stiffness_tasks
+from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.sweep.figures import coordinate_axes, curves_figure, parallel_coordinates
 from workbench.questions.sweep.graph import SweepGraph, sweep_graph
 from workbench.questions.sweep.results import Outcome, outcomes, references

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
@@ -11,18 +12,21 @@ import pytest
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import InputError
 from contracts.hub_travel import Way
-from contracts.travel_curve import WRENCH, TravelCurve
+from contracts.travel_curve import WRENCH, TravelCurve, write_travel
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.tires.wheel_potential import load_and_slope, raise_and_slope
+from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_curves import (
     carcass_of,
     curves_around,
     deep_tasks,
+    on_solved_tires,
     orientations_to_solve,
-    wheel_potential_of,
+    solved_tire,
     where_it_moves,
 )
-from workbench.questions.study_graph import stiffness_tasks
+from workbench.questions.travel_start import TRAVEL
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study, read_study
@@ -51,7 +55,7 @@ def solved(study: Study, folder: Path) -> dict[str, Path]:
 def test_a_mirrored_wheel_is_solved_over_half_of_its_period(name: str, count: int, tmp_path: Path) -> None:
     study = read_study(STUDIES / f"{name}.toml")
     assert len(orientations_to_solve(study)) == count
-    found = curves_around(study, solved(study, tmp_path))
+    found = curves_around(solved_tire(study, "fe")[0], solved(study, tmp_path))
     assert [one.orientation_deg for one in found] == [5.0 * k for k in range(24)]
     for one in found:
         np.testing.assert_allclose(one.load, curve(one.orientation_deg or 0.0).load)
@@ -60,7 +64,17 @@ def test_a_mirrored_wheel_is_solved_over_half_of_its_period(name: str, count: in
 def test_the_potential_knows_the_studys_grousers(tmp_path: Path) -> None:
     """Twelve, 3 mm high, the first at 0.97 degrees, 1 mm thick: sin of the tip's half angle is 0.5 / 145.5."""
     study = read_study(built_in_study())
-    wheel = wheel_potential_of(study, curves_around(study, solved(study, tmp_path)))
+    values, tasks = solved_tire(study, "fe")
+    folders = solved(study, tmp_path)
+    for way, one, name in values["travels"]:
+        (tmp_path / name).mkdir()
+        write_travel(travel(Way(way), one, 3e3 if way == "fore_aft" else 12e3), tmp_path / name / TRAVEL)
+        folders[name] = tmp_path / name
+    assert {name for _, name in values["curves"]} | {name for *_, name in values["travels"]} <= {t.name for t in tasks}
+    driven = on_solved_tires(SCENARIOS["straight"], json.loads(json.dumps(values)), folders)
+    wheel, settings = driven.settings.potential, driven.settings
+    assert wheel is not None
+    assert (driven.tire_model, driven.has_closed_forms, settings.lateral_ratio) == ("fe", False, pytest.approx(4.0))
     assert wheel.tips.half == pytest.approx(math.asin(0.5 / 145.5))
     assert raise_and_slope(wheel.tips, math.radians(30.97))[0] == pytest.approx(3e-3)
     assert raise_and_slope(wheel.tips, math.radians(15.0))[0] == 0.0

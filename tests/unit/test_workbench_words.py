@@ -14,9 +14,10 @@ from geometry.build import build_mesh
 from rover_dynamics.tires.brush_tire import stiffness_curve
 from workbench.execution.result_files import write_result
 from workbench.execution.task import task_keys
+from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
 from workbench.questions.models.brush_task import solve as solve_brush
 from workbench.questions.models.curves import brush_curve
-from workbench.questions.study_graph import mesh_tasks, report_tasks, stiffness_tasks
+from workbench.questions.study_graph import report_tasks
 from workbench.questions.wheel.graph import mesh_task
 from workbench.questions.wheel.mesh_task import measure
 from workbench.questions.wheel.question import mesh_numbers

@@ -22,10 +22,10 @@ from workbench.execution.store import Store
 from workbench.execution.task import Task
 from workbench.execution.terminal import console, empty_table
 from workbench.questions.calibration import Calibration, Trial, calibrate, scaled_study, strip_thicknesses
+from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.fe.graph import without_fields
 from workbench.questions.model_curves import CURVE, mean_curve
 from workbench.questions.section.graph import without_planar_model
-from workbench.questions.study_graph import stiffness_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish, to_json
 from workbench.study.full import around

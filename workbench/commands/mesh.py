@@ -16,7 +16,7 @@ from workbench.execution.result_files import read_result
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.questions.ancf.question import surfaces_task
-from workbench.questions.study_graph import mesh_tasks
+from workbench.questions.curve_graph import mesh_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import copy_files
 from workbench.study.magnitudes import above_zero

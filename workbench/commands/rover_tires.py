@@ -10,9 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contracts.errors import InputError
-from contracts.hub_travel import Way
 from rover_dynamics.rover.rover_file import RoverDesign
-from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction, on_rigid_tires, on_wheel_curves
+from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction, on_rigid_tires
 from rover_dynamics.rover.scenarios.scenario import Scenario
 from workbench.execution.task import Task, needed_for
 from workbench.study.model import Study
@@ -55,42 +54,29 @@ def _on_ancf(scenario: Scenario, source: TireSource) -> Scenario:
 
 def _on_fe(scenario: Scenario, source: TireSource) -> Scenario:
     """The study's wheel by its solid model: curves all around, and how it yields along the ground."""
-    return _on_solved(scenario, source, "fe", "the solid model")
+    return _on_solved(scenario, source, "fe")
 
 
 def _on_ancf_wheel(scenario: Scenario, source: TireSource) -> Scenario:
     """The same by its ANCF model, at rest at every instant: the plates' own inertia is in the wheel's body."""
-    return _on_solved(scenario, source, "ancf_wheel", "the ANCF wheel, without inertia of its plates,")
+    return _on_solved(scenario, source, "ancf_wheel")
 
 
-def _on_solved(scenario: Scenario, source: TireSource, model: str, words: str) -> Scenario:
+def _on_solved(scenario: Scenario, source: TireSource, model: str) -> Scenario:
     """What is not kept is computed here."""
     from workbench.commands.computing import complain_of_early_ends, naming, warn
     from workbench.execution.result_files import early_ends
-    from workbench.questions.models.wheel_curves import (
-        carcass_of,
-        curves_around,
-        deep_tasks,
-        wheel_potential_of,
-        where_it_moves,
-    )
-    from workbench.questions.travels import WORKING_LOAD, travel_curves, travel_tasks
+    from workbench.questions.models.wheel_curves import curves_around, on_solved_tires, solved_tire
 
     study, path = _studied(source)
-    ways, moved = (Way.FORE_AFT, Way.LATERAL), where_it_moves(study)
-    tasks = {one.name: one for one in deep_tasks(study, model)}
-    tasks |= {one.name: one for one in travel_tasks(study, model, ways, WORKING_LOAD, moved)}
-    folders = _computed(tasks.values(), source, path)
+    values, tasks = solved_tire(study, model)
+    folders = _computed(tasks, source, path)
     ended = early_ends(folders)
     with naming(path):
-        curves = curves_around(study, folders, model)
-        if min(curve.deflection[-1] for curve in curves) < study.fe.max_deflection - 1e-9:
+        if min(curve.deflection[-1] for curve in curves_around(values, folders)) < study.fe.max_deflection - 1e-9:
             complain_of_early_ends(path, ended)
         warn(path, [f"{task} ends early: {why}" for task, why in ended.items()])
-        potential = wheel_potential_of(study, curves)
-        carcass = carcass_of(travel_curves(model, ways, moved, folders))
-    told = f"{len(curves)} curves of {words} of {study.name}"
-    return on_wheel_curves(_on_brush(scenario, source), potential, told, carcass, model)
+        return on_solved_tires(_on_brush(scenario, source), values, folders)
 
 
 def _on_fitted(scenario: Scenario, source: TireSource, design: RoverDesign, name: str) -> Scenario:

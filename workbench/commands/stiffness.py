@@ -23,9 +23,9 @@ from workbench.commands.computing import (
 from workbench.execution.result_files import early_ends, losses_of_stability
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
+from workbench.questions.curve_graph import MODELS, stiffness_tasks
 from workbench.questions.models.curves import stiffness_curves
 from workbench.questions.strength.yielding import PeakStress, peak_stresses, yield_strengths
-from workbench.questions.study_graph import MODELS, stiffness_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import field_files, publish
 from workbench.study.model import Study

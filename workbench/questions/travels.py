@@ -18,7 +18,7 @@ from workbench.study.full import require_level
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
 
-__all__ = ["FRICTION", "STEPS", "WORKING_LOAD", "travel_curves", "travel_tasks"]
+__all__ = ["FRICTION", "STEPS", "WORKING_LOAD", "travel_curves", "travel_name", "travel_tasks"]
 
 MESH_FULL = "mesh_full"
 """Name of the task."""
@@ -58,10 +58,13 @@ def travel_curves(
     model: str, ways: Sequence[Way], orientations_deg: Sequence[float], folders: Mapping[str, Path]
 ) -> list[TravelCurve]:
     """What the tasks found; a run that ended before its first step has none."""
-    named = [
-        (way, o, folders[orientation_name(f"{model}_{way}", o)] / TRAVEL) for o in orientations_deg for way in ways
-    ]
+    named = [(way, o, folders[travel_name(model, way, o)] / TRAVEL) for o in orientations_deg for way in ways]
     return [read_travel(path, model, way, o) for way, o, path in named if path.exists()]
+
+
+def travel_name(model: str, way: Way, orientation_deg: float) -> str:
+    """Name of the task of one travel."""
+    return orientation_name(f"{model}_{way}", orientation_deg)
 
 
 def _friction(study: Study) -> float:
@@ -89,7 +92,7 @@ def _fe_tasks(study: Study, ways: Sequence[Way], load: float, orientations_deg: 
             }
             tasks.append(
                 Task(
-                    name=orientation_name(f"fe_{way}", o),
+                    name=travel_name("fe", way, o),
                     function="workbench.questions.fe.travel_task:solve_travel",
                     inputs=inputs,
                     needs=(mesh, curve.name),
@@ -116,7 +119,7 @@ def _ancf_wheel_tasks(
             }
             tasks.append(
                 Task(
-                    name=orientation_name(f"ancf_wheel_{way}", o),
+                    name=travel_name("ancf_wheel", way, o),
                     function="workbench.questions.ancf_wheel.travel_task:solve_travel",
                     inputs=inputs,
                     needs=(curve.name,),

@@ -39,7 +39,7 @@ _JOB = {
     "evenness": ("fe.spread_",),
     "strength": ("fe.first_yield_load", "fe.yield"),
     "heat and cold": ("environment.first_yield_",),
-    "mission": ("rover_mission.",),
+    "mission": ("rover_mission.fe",),
 }
 """Part of the wheel's job -> how the identifiers of its checks begin; those a study does not ask for are not there."""
 _SHORT = {
@@ -49,6 +49,7 @@ _SHORT = {
     "fe.first_yield_load": "no part yields below",
     "fe.yield": "stress over yield strength",
     "environment.first_yield_": "no part yields, at {}, below",
+    "rover_mission.fe": "requirements that the rover meets on it",
     "words.band": "distance from the band of the plausible set",
 }
 """How an identifier begins -> what its number is called on the first page, with the rest of it; else the check's title.
@@ -225,13 +226,13 @@ def _used(check: Check) -> float:
 
 
 def _title(check: Check) -> str:
-    return check.title.removeprefix("FE: ").replace("Rover on fitted ANCF tires,", "on the fitted ANCF tire,")
+    return check.title.removeprefix("FE: ")
 
 
 def _told(check: Check) -> str:
-    """Its number and limit; a run has none, and its title says what happened."""
+    """Its number and limit."""
     title = _title(check)
-    if check.quantity == "run" or (check.id == "fe.reach" and check.status == "pass"):
+    if check.id == "fe.reach" and check.status == "pass":
         return title
     if check.value is None:
         return title if check.status == "undecided" else f"{title}: not evaluated"

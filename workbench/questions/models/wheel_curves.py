@@ -9,26 +9,38 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.hub_travel import Way
-from contracts.travel_curve import TravelCurve
-from rover_dynamics.rover.scenarios.ground import Carcass
-from rover_dynamics.tires.wheel_potential import Tips, WheelPotential, wheel_potential
+from contracts.travel_curve import TravelCurve, read_travel
+from rover_dynamics.rover.scenarios.ground import Carcass, on_wheel_curves
+from rover_dynamics.rover.scenarios.scenario import Scenario
+from rover_dynamics.tires.wheel_potential import Tips, wheel_potential
 from workbench.execution.task import Task
+from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import without_end
 from workbench.questions.model_curves import CURVE
-from workbench.questions.study_graph import stiffness_tasks
+from workbench.questions.travel_start import TRAVEL
+from workbench.questions.travels import WORKING_LOAD, travel_name, travel_tasks
 from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.wheel_design import wheel_design
 
-__all__ = ["carcass_of", "curves_around", "deep_tasks", "orientations_to_solve", "wheel_potential_of", "where_it_moves"]
+__all__ = [
+    "carcass_of",
+    "curves_around",
+    "deep_tasks",
+    "on_solved_tires",
+    "orientations_to_solve",
+    "solved_tire",
+    "where_it_moves",
+]
 
 _MOVED, _DEEPER, _ROOM, _APART = 4, 1.6, 0.6, 8.0
 
@@ -70,21 +82,55 @@ def _deep_name(model: str, orientation_deg: float) -> str:
     return orientation_name(f"{model}_deep", orientation_deg)
 
 
-def curves_around(study: Study, folders: Mapping[str, Path], model: str = "fe") -> list[StiffnessCurve]:
-    """Curves of `deep_tasks` at every step of one period, from the folders of those solved."""
-    solved = {
-        one: read_curve(folders[_deep_name(model, one)] / CURVE, model=model, orientation_deg=one)
-        for one in orientations_to_solve(study)
-    }
+def solved_tire(study: Study, model: str) -> tuple[dict[str, Any], tuple[Task, ...]]:
+    """The study's wheel by a model as a tire: inputs of a task, see `on_solved_tires`, and the tasks it needs.
+
+    Raises
+    ------
+    InputError
+        For a model that has no hub to be moved, and a wheel that is not pressed on level ground.
+    """
+    ways, moved, solved = (Way.FORE_AFT, Way.LATERAL), where_it_moves(study), orientations_to_solve(study)
+    tasks = {one.name: one for one in deep_tasks(study, model)}
+    tasks |= {one.name: one for one in travel_tasks(study, model, ways, WORKING_LOAD, moved)}
     period = rotational_period(study)
-    return [
-        solved[one] if one in solved else replace(_nearest(solved, period - one), orientation_deg=one)
-        for one in steps_around(study)
-    ]
+    return {
+        "model": model,
+        "study": study.name,
+        "period_deg": period,
+        "curves": [[one, _deep_name(model, _solved_as(one, solved, period))] for one in steps_around(study)],
+        "travels": [[way.value, one, travel_name(model, way, one)] for one in moved for way in ways],
+        "tips": _tips(study)._asdict(),
+    }, tuple(tasks.values())
 
 
-def _nearest(solved: Mapping[float, StiffnessCurve], orientation: float) -> StiffnessCurve:
-    return solved[min(solved, key=lambda one: abs(one - orientation))]
+def _solved_as(orientation: float, solved: Sequence[float], period: float) -> float:
+    """The orientation solved [deg] that is this one, or its mirror image."""
+    by_distance = sorted(solved, key=lambda one: min(abs(one - orientation), abs(period - one - orientation)))
+    return by_distance[0]
+
+
+def on_solved_tires(scenario: Scenario, values: Mapping[str, Any], folders: Mapping[str, Path]) -> Scenario:
+    """The scenario on a wheel of `solved_tire`, from the folders of the tasks it needs.
+
+    Raises
+    ------
+    InputError
+        For a run that found nothing, or curves that make no potential.
+    """
+    curves = curves_around(values, folders)
+    tips = Tips(**values["tips"])
+    potential = wheel_potential(curves, math.radians(values["period_deg"]), tips)
+    found = [(Way(way), one, folders[name] / TRAVEL) for way, one, name in values["travels"]]
+    travels = [read_travel(path, values["model"], way, one) for way, one, path in found if path.exists()]
+    words = {"fe": "the solid model", "ancf_wheel": "the ANCF wheel, without inertia of its plates,"}
+    told = f"{len(curves)} curves of {words[values['model']]} of {values['study']}"
+    return on_wheel_curves(scenario, potential, told, carcass_of(travels), values["model"])
+
+
+def curves_around(values: Mapping[str, Any], folders: Mapping[str, Path]) -> list[StiffnessCurve]:
+    """Curves of a tire of `solved_tire` at every step of one period, from the folders of those solved."""
+    return [read_curve(folders[task] / CURVE, model=values["model"], orientation_deg=o) for o, task in values["curves"]]
 
 
 def where_it_moves(study: Study) -> list[float]:
@@ -112,13 +158,12 @@ def carcass_of(travels: Sequence[TravelCurve]) -> Carcass:
     return Carcass(forward=found[Way.FORE_AFT], sideways=found[Way.LATERAL])
 
 
-def wheel_potential_of(study: Study, curves: Sequence[StiffnessCurve]) -> WheelPotential:
-    """Potential of the study's wheel through curves at every step of one period."""
+def _tips(study: Study) -> Tips:
+    """Of the wheel's grousers."""
     design = wheel_design(study)
     radius, grousers = design.tire.outer_radius, design.grousers
-    tips = Tips(radius=radius, height=0.0, number=1.0, phase=0.0, half=0.0)
-    if grousers is not None:
-        half = math.asin(0.5 * grousers.thickness / (radius + grousers.height))
-        height, number = grousers.height, float(grousers.count)
-        tips = Tips(radius=radius, height=height, number=number, phase=grousers.phase, half=half)
-    return wheel_potential(curves, math.radians(rotational_period(study)), tips)
+    if grousers is None:
+        return Tips(radius=radius, height=0.0, number=1.0, phase=0.0, half=0.0)
+    half = math.asin(0.5 * grousers.thickness / (radius + grousers.height))
+    height, number = grousers.height, float(grousers.count)
+    return Tips(radius=radius, height=height, number=number, phase=grousers.phase, half=half)

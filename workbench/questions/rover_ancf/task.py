@@ -1,4 +1,4 @@
-"""Task: one run of the rover on six ANCF tires, of the study or fitted to the wheel.
+"""Task: one run of the rover on six ANCF tires of the study.
 
 Verified by tests/unit/test_workbench_rover_ancf.py.
 """
@@ -21,18 +21,18 @@ from rover_dynamics.flexible.account import COLUMNS, FlexibleAccount
 from rover_dynamics.flexible.flexible_system import FlexibleSystem
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
-from workbench.execution.result_files import FAILURE, read_result, write_result
+from workbench.execution.result_files import write_result
 from workbench.questions.rover.close_look import write_close_look
 from workbench.questions.rover.motion_file import MOTION, write_motion
 from workbench.questions.rover.tire_shapes import Watch
-from workbench.questions.rover.tires import resuming, tire_of, watching
-from workbench.questions.rover_ancf.runs import ancf_run, fitted_run
-from workbench.study.ancf_tire import preset_from, tire_from, tire_values
+from workbench.questions.rover.tires import resuming, watching
+from workbench.questions.rover_ancf.runs import ancf_run
+from workbench.study.ancf_tire import tire_from, tire_values
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
 
-__all__ = ["ACCOUNT", "SERIES", "drive_on_ancf_tires", "drive_on_fitted_tires"]
+__all__ = ["ACCOUNT", "SERIES", "drive_on_ancf_tires"]
 
 SERIES, ACCOUNT = "series.csv", "account.csv"
 _ROWS = 400
@@ -67,25 +67,6 @@ def drive_on_ancf_tires(
         write_motion(run, out / MOTION, tire_values(tire.preset, tire.mesh))
         if closely:
             write_close_look(run, inputs["run"], tire, inputs["pressed_at"], out)
-    return _unknowns(tire)
-
-
-def drive_on_fitted_tires(
-    inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
-) -> int:
-    """The same with a scenario of the mission on six tires of a fit, ``inputs["fit"]`` of the needs.
-
-    Writes no ``motion.npz``.
-    """
-    fit = read_result(needs[inputs["fit"]])
-    if FAILURE in fit:
-        write_result(out, {"outcomes": [], "spins": [], "stopped": f"there is no tire: {fit[FAILURE]}", "steps": 0})
-        return 0
-    design = read_rover()
-    scenario = fitted_run(inputs["run"], preset_from(fit["preset"]), design, inputs["friction"])
-    _drive(scenario, design, out, checkpoint)
-    tire = tire_of(scenario)
-    assert tire is not None
     return _unknowns(tire)
 
 

@@ -22,7 +22,7 @@ from workbench.questions.question import Question
 from workbench.questions.rover.drive import read_drive
 from workbench.questions.rover_closer.figures import closer_figures
 from workbench.questions.rover_closer.results import GROUNDS, CloserLook, Resting
-from workbench.questions.rover_mission.question import ROVER_MISSION
+from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
 from workbench.study.model import Study
 from workbench.study.model_parameters import on_tire_of_thesis, rover_ancf, rover_on_ancf, rover_on_brush
 from workbench.verdict.rules import Claim, near
@@ -115,6 +115,11 @@ def _series(study: Study, results: CloserLook) -> Sequence[TimeSeries]:
     return list(results.series.values())
 
 
+def _asked(study: Study) -> bool:
+    """Of a study that drives on ANCF tires."""
+    return study.rover is not None and study.rover.on_ancf_tires != "none" and ROVER_CROSSCHECK.applies(study)
+
+
 ROVER_CLOSER = Question(
     name="rover_closer",
     title="ANCF tires, closely",
@@ -124,5 +129,5 @@ ROVER_CLOSER = Question(
     checks=_checks,
     figures=closer_figures,
     series=_series,
-    applies=ROVER_MISSION.applies,
+    applies=_asked,
 )

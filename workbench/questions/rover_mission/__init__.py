@@ -1,1 +1,1 @@
-"""Does the rover meet the mission's requirements on fitted ANCF tires, as on brush tires?"""
+"""Which requirements of the mission does the rover meet on each kind of tire, with what torque, and what ends it?"""

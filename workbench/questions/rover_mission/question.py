@@ -1,83 +1,104 @@
-"""Question: the mission's requirements on fitted ANCF tires, beside the brush tires.
+"""Question: the mission's requirements on every kind of tire, by the record of `workbench mission`.
 
-Verified by tests/unit/test_workbench_rover_mission.py.
+Nothing is driven here; a study without a record is not asked. Verified by
+tests/unit/test_workbench_rover_mission.py.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contracts.records import Check
-from contracts.series import TimeSeries
-from workbench.execution.task import Task
-from workbench.questions.ancf_fit.graph import fit_name
+from workbench.questions.kept import Kept, State, kept
 from workbench.questions.question import Question
-from workbench.questions.rover.drive import read_drive
-from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
-from workbench.questions.rover_mission.figures import mission_figures
-from workbench.questions.rover_mission.requirements import mission_checks
-from workbench.questions.rover_mission.results import Mission
-from workbench.study.model import Study, stated
-from workbench.study.sections import runs_on_ancf_tires
+from workbench.questions.rover_mission.graph import mission_tasks
+from workbench.questions.rover_mission.requirements import MISSION, MISSION_SOURCE, TITLES
+from workbench.questions.rover_mission.results import Mission, mission_of
+from workbench.study.model import Study
+from workbench.verdict.rules import Claim, at_least
 
-__all__ = ["ROVER_MISSION"]
+__all__ = ["RECORD", "ROVER_MISSION", "TIRE_WORDS", "HeldMission"]
 
-SHORT = {"slope_up": 9.0, "slope_down": 12.0, "slope_across": 9.0, "step": 14.0, "point_turn": 20.0}
-LONG = {"crevasse": 120.0, "rocks": 110.0}
-"""Run -> processor time it takes about [s]."""
-
-
-def _runs(study: Study) -> Sequence[str]:
-    return runs_on_ancf_tires(study.rover, SHORT, LONG)
-
-
-def _kept(study: Study) -> str:
-    return stated(study.ancf_fit, "ancf_fit").kept.name
+RECORD = "mission"
+TIRE_WORDS = {
+    "rigid": "rigid wheels",
+    "brush": "brush tires",
+    "fe": "the wheel by its solid model",
+    "ancf_wheel": "the wheel by its ANCF model",
+    "ancf": "the thesis' ANCF tires",
+}
 
 
-def _tasks(study: Study) -> Sequence[Task]:
-    fit = fit_name(_kept(study))
-    return [
-        Task(
-            name=f"rover_fitted_{name}",
-            function="workbench.questions.rover_ancf.task:drive_on_fitted_tires",
-            inputs={"run": name, "fit": fit, "friction": study.ground.friction},
-            needs=(fit,),
-            cost=(SHORT | LONG)[name],
-            resumable=True,
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeldMission:
+    """The record, whether it is about the study as it is, and what it says."""
+
+    record: Kept
+    state: State
+    mission: Mission
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        """Tires and requirements in words."""
+        return {**TIRE_WORDS, **TITLES}
+
+
+def _read(study: Study, folders: Mapping[str, Path]) -> HeldMission:
+    record = kept(study, RECORD, mission_of)
+    assert record is not None  # else it is not asked
+    mission = mission_of(record.found)
+    return HeldMission(record=record, state=record.state(mission_tasks(study, mission.tires)), mission=mission)
+
+
+def _asked(study: Study) -> bool:
+    """A record that cannot be read is told here, before anything is computed."""
+    return kept(study, RECORD, mission_of) is not None
+
+
+def _checks(study: Study, results: HeldMission) -> Sequence[Check]:
+    mission = results.mission
+    checks = [_of_tire(mission, tire) for tire in mission.tires]
+    if mission.tried:
+        claim = Claim(
+            id="rover_mission.torque",
+            title="Mission: requirements the ANCF wheel meets with 1.05 times the torque found on the solid",
+            quantity="share",
+            unit="-",
+            role="finding",
+            source="our own solid model of the same wheel under the same rover",
         )
-        for name in _runs(study)
-    ]
+        tried = mission.tried
+        checks.append(at_least(claim, lambda: sum(bool(one.confirmed) for one in tried) / len(tried), 1.0))
+    if results.state != "stale":
+        return checks
+    why = "the kept record is of another study"
+    return [replace(check, tolerance=f"{check.tolerance}; {why}", status="undecided") for check in checks]
 
 
-def _read(study: Study, folders: Mapping[str, Path]) -> Mission:
-    return Mission(
-        fitted={n: read_drive(folders[f"rover_fitted_{n}"], f"{n}_fitted", "ancf") for n in _runs(study)},
-        brush={n: read_drive(folders[t], n, "brush") for n in _runs(study) if (t := f"rover_{n}") in folders},
-        tire=_kept(study).replace("_", " "),
-        friction=study.ground.friction,
+def _of_tire(mission: Mission, tire: str) -> Check:
+    """How many requirements are met; undecided where only computations ended."""
+    cells = mission.of_tire(tire)
+    claim = Claim(
+        id=f"rover_mission.{tire}",
+        title=f"Mission on {TIRE_WORDS[tire]}: requirements met",
+        quantity="requirements met",
+        unit="-",
+        role="finding",
+        source=MISSION_SOURCE,
     )
-
-
-def _checks(study: Study, results: Mission) -> Sequence[Check]:
-    """Findings: what the mission asks for, met or not."""
-    return mission_checks(results.rows, "rover_mission.", "Rover on fitted ANCF tires")
-
-
-def _series(study: Study, results: Mission) -> Sequence[TimeSeries]:
-    return [drive.series for drive in results.fitted.values() if drive.series is not None]
+    check = at_least(claim, lambda: float(sum(cell.decided == "met" for cell in cells)), float(len(MISSION)))
+    open_ = any(cell.decided == "undecided" for cell in cells) and all(cell.decided != "not met" for cell in cells)
+    return replace(check, status="undecided") if open_ else check
 
 
 ROVER_MISSION = Question(
     name="rover_mission",
-    title="Mission on ANCF tires",
+    title="Mission",
     group="Rover",
-    tasks=_tasks,
     read=_read,
     checks=_checks,
-    figures=mission_figures,
-    series=_series,
-    applies=lambda study: bool(_runs(study)) and ROVER_CROSSCHECK.applies(study),
+    applies=_asked,
     budget=620,
 )

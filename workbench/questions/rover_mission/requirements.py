@@ -1,4 +1,4 @@
-"""What runs on ANCF tires say of the mission's requirements, and the checks: one for each number with a limit.
+"""The mission's requirements: what runs say of them, and the checks: one for each number with a limit.
 
 Verified by tests/unit/test_workbench_rover_mission.py.
 """
@@ -16,7 +16,7 @@ from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.questions.rover.drive import Drive
 from workbench.verdict.rules import Claim, at_least, at_most, stated
 
-__all__ = ["MISSION_SOURCE", "TITLES", "MissionRow", "mission_checks", "mission_rows", "plainly", "tightest"]
+__all__ = ["MISSION", "MISSION_SOURCE", "TITLES", "MissionRow", "mission_checks", "mission_rows", "plainly", "tightest"]
 
 TITLES = {
     "slope_up": "slope of 25 degrees, upwards",
@@ -28,6 +28,8 @@ TITLES = {
     "rocks": "straight path over random rocks",
 }
 """Scenario -> in words, in the order of the report."""
+MISSION = tuple(name for name in TITLES if name != "rocks")
+"""What is required of the rover on every kind of tire; of the rocks nothing is."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from workbench.execution.task import Task, bare_name
+from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.fe.graph import material_inputs
-from workbench.questions.study_graph import stiffness_tasks
 from workbench.study.sweep import SweptModel
 from workbench.study.sweep_points import Point
 from workbench.study.wheel_design import wheel_design

@@ -1,0 +1,74 @@
+"""``workbench mission``: every requirement of the mission on every kind of tire, kept beside the study for its report.
+
+Verified by tests/end_to_end/test_mission.py.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from workbench.commands.computing import console, naming, read_and_warn, warn
+from workbench.execution.progress import RunDisplay
+from workbench.execution.result_files import early_ends, read_result
+from workbench.execution.runner import Computing, run_tasks
+from workbench.execution.store import Store
+from workbench.execution.terminal import empty_table
+from workbench.questions.kept import keep
+from workbench.questions.models.wheel_curves import curves_around, solved_tire
+from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_name, mission_tasks
+from workbench.questions.rover_mission.question import RECORD, TIRE_WORDS
+from workbench.questions.rover_mission.requirements import MISSION, TITLES
+from workbench.questions.rover_mission.results import Cell, Mission, found_of, mission_of, wheel_yield
+from workbench.questions.strength.yielding import yield_strengths
+from workbench.study.reading import built_in_study
+
+__all__ = ["run_mission"]
+
+
+def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, computing: Computing) -> int:
+    """Drive, search, print and keep; goes on where it stopped. 0 also where a requirement is not met."""
+    path = study_path or built_in_study()
+    study = read_and_warn(path)
+    asked = [tire for tire in MISSION_TIRES if tire in tires] if set(tires) <= set(MISSION_TIRES) else list(tires)
+    begun = time.monotonic()
+    with naming(path):
+        tasks = mission_tasks(study, asked or MISSION_TIRES)
+        with RunDisplay(console, tasks) as display:
+            entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
+    folders = {name: entry.path for name, entry in entries.items()}
+    warn(path, [f"{task} ends early: {why}" for task, why in early_ends(folders).items()])
+    names = [mission_task_name(tire, scenario) for tire in asked or MISSION_TIRES for scenario in MISSION]
+    wheel = None
+    if "fe" in (asked or MISSION_TIRES):
+        wheel = wheel_yield(curves_around(solved_tire(study, "fe")[0], folders), yield_strengths(study))
+    found = found_of([read_result(folders[name]) for name in names], wheel)
+    seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
+    again = "make mission" if study_path is None else f"workbench mission {path}"
+    if asked and tuple(asked) != MISSION_TIRES:
+        again += "".join(f" --tire {tire}" for tire in asked)
+    record = keep(study, RECORD, again, tasks, seconds, found)
+    _print(mission_of(found))
+    console.print(f"kept for the report: {record}", soft_wrap=True)
+    return 0
+
+
+def _print(mission: Mission) -> None:
+    columns = ("requirement", "verdict", "torque", "smallest torque", "energy", "friction")
+    for tire in mission.tires:
+        table = empty_table(f"mission on {TIRE_WORDS[tire]}", columns, texts=columns[:2], folded=columns[:2])
+        for cell in mission.of_tire(tire):
+            table.add_row(TITLES[cell.scenario], *_row(cell))
+        console.print(table)
+    if (wheel := mission.wheel) is not None:
+        what = "ends its curves unyielded" if wheel.part is None else f"yields ({wheel.part.replace('_', ' ')})"
+        console.print(f"the wheel {what} at {wheel.load:.0f} N, standing on {wheel.orientation_deg:g} deg")
+
+
+def _row(cell: Cell) -> tuple[str, ...]:
+    verdict = cell.decided + (f": {cell.words}" if cell.words else "")
+    torque = "" if cell.unlimited is None else f"{cell.unlimited.torque:.3g} N m"
+    least = "" if cell.least is None else f"{cell.least.torque:.3g} N m"
+    energy = "" if cell.least is None else f"{cell.least.energy:.0f} J"
+    return verdict, torque, least, energy, "" if cell.friction is None else f"{cell.friction:.3f}"
