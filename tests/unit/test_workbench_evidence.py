@@ -15,7 +15,7 @@ from workbench.verdict.rules import Claim, at_most
 
 STUDY = read_study(built_in_study())
 KEYS = task_keys(report_tasks(STUDY))
-FILES = ["curves/fe_35C_phi015.csv", "curves/fe_AISI_301_20C_phi015.csv", "series/step_fitted_ancf.csv"]
+FILES = ["curves/fe_35C_phi015.csv", "curves/fe_AISI_301_20C_phi015.csv", "series/step_ancf.csv"]
 FILES += ["curves/fe_phi000.csv", "curves/fe_average.csv", "curves/section_phi015.csv", "series/drop_brush.csv"]
 MADE_BY = {
     "fe.energy": "numerics",
@@ -29,7 +29,6 @@ MADE_BY = {
     "fe.first_yield_load": "strength",
     "environment.stiffness_35C": "environment",
     "environment_AISI_301.similarity": "environment",
-    "rover_mission.step_2": "rover_mission",
     "rover_ancf.mission_slope_up": "rover_ancf",
 }
 
@@ -65,8 +64,6 @@ def test_a_temperature_and_a_scenario_lead_to_their_own_tasks_and_files() -> Non
     assert (list(cold.tasks), cold.files) == (["fe_phi015", "environment_35C"], ("curves/fe_35C_phi015.csv",))
     assert list(other.tasks) == ["environment_AISI_301_20C", "environment_AISI_301_-143C"]
     assert other.files == ("curves/fe_AISI_301_20C_phi015.csv",)
-    step = found["rover_mission.step_2"]
-    assert (list(step.tasks), step.files) == (["rover_fitted_step"], ("series/step_fitted_ancf.csv",))
     assert list(found["rover_ancf.mission_slope_up"].tasks) == ["rover_ancf_slope_up"]
 
 

@@ -18,7 +18,6 @@ from workbench.questions.registry import QUESTIONS
 from workbench.questions.rover.question import ROVER
 from workbench.questions.rover_ancf.question import ROVER_ANCF
 from workbench.questions.rover_closer.question import ROVER_CLOSER
-from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.verification.question import VERIFICATION
 from workbench.questions.words.graph import hoops_tasks
@@ -93,7 +92,7 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
     curves |= {task.name for task in reading_tasks(study)}
     assert _new_keys(before, ancf) == curves | refined | driven
     finest = report_tasks(_changed(study, "mesh_study", factors=(1.0, 2.0, 2.5)))
-    on_the_fit = {"rover_stands_six_spokes"} | {task.name for task in ROVER_MISSION.tasks(study)}
+    on_the_fit = {"rover_stands_six_spokes"}
     assert (
         _new_keys(before, finest)
         == {"mesh_x2.5", "fe_x2.5_phi000", "fe_x2.5_phi015", "ancf_fit_six_spokes"} | on_the_fit

@@ -26,7 +26,6 @@ from workbench.questions.rover_ancf.question import LONG, ROVER_ANCF, SHORT
 from workbench.questions.rover_ancf.runs import FINE_GRID, ancf_run
 from workbench.questions.rover_closer.question import ROVER_CLOSER
 from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
-from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.study.ancf_tire import tire_from
 from workbench.study.brush_tire import brush_from
 from workbench.study.model import Study
@@ -36,8 +35,6 @@ from workbench.study.reading import built_in_study, read_study
 STUDY, DESIGN = read_study(built_in_study()), read_rover()
 ON_BRUSH = {f"rover_{name}" for name in SCENARIOS}
 ON_ANCF = {f"rover_ancf_{name}" for name in (*SHORT, *LONG)}
-FITTED = {f"rover_fitted_{n}" for n in ("slope_up", "slope_down", "slope_across", "step", "point_turn")}
-FITTED |= {f"rover_fitted_{n}" for n in ("crevasse", "rocks")}
 OTHER_BRUSH = {
     "radial_stiffness": 8000.0,
     "radial_damping": 8000.0,
@@ -77,7 +74,7 @@ def changed(section: str, **values: Any) -> Study:
 
 def keys(study: Study) -> dict[str, str]:
     """Of every rover task, as if what it needs stayed the same."""
-    questions = (ROVER, ROVER_ANCF, ROVER_CROSSCHECK, ROVER_MISSION, ROVER_CLOSER)
+    questions = (ROVER, ROVER_ANCF, ROVER_CROSSCHECK, ROVER_CLOSER)
     tasks: list[Task] = [task for question in questions for task in question.tasks(study)]
     return {task.name: task.key(dict.fromkeys(task.needs, "")) for task in tasks if task.name.startswith("rover")}
 
@@ -103,7 +100,7 @@ def test_every_number_of_the_ancf_tire_reaches_every_run_on_it() -> None:
 
 
 def test_friction_of_the_ground_reaches_every_run_of_the_rover() -> None:
-    assert moved(changed("ground", friction=0.6)) == ON_BRUSH | ON_ANCF | FITTED | {"rover_closer"}
+    assert moved(changed("ground", friction=0.6)) == ON_BRUSH | ON_ANCF | {"rover_closer"}
     assert moved(changed("fe", friction=0.3)) == set()
 
 
@@ -204,9 +201,9 @@ def test_a_study_of_another_wheel_is_refused_and_its_ancf_tire_not_driven() -> N
     own = amalia.model_copy(update={"brush": changed("brush", radial_stiffness=16500.0).brush})
     assert on_tires(SCENARIOS["static"], "brush", source(own), small).tire.radial_stiffness == 16500.0
     assert (fits_rover(STUDY), fits_rover(amalia)) == (True, False)
-    questions: Mapping[str, Any] = {t.name: t for t in (ROVER_ANCF, ROVER_CROSSCHECK, ROVER_MISSION, ROVER_CLOSER)}
-    assert [t.applies(amalia) for t in questions.values()] == [False] * 4
-    assert [t.applies(STUDY) for t in questions.values()] == [True] * 4
+    questions: Mapping[str, Any] = {t.name: t for t in (ROVER_ANCF, ROVER_CROSSCHECK, ROVER_CLOSER)}
+    assert [t.applies(amalia) for t in questions.values()] == [False] * 3
+    assert [t.applies(STUDY) for t in questions.values()] == [True] * 3
 
 
 def test_a_fitted_tire_is_named_as_the_study_names_it() -> None:

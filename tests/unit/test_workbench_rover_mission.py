@@ -1,58 +1,197 @@
-"""The mission on fitted ANCF tires: runs, checks, what the section says."""
+"""The mission on every kind of tire: tasks, what a run's result becomes, checks, what the section says."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from ancf_reduced.tire.preset import thesis_preset
-from contracts.series import TimeSeries
+from contracts.curves import StiffnessCurve
+from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.execution.result_files import FAILURE, read_result, write_result
-from workbench.questions.rover.drive import Drive
+from workbench.execution.result_files import read_result, write_result
+from workbench.execution.task import task_keys
+from workbench.questions.kept import Kept
+from workbench.questions.models.wheel_curves import Between
 from workbench.questions.rover.tires import AncfRide
 from workbench.questions.rover_ancf.runs import FITTED_DAMPING, SETTLING_DAMPING, fitted_run
-from workbench.questions.rover_ancf.task import drive_on_fitted_tires
-from workbench.questions.rover_mission.question import ROVER_MISSION, Mission
-from workbench.questions.rover_mission.requirements import plainly, tightest
+from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_name, mission_tasks
+from workbench.questions.rover_mission.question import ROVER_MISSION, HeldMission
+from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
+from workbench.questions.rover_mission.results import WheelYield, found_of, mission_of, wheel_yield
+from workbench.questions.rover_mission.task import SPARE, drive_mission
 from workbench.report.page import page_environment
-from workbench.report.series import series_links
+from workbench.study.model_parameters import rover_on_brush
 from workbench.study.reading import built_in_study, read_study
 
 STUDY = read_study(built_in_study())
-WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
+SLIP = {"quantity": "slip and drift on 25 degrees", "value": 0.03, "unit": "-", "limit": 0.1, "at_least": False}
 
 
-def drive(name: str, tire: str, stopped: str | None = None) -> Drive:
-    time = np.linspace(0.0, 20.0, 21)
-    columns = {"body_x_m": 0.018 * time} | {f"{wheel}_load_N": 190.0 + time for wheel in WHEELS}
-    slip = Outcome(quantity="slip and drift on 25 degrees", value=0.03, unit="-", limit=0.1, at_least=False)
-    series = TimeSeries(scenario=f"{name}_fitted", tire=tire, time=time, columns=columns)
-    return Drive(outcomes=() if stopped else (slip,), series=series, stopped=stopped, spins=(), wall_s=1.0)
+def run(tire: str, scenario: str, **values: Any) -> dict[str, Any]:
+    """A result of a task, met unless said otherwise."""
+    return {
+        "scenario": scenario,
+        "tire": tire,
+        "title": scenario,
+        "met": True,
+        "stopped": None,
+        "outcomes": [SLIP],
+        "ends": None,
+        **{"torque_Nm": 20.0, "power_W": 10.0, "energy_J": 100.0, "way_m": 0.3},
+        "loads": [[0.0, 0.0, 200.0], [3.0, 0.05, 260.0], [6.0, 0.1, 310.0]],
+        **values,
+    }
 
 
-@pytest.fixture(scope="module")
-def mission() -> Mission:
-    fitted = {"slope_up": drive("slope_up", "ancf"), "step": drive("step", "ancf", "a tire folds at t = 20.3 s")}
-    return Mission(
-        fitted=fitted, brush={n: drive(n, "brush") for n in ("slope_up", "step")}, tire="six spokes", friction=None
+def held(runs: list[dict[str, Any]], wheel: WheelYield | None = None, state: Any = "current") -> HeldMission:
+    between = {"fe": Between(17.5, 0.005, -0.023)} if runs[0]["tire"] == "fe" else {}
+    found = json.loads(json.dumps(found_of(runs, wheel, between)))
+    record = Kept(
+        command="make mission", inputs="", sources="", date="2026-11-27T10:00", machine="", wall_s=60.0, found=found
     )
+    return HeldMission(record=record, state=state, mission=mission_of(found))
 
 
-def test_tasks_need_the_fit_that_is_kept() -> None:
-    tasks = ROVER_MISSION.tasks(STUDY)
-    assert [task.name for task in tasks] == [
-        f"rover_fitted_{n}" for n in ("slope_up", "slope_down", "slope_across", "step", "point_turn")
+def test_every_requirement_on_every_tire_behind_what_it_needs() -> None:
+    tasks = mission_tasks(STUDY)
+    names = [task.name for task in tasks]
+    driven = [mission_task_name(tire, scenario) for tire in MISSION_TIRES for scenario in MISSION]
+    assert [name for name in names if name.startswith("mission_")] == driven
+    for k, task in enumerate(tasks):
+        assert set(task.needs) <= set(names[:k])
+    by_name = {task.name: task for task in tasks}
+    assert sum(need.startswith("fe_deep_") for need in by_name["mission_fe_step"].needs) == 24
+    assert by_name["mission_ancf_wheel_step"].inputs["confirms"] == "mission_fe_step"
+    assert by_name["mission_brush_step"].needs == ()
+    alone = {task.name: task for task in mission_tasks(STUDY, ["ancf_wheel"])}
+    assert alone["mission_ancf_wheel_step"].inputs["confirms"] is None
+    with pytest.raises(InputError, match="'wood': is not known; give of rigid, brush, fe, ancf_wheel, ancf"):
+        mission_tasks(STUDY, ["wood"])
+    amalia = read_study(built_in_study().parent / "amalia.toml")
+    with pytest.raises(InputError, match=r"is not that of the rover's wheels|\[brush\]: is not in the study"):
+        mission_tasks(amalia, ["brush"])
+
+
+def test_the_ground_and_the_brush_reach_every_task() -> None:
+    def keys(study: Any) -> dict[str, str]:
+        return task_keys(mission_tasks(study, ["rigid", "brush"]))
+
+    before = keys(STUDY)
+    icy = keys(STUDY.model_copy(update={"ground": STUDY.ground.model_copy(update={"friction": 0.3})}))
+    assert all(icy[name] != key for name, key in before.items())
+
+
+def test_a_task_searches_and_tries_another_ones_torque(tmp_path: Path) -> None:
+    """The turn on the spot, the shortest search; then with that torque, and with none found."""
+    base: dict[str, Any] = {"wheel": None, "ancf": None, **rover_on_brush(STUDY), "scenario": "slope_across"}
+    (tmp_path / "a").mkdir()
+    searched = base | {"tire": "brush", "searched": True, "confirms": None}
+    assert drive_mission(searched, {}, tmp_path / "a", lambda fraction: None) > 0
+    found = read_result(tmp_path / "a")
+    assert found["met"]
+    least = found["smallest_torque"]
+    assert least["torque_Nm"] < found["torque_Nm"]
+    assert least["energy_J"] > 0.0
+    assert found["smallest_friction"] == pytest.approx(0.466, abs=0.02)  # tan 25 degrees: it holds or slides down
+    tried = base | {"tire": "rigid", "searched": False, "confirms": "other"}
+    for other, told in (({"smallest_torque": {"torque_Nm": 5.0 / SPARE}}, True), ({}, None)):
+        write_result(tmp_path, other)
+        (tmp_path / "b").mkdir(exist_ok=True)
+        drive_mission(tried, {"other": tmp_path}, tmp_path / "b", lambda fraction: None)
+        assert read_result(tmp_path / "b")["confirmed"] is told
+
+
+def test_a_run_beyond_the_wheels_yield_is_not_met() -> None:
+    strong, weak = WheelYield(load=400.0, orientation_deg=15.0, part="tire"), replace_load(300.0)
+    assert held([run("fe", "step")], strong).mission.cells["fe", "step"].decided == "met"
+    cell = held([run("fe", "step")], weak).mission.cells["fe", "step"]
+    assert (cell.decided, cell.cause, cell.time, cell.way) == ("not met", "strength", 6.0, 0.1)
+    assert cell.words == "ended by the wheel's strength at 6 s, after 0.10 m: 310 N, outer springs yields"
+    unknown = WheelYield(load=300.0, orientation_deg=0.0, part=None)
+    assert held([run("fe", "step")], unknown).mission.cells["fe", "step"].decided == "met"
+
+
+def replace_load(load: float) -> WheelYield:
+    return WheelYield(load=load, orientation_deg=15.0, part="outer_springs")
+
+
+def test_what_ends_a_run_is_told_with_time_and_place() -> None:
+    ends = {"cause": "friction", "time": 8.25, "way": 0.125}
+    missed = dict(SLIP, value=0.5)
+    runs = [
+        run("brush", "slope_up", met=False, outcomes=[missed], ends=ends),
+        run("fe", "slope_up", met=False, outcomes=[], ends=dict(ends, cause="computation"), stopped="no step"),
+        run("ancf", "slope_up", met=False, outcomes=[], stopped="a tire folds at t = -4.7 s"),
     ]
-    assert STUDY.ancf_fit is not None
-    assert {task.needs for task in tasks} == {(f"ancf_fit_{STUDY.ancf_fit.kept.name}",)}
-    none = STUDY.model_copy(update={"rover": STUDY.rover.model_copy(update={"on_ancf_tires": "none"})})
-    assert ROVER_MISSION.applies(STUDY)
-    assert not ROVER_MISSION.applies(none)
+    cells = held(runs).mission.cells
+    assert cells["brush", "slope_up"].words == "ended by friction at 8.25 s, after 0.12 m"
+    assert [one.decided for one in cells.values()] == ["not met", "undecided", "undecided"]
+    assert cells["ancf", "slope_up"].words == "stops before it sets out: a tire folds"
+
+
+def test_checks_count_requirements_and_a_stale_record_decides_nothing() -> None:
+    runs = [run("fe", scenario) for scenario in MISSION]
+    runs += [run("ancf_wheel", s, confirmed=s != "step") for s in MISSION]
+    runs += [run("brush", s, met=False, ends={"cause": "friction", "time": 1.0, "way": 0.1}) for s in MISSION]
+    runs += [run("ancf", s, met=s != "step") for s in MISSION]
+    checks = {check.id: check for check in ROVER_MISSION.checks(STUDY, held(runs))}
+    assert {id: check.status for id, check in checks.items()} == {
+        "rover_mission.fe": "pass",
+        "rover_mission.ancf_wheel": "pass",
+        "rover_mission.brush": "fail",
+        "rover_mission.ancf": "undecided",
+        "rover_mission.torque": "fail",
+        "rover_mission.between_fe": "fail",
+    }
+    assert checks["rover_mission.torque"].value == pytest.approx(5.0 / 6.0)
+    assert {check.role for check in checks.values()} == {"finding"}
+    stale = ROVER_MISSION.checks(STUDY, held(runs, state="stale"))
+    assert {check.status for check in stale} == {"undecided"}
+
+
+def test_the_wheels_yield_is_the_smallest_of_all_orientations() -> None:
+    d = np.linspace(0.0, 0.05, 6)
+
+    def curve(orientation: float, stress: float) -> StiffnessCurve:
+        columns = {"max_von_mises_tire_Pa": stress * d / d[-1]}
+        return StiffnessCurve(
+            model="fe", orientation_deg=orientation, deflection=d, load=8e3 * d, source="made up", columns=columns
+        )
+
+    found = wheel_yield([curve(0.0, 5e8), curve(15.0, 2e9), curve(30.0, 1.5e9)], {"tire": 1e9})
+    assert (found.load, found.orientation_deg, found.part) == (pytest.approx(200.0), 15.0, "tire")
+    whole = wheel_yield([curve(0.0, 5e8), curve(15.0, 6e8)], {"tire": 1e9})
+    assert (whole.load, whole.part) == (pytest.approx(400.0), None)
+
+
+def test_the_section_tells_every_cell_and_the_searches() -> None:
+    ends = {"cause": "friction", "time": 8.25, "way": 0.125}
+    least = {"torque_Nm": 24.8, "power_W": 12.0, "energy_J": 727.0, "way_m": 2.5}
+    runs = [run("brush", "step", smallest_torque=least, smallest_friction=0.576)]
+    runs += [run("fe", "step", met=False, ends=ends, outcomes=[dict(SLIP, value=0.5)])]
+    environment, results = page_environment(), held(runs, replace_load(280.0), state="older sources")
+    values = {"results": results, "figures": {}, "series": {}}
+    short, long = (
+        environment.get_template(f"rover_mission/{n}.html.j2").render(values) for n in ("section", "evidence")
+    )
+    for words in (
+        "24.8 N m",
+        "727 J",
+        "0.576",
+        "ended by friction at 8.25 s",
+        "older sources",
+        "280 N",
+        "make mission",
+    ):
+        assert words in short, words
+    assert "outer springs yields" in long
+    assert "333 J/m" in long
 
 
 def test_a_fitted_run_has_the_fits_contact_and_settles_quietly() -> None:
@@ -68,28 +207,6 @@ def test_a_fitted_run_has_the_fits_contact_and_settles_quietly() -> None:
     icy = fitted_run("slope_down", thesis_preset(), read_rover(), friction=0.1)
     assert isinstance(icy.ride, AncfRide)
     assert icy.ride.on_ground(icy).friction == 0.1
-
-
-def test_without_a_fit_there_is_no_motion_and_it_says_why(tmp_path: Path) -> None:
-    write_result(tmp_path, {FAILURE: "no curve"})
-    drive_on_fitted_tires({"run": "slope_up", "fit": "f"}, {"f": tmp_path}, tmp_path, lambda fraction: None)
-    assert read_result(tmp_path)["stopped"] == "there is no tire: no curve"
-
-
-def test_what_is_met_and_what_is_not(mission: Mission) -> None:
-    checks = ROVER_MISSION.checks(STUDY, mission)
-    assert [check.status for check in checks] == ["pass", "undecided"]
-    assert checks[1].title.endswith("step of 0.25 m: stops at 20.3 s: a tire folds")
-    assert [check.id for check in checks] == ["rover_mission.slope_up", "rover_mission.step"]
-    assert {check.role for check in checks} == {"finding"}
-
-
-def test_a_run_of_which_nothing_is_required_is_held_to_its_end(mission: Mission) -> None:
-    driven = replace(drive("rocks", "ancf"), outcomes=())
-    for stopped, status in ((None, "pass"), ("a tire folds at t = 3 s", "undecided")):
-        rocks = replace(mission, fitted={"rocks": replace(driven, stopped=stopped)})
-        (check,) = ROVER_MISSION.checks(STUDY, rocks)
-        assert (check.quantity, check.status) == ("run", status)
 
 
 @pytest.mark.parametrize(
@@ -112,26 +229,6 @@ def test_a_run_of_which_nothing_is_required_is_held_to_its_end(mission: Mission)
 )
 def test_why_a_run_stopped_is_told_without_the_solvers_words(stopped: str, told: str) -> None:
     assert plainly(stopped) == told
-
-
-def test_the_section_draws_each_run_and_says_where_it_ends(mission: Mission) -> None:
-    environment = page_environment()
-    figures, series = ROVER_MISSION.figures(STUDY, mission), series_links(list(ROVER_MISSION.series(STUDY, mission)))
-    assert set(figures) == {f"mission_{n}_{what}" for n in ("slope_up", "step") for what in ("load", "place")}
-    values = {"results": mission, "figures": figures, "series": series}
-    short, text = (
-        environment.get_template(f"rover_mission/{n}.html.j2").render(values) for n in ("section", "evidence")
-    )
-    for words in (
-        "stops at 20.3 s: a tire folds",
-        "met</td><td>met",
-        'href="evidence.html#series/step_fitted_ancf.csv"',
-        "undecided",
-    ):
-        assert words in text, words
-    assert "stops at 20.3 s: a tire folds; on brush tires slip and drift on 25 degrees" in short
-    assert short.count("<tr>") == 1 + len(mission.decided)
-    assert ("t = 20.3" in short, "t = 20.3" in text) == (False, False)
 
 
 def test_what_decides_is_what_is_not_met_or_nearest_to_its_limit() -> None:

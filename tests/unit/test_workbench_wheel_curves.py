@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +19,11 @@ from rover_dynamics.tires.wheel_potential import load_and_slope, raise_and_slope
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_curves import (
+    between_steps,
     carcass_of,
     curves_around,
     deep_tasks,
+    largest_between,
     on_solved_tires,
     orientations_to_solve,
     solved_tire,
@@ -59,6 +62,8 @@ def test_a_mirrored_wheel_is_solved_over_half_of_its_period(name: str, count: in
     assert [one.orientation_deg for one in found] == [5.0 * k for k in range(24)]
     for one in found:
         np.testing.assert_allclose(one.load, curve(one.orientation_deg or 0.0).load)
+    own = {round(one): name for one, name in solved_tire(study, "fe")[0]["curves"]}
+    assert own[65] == ("fe_deep_phi065" if count == 24 else "fe_deep_phi055")
 
 
 def test_the_potential_knows_the_studys_grousers(tmp_path: Path) -> None:
@@ -80,6 +85,20 @@ def test_the_potential_knows_the_studys_grousers(tmp_path: Path) -> None:
     assert raise_and_slope(wheel.tips, math.radians(15.0))[0] == 0.0
     assert load_and_slope(wheel, 20e-3, math.radians(15.0))[1] == pytest.approx(curve(15.0).load_at(20e-3), rel=1e-3)
     assert wheel.last == pytest.approx(37e-3, rel=1e-3)
+
+
+def test_between_its_curves_a_tire_is_held_against_curves_solved_apart(tmp_path: Path) -> None:
+    """Half a step off, four of them; a curve 3 % off is found, one outside the loads is not looked at."""
+    study = read_study(built_in_study())
+    halves = between_steps(study)
+    assert halves == [2.5, 32.5, 62.5, 92.5]
+    values, folders = solved_tire(study, "fe")[0], solved(study, tmp_path)
+    apart = [curve(one) for one in halves]
+    assert abs(largest_between(values, folders, apart, (20.0, 250.0)).difference) < 2e-3
+    apart[1] = replace(apart[1], load=1.03 * apart[1].load)
+    found = largest_between(values, folders, apart, (20.0, 250.0))
+    assert (found.orientation_deg, found.difference) == (32.5, pytest.approx(1.0 / 1.03 - 1.0, abs=2e-3))
+    assert largest_between(values, folders, apart, (900.0, 999.0)).difference == 0.0
 
 
 def test_curves_of_other_ground_are_refused() -> None:

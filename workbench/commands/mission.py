@@ -9,6 +9,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from contracts.curves import read_curve
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.progress import RunDisplay
 from workbench.execution.result_files import early_ends, read_result
@@ -16,15 +17,20 @@ from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.terminal import empty_table
 from workbench.questions.kept import keep
-from workbench.questions.models.wheel_curves import curves_around, solved_tire
+from workbench.questions.model_curves import CURVE
+from workbench.questions.models.wheel_curves import between_steps, curves_around, largest_between, solved_tire
 from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_name, mission_tasks
 from workbench.questions.rover_mission.question import RECORD, TIRE_WORDS
 from workbench.questions.rover_mission.requirements import MISSION, TITLES
 from workbench.questions.rover_mission.results import Cell, Mission, found_of, mission_of, wheel_yield
 from workbench.questions.strength.yielding import yield_strengths
+from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study
 
 __all__ = ["run_mission"]
+
+_LOADS = (20.0, 250.0)
+"""Between which curves are compared [N]."""
 
 
 def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, computing: Computing) -> int:
@@ -40,10 +46,17 @@ def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, comp
     folders = {name: entry.path for name, entry in entries.items()}
     warn(path, [f"{task} ends early: {why}" for task, why in early_ends(folders).items()])
     names = [mission_task_name(tire, scenario) for tire in asked or MISSION_TIRES for scenario in MISSION]
-    wheel = None
-    if "fe" in (asked or MISSION_TIRES):
-        wheel = wheel_yield(curves_around(solved_tire(study, "fe")[0], folders), yield_strengths(study))
-    found = found_of([read_result(folders[name]) for name in names], wheel)
+    between, wheel = {}, None
+    for tire in (one for one in ("fe", "ancf_wheel") if one in (asked or MISSION_TIRES)):
+        values = solved_tire(study, tire)[0]
+        if tire == "fe":
+            wheel = wheel_yield(curves_around(values, folders), yield_strengths(study))
+        halves = [
+            read_curve(folders[orientation_name(tire, one)] / CURVE, model=tire, orientation_deg=one)
+            for one in between_steps(study)
+        ]
+        between[tire] = largest_between(values, folders, halves, _LOADS)
+    found = found_of([read_result(folders[name]) for name in names], wheel, between)
     seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
     again = "make mission" if study_path is None else f"workbench mission {path}"
     if asked and tuple(asked) != MISSION_TIRES:

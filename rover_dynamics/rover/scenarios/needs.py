@@ -68,9 +68,11 @@ def ending(run: ScenarioRun) -> Ending | None:
     if run.stopped is not None:
         return at("wheel" if _FOLDS in run.stopped or _DEEP in run.stopped else "computation", nowhere)
     for one in run.scenario.judge(run):
-        if one.met is False and one.quantity.startswith("largest lean"):
+        if one.met is not False or one.limit is None:
+            continue
+        if one.quantity.startswith("largest lean"):
             return at("stability", np.degrees(run.lean) > one.limit)
-        if one.met is False and one.quantity.startswith("smallest wheel load on the way"):
+        if one.quantity.startswith("smallest wheel load on the way"):
             return at("stability", run.loads.min(axis=1) < one.limit)
     drive = run.design.drive
     if drive is not None and np.isfinite(drive.motor.torque_limit):

@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from contracts.hub_travel import Way
 from contracts.travel_curve import TravelCurve, read_travel
 from rover_dynamics.rover.scenarios.ground import Carcass, on_wheel_curves
 from rover_dynamics.rover.scenarios.scenario import Scenario
-from rover_dynamics.tires.wheel_potential import Tips, wheel_potential
+from rover_dynamics.tires.wheel_potential import Tips, WheelPotential, load_and_slope, raise_and_slope, wheel_potential
 from workbench.execution.task import Task
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.fe.foresight import foreseen
@@ -33,9 +33,12 @@ from workbench.study.orientation import orientation_name
 from workbench.study.wheel_design import wheel_design
 
 __all__ = [
+    "Between",
+    "between_steps",
     "carcass_of",
     "curves_around",
     "deep_tasks",
+    "largest_between",
     "on_solved_tires",
     "orientations_to_solve",
     "solved_tire",
@@ -105,9 +108,9 @@ def solved_tire(study: Study, model: str) -> tuple[dict[str, Any], tuple[Task, .
 
 
 def _solved_as(orientation: float, solved: Sequence[float], period: float) -> float:
-    """The orientation solved [deg] that is this one, or its mirror image."""
-    by_distance = sorted(solved, key=lambda one: min(abs(one - orientation), abs(period - one - orientation)))
-    return by_distance[0]
+    """The orientation solved [deg] that is this one, or where it was not solved that is its mirror image."""
+    near = min(solved, key=lambda one: abs(one - orientation))
+    return near if abs(near - orientation) < 1e-6 else min(solved, key=lambda one: abs(period - one - orientation))
 
 
 def on_solved_tires(scenario: Scenario, values: Mapping[str, Any], folders: Mapping[str, Path]) -> Scenario:
@@ -118,14 +121,46 @@ def on_solved_tires(scenario: Scenario, values: Mapping[str, Any], folders: Mapp
     InputError
         For a run that found nothing, or curves that make no potential.
     """
-    curves = curves_around(values, folders)
-    tips = Tips(**values["tips"])
-    potential = wheel_potential(curves, math.radians(values["period_deg"]), tips)
+    potential = _potential(values, folders)
     found = [(Way(way), one, folders[name] / TRAVEL) for way, one, name in values["travels"]]
     travels = [read_travel(path, values["model"], way, one) for way, one, path in found if path.exists()]
     words = {"fe": "the solid model", "ancf_wheel": "the ANCF wheel, without inertia of its plates,"}
-    told = f"{len(curves)} curves of {words[values['model']]} of {values['study']}"
+    told = f"{len(values['curves'])} curves of {words[values['model']]} of {values['study']}"
     return on_wheel_curves(scenario, potential, told, carcass_of(travels), values["model"])
+
+
+def _potential(values: Mapping[str, Any], folders: Mapping[str, Path]) -> WheelPotential:
+    return wheel_potential(curves_around(values, folders), math.radians(values["period_deg"]), Tips(**values["tips"]))
+
+
+class Between(NamedTuple):
+    """Where a tire's load differs most from a curve solved apart: orientation [deg], deflection [m], relative [-]."""
+
+    orientation_deg: float
+    deflection: float
+    difference: float
+
+
+def between_steps(study: Study) -> list[float]:
+    """Four orientations [deg], evenly spread, half a step beside those that a tire's potential goes through."""
+    steps = steps_around(study)
+    half = 0.5 * (steps[1] - steps[0]) if len(steps) > 1 else 0.5 * rotational_period(study)
+    return [one + half for one in steps[:: max(1, len(steps) // _MOVED)]]
+
+
+def largest_between(
+    values: Mapping[str, Any], folders: Mapping[str, Path], curves: Sequence[StiffnessCurve], loads: tuple[float, float]
+) -> Between:
+    """The largest difference of load from curves solved apart, at their points whose loads [N] lie in a range."""
+    potential, found = _potential(values, folders), [Between(0.0, 0.0, 0.0)]
+    for curve in curves:
+        at = math.radians(curve.orientation_deg or 0.0)
+        rise = raise_and_slope(potential.tips, at)[0]
+        for d, load in zip(curve.deflection.tolist(), curve.load.tolist(), strict=True):
+            if loads[0] <= load <= loads[1]:
+                difference = load_and_slope(potential, d - rise, at)[1] / load - 1.0
+                found.append(Between(curve.orientation_deg or 0.0, d, difference))
+    return max(found, key=lambda one: abs(one.difference))
 
 
 def curves_around(values: Mapping[str, Any], folders: Mapping[str, Path]) -> list[StiffnessCurve]:

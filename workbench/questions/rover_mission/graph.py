@@ -7,7 +7,8 @@ from typing import Any
 
 from contracts.errors import InputError
 from workbench.execution.task import Task
-from workbench.questions.models.wheel_curves import solved_tire
+from workbench.questions.curve_graph import stiffness_tasks
+from workbench.questions.models.wheel_curves import between_steps, solved_tire
 from workbench.questions.rover_mission.requirements import MISSION
 from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, rover_on_ancf, rover_on_brush
@@ -45,7 +46,7 @@ def mission_tasks(study: Study, tires: Sequence[str] = MISSION_TIRES) -> tuple[T
         needs: tuple[str, ...] = ()
         if tire in ("fe", "ancf_wheel"):
             own["wheel"], tasks = solved_tire(study, tire)
-            before |= {task.name: task for task in tasks}
+            before |= {task.name: task for task in (*tasks, *stiffness_tasks(study, tire, between_steps(study)))}
             needs = tuple(sorted({name for *_, name in (*own["wheel"]["curves"], *own["wheel"]["travels"])}))
         elif tire == "ancf":
             if not fits_rover(study):

@@ -12,16 +12,19 @@ from pathlib import Path
 
 from contracts.records import Check
 from workbench.questions.kept import Kept, State, kept
+from workbench.questions.models.wheel_curves import Between
 from workbench.questions.question import Question
 from workbench.questions.rover_mission.graph import mission_tasks
 from workbench.questions.rover_mission.requirements import MISSION, MISSION_SOURCE, TITLES
 from workbench.questions.rover_mission.results import Mission, mission_of
 from workbench.study.model import Study
-from workbench.verdict.rules import Claim, at_least
+from workbench.verdict.rules import Claim, at_least, at_most
 
 __all__ = ["RECORD", "ROVER_MISSION", "TIRE_WORDS", "HeldMission"]
 
 RECORD = "mission"
+_BETWEEN = 0.01
+"""Of the load, ours [-]."""
 TIRE_WORDS = {
     "rigid": "rigid wheels",
     "brush": "brush tires",
@@ -71,10 +74,23 @@ def _checks(study: Study, results: HeldMission) -> Sequence[Check]:
         )
         tried = mission.tried
         checks.append(at_least(claim, lambda: sum(bool(one.confirmed) for one in tried) / len(tried), 1.0))
+    checks += [_between(tire, one) for tire, one in mission.between.items()]
     if results.state != "stale":
         return checks
     why = "the kept record is of another study"
     return [replace(check, tolerance=f"{check.tolerance}; {why}", status="undecided") for check in checks]
+
+
+def _between(tire: str, found: Between) -> Check:
+    claim = Claim(
+        id=f"rover_mission.between_{tire}",
+        title=f"Tire of {TIRE_WORDS[tire]}: load half way between the orientations it goes through",
+        quantity="difference",
+        unit="-",
+        role="finding",
+        source="the same model solved there",
+    )
+    return at_most(claim, lambda: abs(found.difference), _BETWEEN)
 
 
 def _of_tire(mission: Mission, tire: str) -> Check:

@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from contracts.curves import StiffnessCurve
 from rover_dynamics.rover.scenarios.outcome import Outcome
+from workbench.questions.models.wheel_curves import Between
 from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
 from workbench.questions.strength.yielding import first_yield
 
@@ -81,10 +82,12 @@ class Cell:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Mission:
-    """All cells by tire and scenario; where the wheel yields, or None where no solid model was asked."""
+    """All cells by tire and scenario; where the wheel yields, or None where no solid model was asked; by tire where its
+    load differs most from curves solved apart, half way between those it goes through."""
 
     cells: Mapping[tuple[str, str], Cell]
     wheel: WheelYield | None
+    between: Mapping[str, Between]
 
     @property
     def tires(self) -> list[str]:
@@ -114,12 +117,15 @@ def wheel_yield(curves: Sequence[StiffnessCurve], strengths: Mapping[str, float]
     return WheelYield(load=first.load, orientation_deg=orientation, part=first.part)
 
 
-def found_of(results: Iterable[Mapping[str, Any]], wheel: WheelYield | None) -> dict[str, Any]:
+def found_of(
+    results: Iterable[Mapping[str, Any]], wheel: WheelYield | None, between: Mapping[str, Between]
+) -> dict[str, Any]:
     """The record of what tasks found, JSON values."""
     strength = (
         None if wheel is None else {"load_N": wheel.load, "orientation_deg": wheel.orientation_deg, "part": wheel.part}
     )
-    return {"wheel": strength, "runs": [_rounded(dict(one)) for one in results]}
+    steps = {tire: list(one) for tire, one in between.items()}
+    return {"wheel": strength, "between": _rounded(steps), "runs": [_rounded(dict(one)) for one in results]}
 
 
 def _rounded(value: Any) -> Any:
@@ -140,7 +146,8 @@ def mission_of(found: Mapping[str, Any]) -> Mission:
             load=float(strength["load_N"]), orientation_deg=float(strength["orientation_deg"]), part=strength["part"]
         )
     cells = [_with_strength(_cell(run), run, wheel) for run in found["runs"]]
-    return Mission(cells={(cell.tire, cell.scenario): cell for cell in cells}, wheel=wheel)
+    between = {tire: Between(*map(float, one)) for tire, one in found["between"].items()}
+    return Mission(cells={(cell.tire, cell.scenario): cell for cell in cells}, wheel=wheel, between=between)
 
 
 def _cell(run: Mapping[str, Any]) -> Cell:
