@@ -13,18 +13,25 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from contracts.errors import WorkbenchError
 from reference_fe.contact.facet_kernels import shape_values
 from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.surface import ContactSurface
 from reference_fe.contact.surface_term import SurfaceForces, joined
 
-__all__ = ["InnerLaw", "TwoSides", "as_set"]
+__all__ = ["InnerLaw", "TwoSides", "WildIterateError", "as_set"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 _SKIN = 3e-3
 """How far a node may move before the facets near each other are looked up anew [m]."""
+_WILD = 5.0
+"""Size of a facet over the largest before, above which an iterate is no state of any body [-]."""
+
+
+class WildIterateError(WorkbenchError):
+    """An iterate so far from balance that contact cannot be looked up in it: its pairs would fill the memory."""
 
 
 class InnerLaw(Protocol):
@@ -55,6 +62,7 @@ class TwoSides:
         _, _, areas = slave.frames(X)
         self.areas = areas * slave.weights * slave.widths[:, None]
         self.shape = shape_values(slave.lattice, slave.at)
+        self._largest = _WILD * float(_balls(X, master.facets)[1].max(initial=0.0))
         self.known, self.touching = set[tuple[int, int]](), np.zeros((0, 2), dtype=np.int64)
         self.largest_penetration = 0.0
         self._near: tuple[Array, Index, tuple[Index, Index]] | None = None
@@ -132,6 +140,8 @@ class TwoSides:
         if self._near is None or np.abs(x - self._near[0]).max() > _SKIN / math.sqrt(3.0):
             mid_s, radius_s = _balls(x, self.slave.facets)
             mid_m, radius_m = _balls(x, self.master.facets)
+            if not radius_m.max(initial=0.0) <= self._largest:
+                raise WildIterateError("an iterate stretches a facet that may touch to more than five times its size")
             far = max(self.law.depth, self.law.reach) + radius_m.max(initial=0.0) + 2.0 * _SKIN
             found = cKDTree(mid_m).query_ball_point(mid_s, radius_s + far, return_sorted=True)
             kept = [

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
 from reference_fe.contact.newton_step import settle_contact
+from reference_fe.contact.two_sides import WildIterateError
 from reference_fe.material.hyperelastic import SMALLEST_STRETCH, MaterialLaw
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.solver import process_sums
@@ -102,13 +103,13 @@ class NewtonSolver:
 
         ``rise`` is the obstacle's rise since the last converged state [m]: the first solve then uses that state's
         contact set (see `contact.obstacle.ObstacleTerm.evaluate`). Every solve goes on to find the touching set, see
-        `contact.newton_step`. A matrix without an inverse ends the iteration; one whose factors do not fit into memory
-        raises MemoryLimitError.
+        `contact.newton_step`. A matrix without an inverse and an iterate without sense end it; one whose factors do
+        not fit into memory raises MemoryLimitError.
         """
         history = list[float]()
         try:
             return self._iterate(rise, history)
-        except SingularMatrixError as error:
+        except (SingularMatrixError, WildIterateError) as error:
             residual, residuals = self.problem.body_residual(), (*history, float("inf"))
             return NewtonOutcome(converged=False, residuals=residuals, residual=residual, failure=str(error))
 

@@ -19,6 +19,7 @@ from reference_fe.contact.inner import ContactPair, InnerContact, InnerContactTe
 from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.inner_pairs import wheel_contact_pairs
 from reference_fe.contact.surface import contact_surface, node_positions
+from reference_fe.contact.two_sides import WildIterateError
 from reference_fe.dolfinx_api import fem
 from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh, stacked
@@ -392,3 +393,13 @@ def test_a_corner_within_the_margin_is_not_refused_for_its_distance() -> None:
     master = (np.arange(9)[None], np.ones(1), (3, 3))
     facet = nearest_contacts(x, points, down, one, master, balls, (5e-6, 1e-4), np.full((1, 4), 0.2))[0]
     assert (facet == 0).all()
+
+
+def test_an_iterate_that_is_no_state_of_any_body_is_refused() -> None:
+    """A facet of more than five times its size would make all facets its neighbours; one of four is looked up."""
+    term = term_on(plates())
+    X = term.reference_positions
+    four, six = (((share - 1.0) * X).ravel() for share in (4.0, 6.0))
+    term.evaluate(four, 0.0)
+    with pytest.raises(WildIterateError, match="more than five times its size"):
+        term.evaluate(six, 0.0)

@@ -60,7 +60,7 @@ def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, comp
     seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
     again = "make mission" if study_path is None else f"workbench mission {path}"
     if asked and tuple(asked) != MISSION_TIRES:
-        again += "".join(f" --tire {tire}" for tire in asked)
+        again = again.replace("make", "workbench") + "".join(f" --tire {tire}" for tire in asked)
     record = keep(study, RECORD, again, tasks, seconds, found)
     _print(mission_of(found))
     console.print(f"kept for the report: {record}", soft_wrap=True)

@@ -39,7 +39,7 @@ _JOB = {
     "evenness": ("fe.spread_",),
     "strength": ("fe.first_yield_load", "fe.yield"),
     "heat and cold": ("environment.first_yield_",),
-    "mission": ("rover_mission.fe",),
+    "mission": ("rover_mission.fe", "rover_mission.ancf_wheel"),
 }
 """Part of the wheel's job -> how the identifiers of its checks begin; those a study does not ask for are not there."""
 _SHORT = {
@@ -50,6 +50,7 @@ _SHORT = {
     "fe.yield": "stress over yield strength",
     "environment.first_yield_": "no part yields, at {}, below",
     "rover_mission.fe": "requirements that the rover meets on it",
+    "rover_mission.ancf_wheel": "requirements that the rover meets on its ANCF model",
     "words.band": "distance from the band of the plausible set",
 }
 """How an identifier begins -> what its number is called on the first page, with the rest of it; else the check's title.

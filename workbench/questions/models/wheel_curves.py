@@ -45,7 +45,7 @@ __all__ = [
     "where_it_moves",
 ]
 
-_MOVED, _DEEPER, _ROOM, _APART = 4, 1.6, 0.6, 8.0
+_MOVED, _BETWEEN, _DEEPER, _ROOM, _APART = 4, 8, 1.6, 0.6, 8.0
 
 
 def orientations_to_solve(study: Study) -> list[float]:
@@ -142,10 +142,10 @@ class Between(NamedTuple):
 
 
 def between_steps(study: Study) -> list[float]:
-    """Four orientations [deg], evenly spread, half a step beside those that a tire's potential goes through."""
+    """Eight orientations [deg], evenly spread, half a step beside those that a tire's potential goes through."""
     steps = steps_around(study)
     half = 0.5 * (steps[1] - steps[0]) if len(steps) > 1 else 0.5 * rotational_period(study)
-    return [one + half for one in steps[:: max(1, len(steps) // _MOVED)]]
+    return [one + half for one in steps[:: max(1, len(steps) // _BETWEEN)]]
 
 
 def largest_between(
