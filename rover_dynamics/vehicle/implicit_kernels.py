@@ -32,7 +32,7 @@ from rover_dynamics.tires.brush_derivatives import brush_derivatives
 from rover_dynamics.tires.brush_force import BrushResult, HubMotions, brush_forces
 from rover_dynamics.vehicle.implicit_method import Known, Moment
 from rover_dynamics.vehicle.linearisation import changes, linearise
-from rover_dynamics.vehicle.motors import add_motor_torques
+from rover_dynamics.vehicle.motor_kernels import add_motor_torques
 from rover_dynamics.vehicle.system import Newton, System, Work
 
 __all__ = ["evaluate", "implicit_step"]

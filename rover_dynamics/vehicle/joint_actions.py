@@ -18,7 +18,7 @@ from rover_dynamics.multibody.tree_arrays import TreeMotion
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
 from rover_dynamics.vehicle.drive_control import Motoring, Sight
 from rover_dynamics.vehicle.implicit_method import Known
-from rover_dynamics.vehicle.motors import add_motor_torques, motor_numbers
+from rover_dynamics.vehicle.motor_kernels import add_motor_torques, motor_numbers
 
 __all__ = ["JointActions", "JointEffort"]
 

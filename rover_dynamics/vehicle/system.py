@@ -14,7 +14,7 @@ from contracts.terrain import TerrainPieces
 from rover_dynamics.multibody.tree_kernels import Tree
 from rover_dynamics.tires.brush_force import BrushResult, BrushScratch, brush_result
 from rover_dynamics.tires.brush_settings import WheelNumbers
-from rover_dynamics.vehicle.motors import MotorNumbers
+from rover_dynamics.vehicle.motor_kernels import MotorNumbers
 
 __all__ = ["Newton", "System", "Tires", "Work", "work_for"]
 

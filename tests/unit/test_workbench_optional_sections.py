@@ -40,7 +40,7 @@ ADDED = {
     "input_uncertainty": {"input_uncertainty"},
     "verification": {"multibody", "verification", "speed"},
     "environment": {"environment"},
-    "rover": {"rover", "rover_ancf"},
+    "rover": {"rover", "rover_ancf", "rover_mission"},
     "full": set(),
     "reference": {"ancf_wheels", "validation"},
     "tolerances": set(),

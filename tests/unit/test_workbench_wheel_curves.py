@@ -18,13 +18,10 @@ from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.tires.wheel_potential import load_and_slope, raise_and_slope
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.model_curves import CURVE
-from workbench.questions.models.wheel_curves import (
+from workbench.questions.models.wheel_curves import carcass_of, curves_around, largest_between, on_solved_tires
+from workbench.questions.models.wheel_tasks import (
     between_steps,
-    carcass_of,
-    curves_around,
     deep_tasks,
-    largest_between,
-    on_solved_tires,
     orientations_to_solve,
     solved_tire,
     where_it_moves,
@@ -93,6 +90,7 @@ def test_between_its_curves_a_tire_is_held_against_curves_solved_apart(tmp_path:
     halves = between_steps(study)
     assert halves == [2.5, 17.5, 32.5, 47.5, 62.5, 77.5, 92.5, 107.5]
     values, folders = solved_tire(study, "fe")[0], solved(study, tmp_path)
+    values["tips"]["height"] = 0.0  # the curves made up know no grousers
     apart = [curve(one) for one in halves]
     assert abs(largest_between(values, folders, apart, (20.0, 250.0)).difference) < 2e-3
     apart[1] = replace(apart[1], load=1.03 * apart[1].load)

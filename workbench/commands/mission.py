@@ -18,7 +18,8 @@ from workbench.execution.store import Store
 from workbench.execution.terminal import empty_table
 from workbench.questions.kept import keep
 from workbench.questions.model_curves import CURVE
-from workbench.questions.models.wheel_curves import between_steps, curves_around, largest_between, solved_tire
+from workbench.questions.models.wheel_curves import curves_around, largest_between
+from workbench.questions.models.wheel_tasks import between_steps, solved_tire
 from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_name, mission_tasks
 from workbench.questions.rover_mission.question import RECORD, TIRE_WORDS
 from workbench.questions.rover_mission.requirements import MISSION, TITLES

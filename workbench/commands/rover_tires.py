@@ -66,7 +66,8 @@ def _on_solved(scenario: Scenario, source: TireSource, model: str) -> Scenario:
     """What is not kept is computed here."""
     from workbench.commands.computing import complain_of_early_ends, naming, warn
     from workbench.execution.result_files import early_ends
-    from workbench.questions.models.wheel_curves import curves_around, on_solved_tires, solved_tire
+    from workbench.questions.models.wheel_curves import curves_around, on_solved_tires
+    from workbench.questions.models.wheel_tasks import solved_tire
 
     study, path = _studied(source)
     values, tasks = solved_tire(study, model)

@@ -8,7 +8,7 @@ from typing import Any
 from contracts.errors import InputError
 from workbench.execution.task import Task
 from workbench.questions.curve_graph import stiffness_tasks
-from workbench.questions.models.wheel_curves import between_steps, solved_tire
+from workbench.questions.models.wheel_tasks import between_steps, solved_tire
 from workbench.questions.rover_mission.requirements import MISSION
 from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, rover_on_ancf, rover_on_brush

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from contracts.records import Check
 from workbench.questions.kept import Kept, State, kept
-from workbench.questions.models.wheel_curves import Between
+from workbench.questions.models.wheel_tasks import Between
 from workbench.questions.question import Question
 from workbench.questions.rover_mission.graph import mission_tasks
 from workbench.questions.rover_mission.requirements import MISSION, MISSION_SOURCE, TITLES
@@ -57,7 +57,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> HeldMission:
 
 def _asked(study: Study) -> bool:
     """A record that cannot be read is told here, before anything is computed."""
-    return kept(study, RECORD, mission_of) is not None
+    return study.rover is not None and kept(study, RECORD, mission_of) is not None
 
 
 def _checks(study: Study, results: HeldMission) -> Sequence[Check]:

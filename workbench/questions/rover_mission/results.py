@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 from contracts.curves import StiffnessCurve
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from workbench.questions.models.wheel_curves import Between
+from workbench.questions.models.wheel_tasks import Between
 from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
 from workbench.questions.strength.yielding import first_yield
 

@@ -41,7 +41,7 @@ def drive_mission(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Pat
     """``result.json``, and ``series.csv`` of the run with drives that have no limits, if it began.
 
     The inputs hold ``scenario`` and ``tire``; the ``brush`` tire, see `brush_from`, and the ground's ``friction`` or
-    None; ``wheel`` for a tire of `workbench.questions.models.wheel_curves.solved_tire`, ``ancf`` for an ANCF tire;
+    None; ``wheel`` for a tire of `workbench.questions.models.wheel_tasks.solved_tire`, ``ancf`` for an ANCF tire;
     whether smallest torque and friction are ``searched``; and ``confirms``, the task whose torque is tried, or None.
     """
     design, scenario = read_rover(), _on_tires(inputs, needs)

@@ -1,0 +1,131 @@
+"""Tasks whose curves and travels make a study's wheel a tire of the rover: what `wheel_curves` reads.
+
+Verified by tests/unit/test_workbench_wheel_curves.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from contracts.hub_travel import Way
+from workbench.execution.task import Task
+from workbench.questions.curve_graph import stiffness_tasks
+from workbench.questions.fe.foresight import foreseen
+from workbench.questions.fe.graph import without_end
+from workbench.questions.travels import WORKING_LOAD, travel_name, travel_tasks
+from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
+from workbench.study.model import Study
+from workbench.study.orientation import orientation_name
+from workbench.study.wheel_design import wheel_design
+
+__all__ = [
+    "Between",
+    "between_steps",
+    "deep_tasks",
+    "orientations_to_solve",
+    "solved_tire",
+    "where_it_moves",
+]
+
+_MOVED, _BETWEEN, _DEEPER, _ROOM, _APART = 4, 8, 1.6, 0.6, 8.0
+
+
+class Between(NamedTuple):
+    """Where a tire's load differs most from a curve solved apart: orientation [deg], deflection [m], relative [-]."""
+
+    orientation_deg: float
+    deflection: float
+    difference: float
+
+
+def orientations_to_solve(study: Study) -> list[float]:
+    """Orientations [deg] by ``full.orientation_step``, over one period, or half of one where it mirrors itself.
+
+    Raises
+    ------
+    InputError
+        For a study whose solid model does not stand on level ground, and a step that does not divide the period.
+    """
+    require_level(study)
+    steps = steps_around(study)
+    return [one for one in steps if not is_mirrored(study) or one <= 0.5 * rotational_period(study) + 1e-9]
+
+
+def deep_tasks(study: Study, model: str) -> tuple[Task, ...]:
+    """Curves at every orientation to be solved that go on beyond the study's, as deep as a rover may press a wheel.
+
+    Behind the study's points one every eighth of its last deflection, up to 1.6 times that or 0.6 times the room
+    between rim and hub, whatever is less; no load ends them.
+    """
+    design, last = wheel_design(study), study.fe.max_deflection
+    room = design.tire.outer_radius - design.outer_hub.outer_radius
+    deepest, apart = max(last, min(_DEEPER * last, _ROOM * room)), last / _APART
+    more = [round(last + k * apart, 12) for k in range(1, 1 + int((deepest - last) / apart + 1e-9))]
+    tasks = []
+    for task in stiffness_tasks(study, model, orientations_to_solve(study)):
+        if "deflections" in task.inputs:
+            inputs = without_end(task.inputs) | {"deflections": [*task.inputs["deflections"], *more]}
+            tasks.append(replace(task, name=_deep_name(model, task.inputs["orientation_deg"]), inputs=inputs))
+        else:
+            tasks.append(task)
+    return foreseen(tasks)
+
+
+def _deep_name(model: str, orientation_deg: float) -> str:
+    return orientation_name(f"{model}_deep", orientation_deg)
+
+
+def solved_tire(study: Study, model: str) -> tuple[dict[str, Any], tuple[Task, ...]]:
+    """The study's wheel by a model as a tire: inputs of a task, see `on_solved_tires`, and the tasks it needs.
+
+    Raises
+    ------
+    InputError
+        For a model that has no hub to be moved, and a wheel that is not pressed on level ground.
+    """
+    ways, moved, solved = (Way.FORE_AFT, Way.LATERAL), where_it_moves(study), orientations_to_solve(study)
+    tasks = {one.name: one for one in deep_tasks(study, model)}
+    tasks |= {one.name: one for one in travel_tasks(study, model, ways, WORKING_LOAD, moved)}
+    period = rotational_period(study)
+    return {
+        "model": model,
+        "study": study.name,
+        "period_deg": period,
+        "curves": [[one, _deep_name(model, _solved_as(one, solved, period))] for one in steps_around(study)],
+        "travels": [[way.value, one, travel_name(model, way, one)] for one in moved for way in ways],
+        "tips": _tips(study),
+    }, tuple(tasks.values())
+
+
+def _solved_as(orientation: float, solved: Sequence[float], period: float) -> float:
+    """The orientation solved [deg] that is this one, or where it was not solved that is its mirror image."""
+    near = min(solved, key=lambda one: abs(one - orientation))
+    return near if abs(near - orientation) < 1e-6 else min(solved, key=lambda one: abs(period - one - orientation))
+
+
+def between_steps(study: Study) -> list[float]:
+    """Eight orientations [deg], evenly spread, half a step beside those that a tire's potential goes through."""
+    steps = steps_around(study)
+    half = 0.5 * (steps[1] - steps[0]) if len(steps) > 1 else 0.5 * rotational_period(study)
+    return [one + half for one in steps[:: max(1, len(steps) // _BETWEEN)]]
+
+
+def where_it_moves(study: Study) -> list[float]:
+    """Four of the orientations [deg] solved, evenly spread, at which the hub is moved over the ground; fewer of few."""
+    solved = orientations_to_solve(study)
+    apart = max(1, len(solved) // _MOVED + 1)
+    return solved[::apart]
+
+
+def _tips(study: Study) -> dict[str, float]:
+    """Of the wheel's grousers, as `rover_dynamics.tires.wheel_potential.Tips`."""
+    design = wheel_design(study)
+    radius, grousers = design.tire.outer_radius, design.grousers
+    if grousers is None:
+        return {"radius": radius, "height": 0.0, "number": 1.0, "phase": 0.0, "half": 0.0}
+    half = math.asin(0.5 * grousers.thickness / (radius + grousers.height))
+    height, number = grousers.height, float(grousers.count)
+    return {"radius": radius, "height": height, "number": number, "phase": grousers.phase, "half": half}
