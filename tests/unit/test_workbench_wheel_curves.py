@@ -142,7 +142,7 @@ def test_tires_curves_go_on_beyond_the_studys(model: str) -> None:
     (own,) = (task for task in stiffness_tasks(study, model, (15.0,)) if task.name == f"{model}_phi015")
     deep = tasks[f"{model}_deep_phi015"].inputs
     asked = own.inputs["deflections"]
-    assert deep["deflections"] == pytest.approx([*asked, 0.045, 0.05, 0.055, 0.06])
+    assert deep["deflections"] == pytest.approx([*asked, 0.045, 0.05, 0.055])
     assert (deep["max_load"], deep["keep_points"]) == (1e6, False)
     assert len(tasks) == 24 + (model == "fe")
 

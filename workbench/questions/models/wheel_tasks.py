@@ -30,7 +30,7 @@ __all__ = [
     "where_it_moves",
 ]
 
-_MOVED, _BETWEEN, _DEEPER, _ROOM, _APART = 4, 8, 1.6, 0.6, 8.0
+_MOVED, _BETWEEN, _DEEPER, _ROOM, _APART = 4, 8, 1.4, 0.6, 8.0
 
 
 class Between(NamedTuple):
@@ -57,7 +57,7 @@ def orientations_to_solve(study: Study) -> list[float]:
 def deep_tasks(study: Study, model: str) -> tuple[Task, ...]:
     """Curves at every orientation to be solved that go on beyond the study's, as deep as a rover may press a wheel.
 
-    Behind the study's points one every eighth of its last deflection, up to 1.6 times that or 0.6 times the room
+    Behind the study's points one every eighth of its last deflection, up to 1.4 times that or 0.6 times the room
     between rim and hub, whatever is less; no load ends them.
     """
     design, last = wheel_design(study), study.fe.max_deflection
