@@ -126,24 +126,23 @@ class Motoring:
         rows = np.zeros((len(self.motors), 3))
         told = zip(rows, self.motors, self._gains, self._ceilings, self.raised, strict=True)
         for row, one, gain, ceiling, raised in told:
-            speed, change = one.law.at(t)[1:]
-            if speed == 0.0 and change == 0.0:
+            if one.stands(t):
                 row[:] = 0.0, BRAKE, 1.0
                 continue
-            row[ASKED], row[GAIN], row[BRAKED] = np.clip(speed + raised, -ceiling, ceiling), gain, 0.0
+            asked = one.law.at(t)[1] + raised
+            row[ASKED], row[GAIN], row[BRAKED] = np.clip(asked, -ceiling, ceiling), gain, 0.0
         return rows
 
     def saw(self, sight: Sight) -> None:
         """Take over what sensors saw at the end of a step."""
-        laws, changes = np.array([one.law.at(sight.t)[1:] for one in self.motors]).T
+        laws = np.array([one.law.at(sight.t)[1] for one in self.motors])
         if self.control.controller is Controller.SLIP:
             self._ceilings = sight.hub_speeds / self.radius + self.control.allowed_slip * np.abs(laws)
         elif self.control.controller is Controller.SHARED:
             mean = float(sight.loads.mean())
             shares = sight.loads / mean if mean > 0.0 else np.ones_like(sight.loads)
             self._gains = self.control.share_gain * np.maximum(shares, LEAST)
-            braked = (laws == 0.0) & (changes == 0.0)
-            if braked.all():
+            if all(one.stands(sight.t) for one in self.motors):
                 self.raised = -BRAKE * sight.speeds / self._gains
                 return
             signs, share = np.sign(laws), min(sight.dt / SHARES, 1.0)

@@ -27,14 +27,24 @@ from rover_dynamics.rover.rover_design import WheelDrive
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.level_ground import SPEED
+from rover_dynamics.rover.scenarios.point_turn import PAUSES, STEERS
 from rover_dynamics.rover.scenarios.readings import energy_of_drives
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario
 from rover_dynamics.vehicle.drive_control import Controller, DriveControl
-from rover_dynamics.vehicle.motors import JointMotor, Motor, electrical_power
-from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
+from rover_dynamics.vehicle.motor_kernels import add_motor_torques, motor_numbers
+from rover_dynamics.vehicle.motors import (
+    STANDS,
+    JointMotor,
+    Motor,
+    electrical_power,
+    motor_torque,
+    used_of_limits,
+)
+from rover_dynamics.vehicle.vehicle import JointEffort, Vehicle, VehicleMotion, drive_vehicle
 
 FloatArray = NDArray[np.float64]
 INERTIA, STALL, NO_LOAD = 0.08, 2.0, 5.0
+LIMITED = Motor(torque_limit=1.2, stall_torque=STALL, no_load_speed=NO_LOAD, efficiency=0.6)
 DESIGN = read_rover()
 
 
@@ -43,13 +53,16 @@ def at_once(speed: float) -> MotionLaw:
     return UserLaw(function=lambda t: (speed * t, speed, 0.0))
 
 
-def spun_up(motor: Motor, law: MotionLaw, times: FloatArray) -> tuple[VehicleMotion, FloatArray, FloatArray]:
+def spun_up(
+    motor: Motor, law: MotionLaw, times: FloatArray, efforts: tuple[JointEffort, ...] = ()
+) -> tuple[VehicleMotion, FloatArray, FloatArray]:
     """A wheel on a fixed axle in the air: its motion, speeds and torques of its motor."""
     wheel = body("wheel", 5.0, (0.05, INERTIA, 0.05), (0.0, 0.0, 1.0))
     axle = revolute("axle", GROUND, wheel, at=(0.0, 0.0, 1.0), axis=(0.0, 1.0, 0.0))
     model = MultibodyModel(bodies=(wheel,), joints=(axle,), gravity=(0.0, 0.0, 0.0))
     motors = (JointMotor(joint="axle", motor=motor, law=law),)
-    motion = drive_vehicle(Vehicle(model=model, wheels=("wheel",), terrain=Plane(), motors=motors), times)
+    vehicle = Vehicle(model=model, wheels=("wheel",), terrain=Plane(), motors=motors, efforts=efforts)
+    motion = drive_vehicle(vehicle, times)
     return motion, motion.velocities[:, 0, 4], motion.efforts[:, 0]
 
 
@@ -93,6 +106,49 @@ def test_a_gear_loses_in_both_directions() -> None:
     power = electrical_power(motor, np.array([1.0, -1.0]), np.array([1.0, 1.0]))
     loss = 2.0 / 8.0
     assert power == pytest.approx([2.0 * (1.0 + loss * 2.0), -0.5 * (1.0 - loss * 0.5)])
+
+
+@pytest.mark.parametrize(
+    ("push", "held"),
+    [(0.0, 0.2), (-0.5, 0.5), (-1.0, 0.8)],
+    ids=["drives", "stands by the gear's friction", "is pushed back"],
+)
+def test_a_gear_brakes_with_the_motor_what_it_takes_from_it(push: float, held: float) -> None:
+    """At the current limit 0.4 N m reach the wheel as eta T = 0.2, and hold one pushed back with T / eta = 0.8."""
+    motor, times = Motor(torque_limit=0.4, efficiency=0.5), np.linspace(0.0, 0.5, 51)
+    effort = JointEffort(joint="axle", effort=lambda t: push)
+    _, speeds, sums = spun_up(motor, at_once(100.0), times, (effort,))
+    torques = sums - push
+    assert torques[5:] == pytest.approx(held, rel=1e-3)
+    assert speeds[-1] - speeds[5] == pytest.approx((held + push) / INERTIA * (times[-1] - times[5]), abs=1e-3)
+    turned = np.abs(speeds) > 5.0 * STANDS
+    assert motor_torque(motor, torques[turned], speeds[turned]) == pytest.approx(0.4, rel=1e-3)
+
+
+def test_slopes_are_those_of_the_torques() -> None:
+    """All the way from before the line's end through standing still, at the current limit and along the line."""
+    motors = motor_numbers(np.array([0]), (JointMotor(joint="a", motor=LIMITED, law=at_once(1.0)),))
+    step, slopes, lower, higher = 1e-7, np.zeros(1), np.zeros(1), np.zeros(1)
+    for speed in (-7.0, -5.2, -2.5, -1e-3, -1e-4, 3e-4, 2e-3, 1.0, 4.0, 5.2, 9.0):
+        for asked in (-1e3, 1e3):
+            told = np.array([[asked, 1e4, 0.0]])
+            lower[:] = higher[:] = 0.0
+            for at, torque in ((-step, lower), (step, higher)):
+                add_motor_torques(motors, told, np.array([speed + at]), torque, slopes)
+            add_motor_torques(motors, told, np.array([speed]), np.zeros(1), slopes)
+            assert slopes[0] == pytest.approx((lower[0] - higher[0]) / (2.0 * step), rel=1e-5, abs=1e-6)
+            if abs(speed) < NO_LOAD:
+                assert used_of_limits(LIMITED, higher, np.array([speed + step])) == pytest.approx(1.0)
+
+
+def test_a_brake_takes_no_current(unlimited: ScenarioRun) -> None:
+    """Before time zero's speed law begins, and where a turn on the spot waits for its steering."""
+    motor = Motor(stall_torque=50.0, no_load_speed=1.0)
+    run = run_scenario(replace(SCENARIOS["point_turn"], lasts=14.0), replace(DESIGN, drive=WheelDrive(motor=motor)))
+    waits = run.motion.times <= STEERS + PAUSES
+    assert np.abs(run.torques("drive")[waits]).max() > 0.1
+    assert np.all(run.drive_power[waits] == 0.0)
+    assert run.drive_power[~waits].max() > 0.0
 
 
 def test_a_slope_asks_for_the_weights_component(unlimited: ScenarioRun) -> None:

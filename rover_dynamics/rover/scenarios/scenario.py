@@ -138,10 +138,13 @@ class ScenarioRun:
     def drive_power(self) -> FloatArray:
         """What each drive takes (n, n_w) [W], nothing where it would give back.
 
-        Of motors the electrical power; of drives without limits what they give to the wheels.
+        Of motors the electrical power, none where a brake holds; of drives without limits what they give to the wheels.
         """
         motor = Motor() if self.design.drive is None else self.design.drive.motor
-        return np.maximum(electrical_power(motor, self.torques("drive"), self.drive_speeds), 0.0)
+        power = np.maximum(electrical_power(motor, self.torques("drive"), self.drive_speeds), 0.0)
+        for column, one in zip(power.T, self.scenario.vehicle(self.design).motors, strict=False):
+            column[[one.stands(t) for t in self.motion.times.tolist()]] = 0.0
+        return power
 
     @property
     def lean(self) -> FloatArray:
