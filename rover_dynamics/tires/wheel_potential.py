@@ -12,8 +12,9 @@ beta_tip) - R), and U begins at d = -a. It is a spline of beta and of
     x = d + a exp(-(d + a) / l),
 
 which is the way since first touch where that begins, and the rim's approach where the grouser has sunk in with it: near
-touch, curves are alike by the first, further on by the second. Between, dU/dx is a tensor product of cubic splines,
-periodic over beta, through every curve, and U its integral in closed form.
+touch, curves are alike by the first, further on by the second. Over x, dU/dx is a cubic spline through every curve,
+and U its integral in closed form. Over beta U is cubic between the curves, with the slopes -M that the curves' own
+moments about the axle say where they hold them without friction; else a periodic spline through U.
 
 Verified by tests/unit/test_wheel_potential.py.
 """
@@ -22,7 +23,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -33,6 +33,8 @@ from contracts.errors import InputError
 from rover_dynamics.tires.brush_compiled import Vector, compiled, cross, dot
 
 __all__ = [
+    "AHEAD",
+    "MOMENT",
     "NO_POTENTIAL",
     "Tips",
     "WheelPotential",
@@ -48,6 +50,10 @@ _EVEN = 1e-6
 """Largest difference of orientations from equal spacing, over it [-]."""
 _CELLS = 80
 """Pieces of the splines over x."""
+MOMENT, AHEAD = "moment_left_Nm", "force_forward_N"
+"""Columns of a curve: moment about the axle and force forwards, ground on wheel."""
+_FREE = 1e-3
+"""Largest force along the ground of a curve without friction, of its load [-]."""
 _FADES = 2.0
 """l over the height of the grousers [-]; above 1, so that x rises with d."""
 
@@ -89,11 +95,11 @@ NO_POTENTIAL = WheelPotential(np.zeros((0, 1, 5, 4)), 1.0, 0.0, 1.0, np.inf, Tip
 """Of a tire whose radial force is a line."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Sampled:
+class _Sampled(NamedTuple):
     orientation: float
     depths: FloatArray
     loads: FloatArray
+    moments: FloatArray | None
 
 
 def wheel_potential(curves: Sequence[StiffnessCurve], period: float, tips: Tips) -> WheelPotential:
@@ -117,15 +123,18 @@ def wheel_potential(curves: Sequence[StiffnessCurve], period: float, tips: Tips)
         raise InputError("curves of a wheel", f"{1e3 * ends.min():g} mm", rule, "sample deeper")
     spacing = float(reach) / _CELLS
     x: FloatArray = spacing * np.arange(_CELLS + 1, dtype=np.float64)
-    loads = np.empty((len(x), len(chosen)))
+    loads, turns = np.empty((len(x), len(chosen))), np.empty((len(x), len(chosen)))
     for j, one in enumerate(chosen):
         depths = _since_touch(tips, float(raised[j]), x)
         rate = _faded(tips, raised[j], depths)[1]
         loads[:, j] = CubicSpline(one.depths, one.loads)(depths) / rate
+        if one.moments is not None:
+            moment = CubicSpline(one.depths, one.moments)(depths)
+            turns[:, j] = -moment - loads[:, j] * _moved(tips, one.orientation, depths)
     step = period / len(chosen)
-    return WheelPotential(
-        energy=_pieces(loads, spacing, step), spacing=spacing, start=float(angles[0]), step=step, last=last, tips=tips
-    )
+    known = all(one.moments is not None for one in chosen)
+    energy = _pieces(loads, turns if known else None, spacing, step)
+    return WheelPotential(energy=energy, spacing=spacing, start=float(angles[0]), step=step, last=last, tips=tips)
 
 
 def mean_stiffness(potential: WheelPotential) -> float:
@@ -134,19 +143,25 @@ def mean_stiffness(potential: WheelPotential) -> float:
     return float(np.mean([load_and_slope(potential, half, float(angle))[1] for angle in angles])) / half
 
 
-def _pieces(loads: FloatArray, spacing: float, step: float) -> FloatArray:
-    """Coefficients (m, n, 5, 4) of U for dU/dx (m + 1, n) on a grid."""
-    from scipy.interpolate import CubicSpline
+def _pieces(loads: FloatArray, turns: FloatArray | None, spacing: float, step: float) -> FloatArray:
+    """Coefficients (m, n, 5, 4) of U for dU/dx, and dU/dbeta at equal x if it is known, (m + 1, n) on a grid."""
+    from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
     m, n = loads.shape[0] - 1, loads.shape[1]
-    over_x = CubicSpline(spacing * np.arange(m + 1), loads, axis=0).c[::-1]  # (4, m, n), rising powers
+    x, angles = spacing * np.arange(m + 1), step * np.arange(n + 1)
+    over_x = CubicSpline(x, loads, axis=0).c[::-1]  # (4, m, n), rising powers
     powers = np.arange(1, 5)[:, None, None]
     risen = over_x / powers
     whole = (risen * spacing**powers).sum(axis=0)
     terms = np.concatenate([(np.cumsum(whole, axis=0) - whole)[None], risen])  # (5, m, n)
     closed = np.concatenate([terms, terms[..., :1]], axis=-1)
-    around = CubicSpline(step * np.arange(n + 1), closed, axis=-1, bc_type="periodic").c[::-1]  # (4, n, 5, m)
-    return np.ascontiguousarray(around.transpose(3, 1, 2, 0))
+    if turns is None:
+        around = CubicSpline(angles, closed, axis=-1, bc_type="periodic").c
+    else:
+        slopes = np.zeros_like(closed)
+        slopes[:4] = CubicSpline(x, np.concatenate([turns, turns[:, :1]], axis=1), axis=0).c[::-1]
+        around = CubicHermiteSpline(angles, closed, slopes, axis=-1).c
+    return np.ascontiguousarray(around[::-1].transpose(3, 1, 2, 0))  # from (4, n, 5, m)
 
 
 def _sorted(curves: Sequence[StiffnessCurve], period: float) -> list[_Sampled]:
@@ -159,7 +174,7 @@ def _sorted(curves: Sequence[StiffnessCurve], period: float) -> list[_Sampled]:
             what = f"curve at {curve.orientation_deg:g} deg"
             raise InputError(what, f"{len(curve.deflection)} points", rule, "ask for more points")
         angle = math.radians(curve.orientation_deg)
-        found.append(_Sampled(orientation=angle, depths=curve.deflection, loads=curve.load))
+        found.append(_Sampled(angle, curve.deflection, curve.load, _moments(curve)))
     found.sort(key=lambda one: one.orientation)
     angles = np.array([one.orientation for one in found])
     step = period / max(len(found), 1)
@@ -168,6 +183,23 @@ def _sorted(curves: Sequence[StiffnessCurve], period: float) -> list[_Sampled]:
         given = ", ".join(f"{math.degrees(angle):g}" for angle in angles)
         raise InputError("orientations of a wheel", f"{given} deg", rule, "sample one whole period")
     return found
+
+
+def _moments(curve: StiffnessCurve) -> FloatArray | None:
+    """About the axle, ground on wheel [N m]; None where not known, or friction has a part in it."""
+    moments, ahead = (curve.columns.get(name) for name in (MOMENT, AHEAD))
+    if moments is None or ahead is None or np.abs(ahead).max() > _FREE * np.abs(curve.load).max():
+        return None
+    return moments
+
+
+def _moved(tips: Tips, orientation: float, depth: FloatArray) -> FloatArray:
+    """dx/dbeta at equal approach [m], at ways since first touch [m]."""
+    raised, slope = raise_and_slope(tips, orientation)
+    if tips.height == 0.0:
+        return np.zeros_like(depth)
+    fades = _FADES * tips.height
+    return np.asarray(slope * np.exp(-depth / fades) * (1.0 - raised / fades))
 
 
 def _faded[T: (float, FloatArray)](tips: Tips, raised: T, depth: T) -> tuple[T, T]:

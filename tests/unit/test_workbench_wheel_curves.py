@@ -15,7 +15,7 @@ from contracts.errors import InputError
 from contracts.hub_travel import Way
 from contracts.travel_curve import WRENCH, TravelCurve, write_travel
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
-from rover_dynamics.tires.wheel_potential import load_and_slope, raise_and_slope
+from rover_dynamics.tires.wheel_potential import AHEAD, MOMENT, load_and_slope, raise_and_slope
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_curves import carcass_of, curves_around, largest_between, on_solved_tires
@@ -38,7 +38,12 @@ def curve(orientation: float) -> StiffnessCurve:
     """Stiffer by a tenth where a mirrored wheel stands on its position 0."""
     d = np.linspace(0.0, 40e-3, 9)
     load = 8000.0 * d * (1.0 + 0.1 * math.cos(math.radians(3.0 * orientation)))
-    return StiffnessCurve(model="fe", orientation_deg=orientation, deflection=d, load=load, source="made up")
+    moment = 1200.0 * d * d * math.sin(math.radians(3.0 * orientation))
+    columns = {MOMENT: moment, AHEAD: 0.0 * d}
+    source = "made up"
+    return StiffnessCurve(
+        model="fe", orientation_deg=orientation, deflection=d, load=load, columns=columns, source=source
+    )
 
 
 def solved(study: Study, folder: Path) -> dict[str, Path]:
@@ -58,7 +63,9 @@ def test_a_mirrored_wheel_is_solved_over_half_of_its_period(name: str, count: in
     found = curves_around(solved_tire(study, "fe")[0], solved(study, tmp_path))
     assert [one.orientation_deg for one in found] == [5.0 * k for k in range(24)]
     for one in found:
-        np.testing.assert_allclose(one.load, curve(one.orientation_deg or 0.0).load)
+        wanted = curve(one.orientation_deg or 0.0)
+        np.testing.assert_allclose(one.load, wanted.load)
+        np.testing.assert_allclose(one.columns[MOMENT], wanted.columns[MOMENT], atol=1e-9)
     own = {round(one): name for one, name in solved_tire(study, "fe")[0]["curves"]}
     assert own[65] == ("fe_deep_phi065" if count == 24 else "fe_deep_phi055")
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +19,16 @@ from contracts.hub_travel import Way
 from contracts.travel_curve import TravelCurve, read_travel
 from rover_dynamics.rover.scenarios.ground import Carcass, on_wheel_curves
 from rover_dynamics.rover.scenarios.scenario import Scenario
-from rover_dynamics.tires.wheel_potential import Tips, WheelPotential, load_and_slope, raise_and_slope, wheel_potential
+from rover_dynamics.tires.wheel_potential import (
+    MOMENT,
+    Tips,
+    WheelPotential,
+    load_and_slope,
+    raise_and_slope,
+    wheel_potential,
+)
 from workbench.questions.model_curves import CURVE
-from workbench.questions.models.wheel_tasks import Between
+from workbench.questions.models.wheel_tasks import Between, deep_name
 from workbench.questions.travel_start import TRAVEL
 
 __all__ = ["carcass_of", "curves_around", "largest_between", "on_solved_tires"]
@@ -62,8 +70,17 @@ def largest_between(
 
 
 def curves_around(values: Mapping[str, Any], folders: Mapping[str, Path]) -> list[StiffnessCurve]:
-    """Curves of a tire of `solved_tire` at every step of one period, from the folders of those solved."""
-    return [read_curve(folders[task] / CURVE, model=values["model"], orientation_deg=o) for o, task in values["curves"]]
+    """Curves of a tire of `solved_tire` at every step of one period, from the folders of those solved.
+
+    The mirror image of one turns the wheel the other way.
+    """
+    found = []
+    for orientation, task in values["curves"]:
+        curve = read_curve(folders[task] / CURVE, model=values["model"], orientation_deg=orientation)
+        if MOMENT in curve.columns and task != deep_name(values["model"], orientation):
+            curve = replace(curve, columns={**curve.columns, MOMENT: -curve.columns[MOMENT]})
+        found.append(curve)
+    return found
 
 
 def carcass_of(travels: Sequence[TravelCurve]) -> Carcass:

@@ -24,6 +24,7 @@ from workbench.study.wheel_design import wheel_design
 __all__ = [
     "Between",
     "between_steps",
+    "deep_name",
     "deep_tasks",
     "orientations_to_solve",
     "solved_tire",
@@ -68,13 +69,14 @@ def deep_tasks(study: Study, model: str) -> tuple[Task, ...]:
     for task in stiffness_tasks(study, model, orientations_to_solve(study)):
         if "deflections" in task.inputs:
             inputs = without_end(task.inputs) | {"deflections": [*task.inputs["deflections"], *more]}
-            tasks.append(replace(task, name=_deep_name(model, task.inputs["orientation_deg"]), inputs=inputs))
+            tasks.append(replace(task, name=deep_name(model, task.inputs["orientation_deg"]), inputs=inputs))
         else:
             tasks.append(task)
     return foreseen(tasks)
 
 
-def _deep_name(model: str, orientation_deg: float) -> str:
+def deep_name(model: str, orientation_deg: float) -> str:
+    """Name of the task that goes on beyond the study's curve."""
     return orientation_name(f"{model}_deep", orientation_deg)
 
 
@@ -94,7 +96,7 @@ def solved_tire(study: Study, model: str) -> tuple[dict[str, Any], tuple[Task, .
         "model": model,
         "study": study.name,
         "period_deg": period,
-        "curves": [[one, _deep_name(model, _solved_as(one, solved, period))] for one in steps_around(study)],
+        "curves": [[one, deep_name(model, _solved_as(one, solved, period))] for one in steps_around(study)],
         "travels": [[way.value, one, travel_name(model, way, one)] for one in moved for way in ways],
         "tips": _tips(study),
     }, tuple(tasks.values())
