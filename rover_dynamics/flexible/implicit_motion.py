@@ -109,10 +109,11 @@ class _Run:
                     continue
                 self.accepted += 1
                 now, last, t = found, dt, (target if dt == target - t else t + dt)
-                self._look(now.instant, t, dt)
                 if self.watch is not None:
                     self._show(t, now.instant, rows)
-            rows.append(system.row(now.instant, t))
+                if t == target:
+                    rows.append(system.row(now.instant, t))  # with the torques that were asked for in this step
+                self._look(now.instant, t, dt)
             if t >= next_kept:
                 next_kept = t + EVERY
                 self.solver.forget()
