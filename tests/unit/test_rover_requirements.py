@@ -9,7 +9,7 @@ import pytest
 
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
-from rover_dynamics.rover.scenarios.obstacles import smallest_clearance, wheels_passed
+from rover_dynamics.rover.scenarios.obstacles import clearances, wheels_passed
 from rover_dynamics.rover.scenarios.readings import stated
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario
 
@@ -55,7 +55,7 @@ def test_wheels_in_the_trench_have_not_passed(behind: ScenarioRun) -> None:
 
 def test_a_belly_on_the_ground_is_seen(behind: ScenarioRun) -> None:
     sunk = moved(behind, (0.0, 0.0, -0.7), bodies=0)
-    assert smallest_clearance(sunk) < 0.0 < smallest_clearance(behind)
+    assert clearances(sunk).min() < 0.0 < clearances(behind).min()
     assert missed(sunk) == {"lowest centre of a body over the ground"}
 
 

@@ -24,7 +24,7 @@ from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_
 from workbench.questions.rover_mission.question import ROVER_MISSION, HeldMission
 from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
 from workbench.questions.rover_mission.results import WheelYield, found_of, mission_of, wheel_yield
-from workbench.questions.rover_mission.task import SPARE, drive_mission
+from workbench.questions.rover_mission.task import SPARE, _records, drive_mission
 from workbench.report.page import page_environment
 from workbench.study.model_parameters import rover_on_brush
 from workbench.study.reading import built_in_study, read_study
@@ -117,6 +117,30 @@ def test_a_run_beyond_the_wheels_yield_is_not_met() -> None:
     assert held([run("fe", "step")], unknown).mission.cells["fe", "step"].decided == "met"
 
 
+def test_only_the_studys_own_wheel_yields_as_it_does() -> None:
+    """Other tires press on the ground otherwise; a run that stopped behind the first yield missed it before."""
+    weak, ends = replace_load(300.0), {"cause": "wheel", "time": 9.0, "way": 0.2}
+    runs = [run(tire, "step") for tire in ("rigid", "brush", "ancf", "ancf_wheel")]
+    runs.append(run("fe", "step", met=False, outcomes=[], ends=ends, stopped="pressed deep at t = 9 s: its curves end"))
+    cells = held(runs, weak).mission.cells
+    decided = {tire: cells[tire, "step"].decided for tire in ("rigid", "brush", "ancf", "ancf_wheel", "fe")}
+    assert decided == {"rigid": "met", "brush": "met", "ancf": "met", "ancf_wheel": "not met", "fe": "not met"}
+    assert {cells[tire, "step"].cause for tire in ("ancf_wheel", "fe")} == {"strength"}
+    assert held(runs[-1:], replace_load(400.0)).mission.cells["fe", "step"].decided == "undecided"
+
+
+def test_the_heaviest_load_is_kept_to_its_digits() -> None:
+    times, loads = np.arange(5.0), np.array([200.0, 201.0, 300.0, 302.0, 250.0])
+    wanted = [[0.0, 0.0, 200.0], [2.0, 0.2, 300.0], [3.0, 0.3, 302.0]]
+    np.testing.assert_allclose(_records(times, 0.1 * times, loads), wanted)
+
+
+def test_a_friction_below_which_nothing_was_tried_is_at_most() -> None:
+    for friction, told in ((0.02, "≤ 0.020"), (0.0229, "≤ 0.023"), (0.469, "0.469"), (None, "")):
+        cell = held([run("brush", "point_turn", smallest_friction=friction)]).mission.cells["brush", "point_turn"]
+        assert cell.least_friction == told
+
+
 def replace_load(load: float) -> WheelYield:
     return WheelYield(load=load, orientation_deg=15.0, part="outer_springs")
 
@@ -128,10 +152,11 @@ def test_what_ends_a_run_is_told_with_time_and_place() -> None:
         run("brush", "slope_up", met=False, outcomes=[missed], ends=ends),
         run("fe", "slope_up", met=False, outcomes=[], ends=dict(ends, cause="computation"), stopped="no step"),
         run("ancf", "slope_up", met=False, outcomes=[], stopped="a tire folds at t = -4.7 s"),
+        run("ancf", "step", met=False, outcomes=[], ends=dict(ends, cause="wheel"), stopped="a tire folds at t = 13 s"),
     ]
     cells = held(runs).mission.cells
     assert cells["brush", "slope_up"].words == "ended by friction at 8.25 s, after 0.12 m"
-    assert [one.decided for one in cells.values()] == ["not met", "undecided", "undecided"]
+    assert [one.decided for one in cells.values()] == ["not met", "undecided", "undecided", "undecided"]
     assert cells["ancf", "slope_up"].words == "stops before it sets out: a tire folds"
 
 
@@ -174,7 +199,7 @@ def test_the_section_tells_every_cell_and_the_searches() -> None:
     ends = {"cause": "friction", "time": 8.25, "way": 0.125}
     least = {"torque_Nm": 24.8, "power_W": 12.0, "energy_J": 727.0, "way_m": 2.5}
     runs = [run("brush", "step", smallest_torque=least, smallest_friction=0.576)]
-    runs += [run("fe", "step", met=False, ends=ends, outcomes=[dict(SLIP, value=0.5)])]
+    runs += [run("fe", "step", met=False, ends=ends, outcomes=[dict(SLIP, value=0.5)]), run("ancf_wheel", "step")]
     environment, results = page_environment(), held(runs, replace_load(280.0), state="older sources")
     values = {"results": results, "figures": {}, "series": {}}
     short, long = (

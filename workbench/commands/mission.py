@@ -85,4 +85,4 @@ def _row(cell: Cell) -> tuple[str, ...]:
     torque = "" if cell.unlimited is None else f"{cell.unlimited.torque:.3g} N m"
     least = "" if cell.least is None else f"{cell.least.torque:.3g} N m"
     energy = "" if cell.least is None else f"{cell.least.energy:.0f} J"
-    return verdict, torque, least, energy, "" if cell.friction is None else f"{cell.friction:.3f}"
+    return verdict, torque, least, energy, cell.least_friction

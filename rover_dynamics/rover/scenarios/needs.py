@@ -2,7 +2,8 @@
 
 The smallest torque of the drives and the smallest friction of the ground are found by bisection over whole runs, each
 judged as its scenario judges it. Runs need not be monotone in either: what is found is a boundary, below which the next
-run tried failed. Torques are those of motors with a speed controller and no line (`rover_dynamics.vehicle.motors`).
+run tried failed; where even `LEAST_FRICTION` is met, that is found, and nothing below is tried. Torques are those of
+motors with a speed controller, no line and no loss (`rover_dynamics.vehicle.motors`).
 
 Verified by tests/unit/test_rover_needs.py.
 """
@@ -20,23 +21,30 @@ from contracts.errors import ConvergenceError
 from rover_dynamics.rover.rover_design import RoverDesign, WheelDrive
 from rover_dynamics.rover.scenarios.ground import on_friction
 from rover_dynamics.rover.scenarios.level_ground import SPEED
+from rover_dynamics.rover.scenarios.obstacles import clearances
+from rover_dynamics.rover.scenarios.outcome import LEAST_FRICTION
 from rover_dynamics.rover.scenarios.readings import STARTED
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
-from rover_dynamics.vehicle.motors import Motor
+from rover_dynamics.vehicle.motors import Motor, used_of_limits
 
 __all__ = ["Cause", "Ending", "ending", "smallest_friction", "smallest_torque"]
 
-Cause = Literal["friction", "drives", "stability", "wheel", "computation"]
+Cause = Literal["friction", "drives", "stability", "clearance", "wheel", "computation"]
 BoolArray = NDArray[np.bool_]
 TORQUE_WIDTH, FRICTION_WIDTH = 0.02, 0.005
-"""Of the search: share of the torque found without limits; friction [-]."""
-LEAST_FRICTION = 0.02
+"""Of the search: share of the torque found; friction [-]."""
 SPINS = 0.5
 """Slip speed over 70 m/h from which on a wheel counts as spinning or sliding [-]."""
 AT_LIMIT = 0.999
-"""Share of the torque limit from which on a drive counts as at its limit [-]."""
+"""Share of what limit and line allow from which on a drive counts as at its limit [-]."""
 _FOLDS = "folds"
 _DEEP = "its curves end"
+_LEAN, _LOAD, _LOAD_AT_END = (
+    "largest lean of the body",
+    "smallest wheel load on the way",
+    "smallest wheel load at the end",
+)
+_CLEARANCE = "lowest centre of a body over the ground"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,10 +59,11 @@ class Ending:
 def ending(run: ScenarioRun) -> Ending | None:
     """What ends a run that is not met, None for one that is.
 
-    A motion that stopped ended by the wheel, where it folds or is pressed beyond its curves, else by the computation.
-    Of one that came to its end the first that applies: the body leaned or a wheel lost its load further than is
-    allowed (stability); the drives stood at their torque limit (drives); wheels ran ahead of or behind the ground, or
-    the rover did not get there (friction).
+    A motion that stopped ended by the wheel, where it folds or is pressed beyond its curves, else by the computation:
+    either way its model says nothing beyond. Of one that came to its end the first that applies: the body leaned or a
+    wheel lost its load further than is allowed, on the way or, with nothing else amiss, at the end (stability); a body
+    came down to the ground (clearance); the drives stood at their torque limit (drives); wheels ran ahead of or behind
+    the ground, or the rover did not get there (friction).
     """
     if run.met:
         return None
@@ -67,17 +76,18 @@ def ending(run: ScenarioRun) -> Ending | None:
     nowhere = np.zeros(len(times), dtype=bool)
     if run.stopped is not None:
         return at("wheel" if _FOLDS in run.stopped or _DEEP in run.stopped else "computation", nowhere)
-    for one in run.scenario.judge(run):
-        if one.met is not False or one.limit is None:
-            continue
-        if one.quantity.startswith("largest lean"):
-            return at("stability", np.degrees(run.lean) > one.limit)
-        if one.quantity.startswith("smallest wheel load on the way"):
-            return at("stability", run.loads.min(axis=1) < one.limit)
-    drive = run.design.drive
-    if drive is not None and np.isfinite(drive.motor.torque_limit):
-        limit = AT_LIMIT * drive.motor.efficiency * drive.motor.torque_limit
-        at_limit = np.any(np.abs(run.torques("drive")) >= limit, axis=1) & (times > 0.0)
+    missed = {one.quantity: one.limit for one in run.scenario.judge(run) if one.met is False and one.limit is not None}
+    if _LEAN in missed:
+        return at("stability", np.degrees(run.lean) > missed[_LEAN])
+    if _LOAD in missed:
+        return at("stability", run.loads.min(axis=1) < missed[_LOAD])
+    if set(missed) == {_LOAD_AT_END}:
+        return at("stability", nowhere)
+    if _CLEARANCE in missed:
+        return at("clearance", clearances(run) < missed[_CLEARANCE])
+    if run.design.drive is not None:
+        used = used_of_limits(run.design.drive.motor, run.torques("drive"), run.drive_speeds)
+        at_limit = np.any(used >= AT_LIMIT, axis=1) & (times > 0.0)
         if at_limit[times >= times[-1] - STARTED].mean() > 0.5:
             return at("drives", at_limit)
     slipping = np.abs(run.drive_speeds * run.design.wheel_radius - _hub_speeds(run)) > SPINS * SPEED
@@ -95,7 +105,7 @@ def _hub_speeds(run: ScenarioRun) -> NDArray[np.float64]:
 
 
 def smallest_torque(scenario: Scenario, design: RoverDesign, unlimited: float) -> float | None:
-    """Smallest torque limit of every drive with which the scenario is met [N m].
+    """Smallest torque limit of every drive with which the scenario is met, to `TORQUE_WIDTH` of it [N m].
 
     Parameters
     ----------
@@ -112,7 +122,7 @@ def smallest_torque(scenario: Scenario, design: RoverDesign, unlimited: float) -
 
     for high in (1.05 * unlimited, 2.0 * unlimited):
         if passes(high):
-            return _boundary(passes, high, 0.0, TORQUE_WIDTH * unlimited)
+            return _boundary(passes, high, 0.0, lambda found: TORQUE_WIDTH * found)
     return None
 
 
@@ -125,7 +135,12 @@ def smallest_friction(scenario: Scenario, design: RoverDesign, own: float) -> fl
     """
     if scenario.holds_fast or not _met(on_friction(scenario, own), design):
         return None
-    return _boundary(lambda one: _met(on_friction(scenario, one), design), own, LEAST_FRICTION, FRICTION_WIDTH)
+
+    def passes(friction: float) -> bool:
+        return _met(on_friction(scenario, friction), design)
+
+    found = _boundary(passes, own, LEAST_FRICTION, lambda _: FRICTION_WIDTH)
+    return LEAST_FRICTION if found - LEAST_FRICTION <= FRICTION_WIDTH and passes(LEAST_FRICTION) else found
 
 
 def _met(scenario: Scenario, design: RoverDesign) -> bool:
@@ -135,9 +150,9 @@ def _met(scenario: Scenario, design: RoverDesign) -> bool:
         return False
 
 
-def _boundary(passes: Callable[[float], bool], high: float, low: float, width: float) -> float:
-    """By bisection a value that passes, at most ``width`` above one that does not, or above ``low``."""
-    while high - low > width:
+def _boundary(passes: Callable[[float], bool], high: float, low: float, width: Callable[[float], float]) -> float:
+    """By bisection a value that passes, at most its ``width`` above one that does not, or above ``low``."""
+    while high - low > width(high):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if passes(middle) else (middle, high)
     return high

@@ -24,10 +24,10 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.level_ground import drive_forward
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import largest_lean, stated
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.scenario import FloatArray, Scenario, ScenarioRun, run_scenario
 from rover_dynamics.rover.scenarios.slopes import largest_passed
 
-__all__ = ["OBSTACLES", "crevasse", "smallest_clearance", "step", "wheels_passed"]
+__all__ = ["OBSTACLES", "clearances", "crevasse", "step", "wheels_passed"]
 
 STEP_HEIGHT, CREVASSE_WIDTH, EDGE, LARGEST = 0.25, 0.15, 0.005, 0.49
 DEPTH = 0.4
@@ -48,21 +48,22 @@ def wheels_passed(run: ScenarioRun, width: float) -> int:
     return int(np.sum((ends[:, 2] >= ground + 0.5 * radius) & (ends[:, 0] - radius >= _first_edge(run.design) + width)))
 
 
-def smallest_clearance(run: ScenarioRun) -> float:
-    """Smallest height of a body's centre over the ground below it, wheels apart [m]."""
+def clearances(run: ScenarioRun) -> FloatArray:
+    """Height of the lowest body's centre over the ground below it, wheels apart (n,) [m]."""
     others = np.delete(run.motion.positions, run.wheel_bodies, axis=1)
     ground = run.scenario.terrain(run.design).height(others[..., 0], others[..., 1])
-    return float(np.min(others[..., 2] - ground))
+    return np.asarray(np.min(others[..., 2] - ground, axis=1))
 
 
 def _judge(run: ScenarioRun, width: float) -> tuple[Outcome, ...]:
     behind = run.wheels[-1, :, 0].min() - run.design.wheel_radius - _first_edge(run.design) - width
     count, share = float(wheels_passed(run, width)), 0.5 * run.design.static_load
+    lowest = float(clearances(run).min())
     return (
         Outcome(quantity="wheels behind the obstacle", value=count, unit="-", limit=float(len(run.design.legs))),
         Outcome(quantity="last wheel's rim behind the obstacle", value=float(behind), unit="m", limit=0.0),
         Outcome(quantity="smallest wheel load at the end", value=float(run.loads[-1].min()), unit="N", limit=share),
-        Outcome(quantity="lowest centre of a body over the ground", value=smallest_clearance(run), unit="m", limit=0.0),
+        Outcome(quantity="lowest centre of a body over the ground", value=lowest, unit="m", limit=0.0),
         largest_lean(run, ALLOWED_LEAN),
         *stated(run),
     )

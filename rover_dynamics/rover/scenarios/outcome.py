@@ -10,7 +10,10 @@ from dataclasses import dataclass
 
 from contracts.errors import InputError
 
-__all__ = ["Outcome"]
+__all__ = ["LEAST_FRICTION", "Outcome"]
+
+LEAST_FRICTION = 0.02
+"""Smallest coefficient of friction that a search tries [-]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -94,7 +94,7 @@ def _between(tire: str, found: Between) -> Check:
 
 
 def _of_tire(mission: Mission, tire: str) -> Check:
-    """How many requirements are met; undecided where only computations ended."""
+    """How many requirements are met; undecided where runs stopped and none missed one."""
     cells = mission.of_tire(tire)
     claim = Claim(
         id=f"rover_mission.{tire}",

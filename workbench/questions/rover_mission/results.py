@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from contracts.curves import StiffnessCurve
-from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.rover.scenarios.outcome import LEAST_FRICTION, Outcome
 from workbench.questions.models.wheel_tasks import Between
 from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
 from workbench.questions.strength.yielding import first_yield
@@ -18,10 +18,15 @@ from workbench.questions.strength.yielding import first_yield
 __all__ = ["Cell", "Decided", "Effort", "Mission", "WheelYield", "found_of", "mission_of", "wheel_yield"]
 
 Decided = Literal["met", "not met", "undecided"]
+_SOLVED = ("fe", "ancf_wheel")
+"""Tires that are the study's wheel, which yields as its solid model says."""
+_BRACKET = 0.005
+"""Friction within which the least one tried is not told from the one found [-]."""
 _CAUSES = {
     "friction": "friction",
     "drives": "the drives' torque",
     "stability": "stability",
+    "clearance": "a body on the ground",
     "wheel": "the wheel",
     "computation": "the computation",
 }
@@ -39,7 +44,7 @@ class WheelYield:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Effort:
-    """What drives of one torque limit took: that torque [N m], power of all [W], energy [J], way [m]."""
+    """What drives of one torque limit took: that torque [N m], mechanical power of all [W], energy [J], way [m]."""
 
     torque: float
     power: float
@@ -54,7 +59,7 @@ class Cell:
     Attributes
     ----------
     tire, scenario : names
-    decided : met, not met, or undecided where the computation ended the run
+    decided : met, not met, or undecided where the run stopped, for its model says nothing beyond
     decides : the number that is not met, or comes nearest to its limit; None where a run stopped
     cause, time, way : what ends it, when [s] and where [m]; None of one that is met
     words : the same in words, "" of one that is met
@@ -78,6 +83,13 @@ class Cell:
     least: Effort | None = None
     friction: float | None = None
     confirmed: bool | None = None
+
+    @property
+    def least_friction(self) -> str:
+        """The smallest friction in words, "" where not searched; at most, where nothing below was tried."""
+        if self.friction is None:
+            return ""
+        return f"{'≤ ' if self.friction <= LEAST_FRICTION + _BRACKET else ''}{self.friction:.3f}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,7 +150,7 @@ def _rounded(value: Any) -> Any:
 
 
 def mission_of(found: Mapping[str, Any]) -> Mission:
-    """The table of a record's ``found``; a run in which the wheel carries more than it yields at is not met."""
+    """The table of a record's ``found``; a run in which the study's wheel carries more than it yields at is not met."""
     strength = found["wheel"]
     wheel = None
     if strength is not None:
@@ -171,7 +183,7 @@ def _cell(run: Mapping[str, Any]) -> Cell:
     cause = str(ends["cause"])
     where = f"at {ends['time']:.3g} s, after {ends['way']:.2f} m"
     words = plainly(stopped) if stopped else f"ended by {_CAUSES[cause]} {where}"
-    decided: Decided = "undecided" if cause == "computation" else "not met"
+    decided: Decided = "undecided" if stopped else "not met"
     return replace(cell, decided=decided, cause=cause, time=ends["time"], way=ends["way"], words=words)
 
 
@@ -182,7 +194,7 @@ def _effort(run: Mapping[str, Any]) -> Effort:
 
 
 def _with_strength(cell: Cell, run: Mapping[str, Any], wheel: WheelYield | None) -> Cell:
-    if wheel is None or wheel.part is None or cell.decided != "met":
+    if wheel is None or wheel.part is None or cell.tire not in _SOLVED or cell.decided == "not met":
         return cell
     beyond = [row for row in run.get("loads", ()) if row[2] > wheel.load]
     if not beyond:

@@ -33,6 +33,8 @@ __all__ = ["SPARE", "drive_mission"]
 
 SPARE = 1.05
 """Torque over the smallest one found on another tire with which this one is tried once [-]."""
+_EVERY = 0.05
+"""Longest spacing of the samples of which loads, torques and power are the largest [s]."""
 _GROWS = 1.01
 """Ratio of the loads of two rows of what the heaviest wheel carried."""
 
@@ -83,7 +85,8 @@ def _on_tires(inputs: Mapping[str, Any], needs: Mapping[str, Path]) -> Scenario:
         from workbench.study.ancf_tire import tire_from
 
         scenario = on_ancf_tires(scenario, tire_from(inputs["ancf"]))
-    return replace(on_friction(scenario, inputs["friction"]), study=None, search=None)
+    every = min(scenario.every, _EVERY)
+    return replace(on_friction(scenario, inputs["friction"]), study=None, search=None, every=every)
 
 
 def _read(run: ScenarioRun) -> dict[str, Any]:
@@ -107,10 +110,11 @@ def _effort(run: ScenarioRun) -> dict[str, float]:
 
 
 def _records(times: NDArray[np.float64], way: NDArray[np.float64], load: NDArray[np.float64]) -> list[list[float]]:
-    """Rows time [s], way [m], load [N] at which the heaviest wheel carried a hundredth more than ever before."""
+    """Rows time [s], way [m], load [N]: the heaviest wheel carried a hundredth more than ever before, or most."""
     rows: list[list[float]] = []
-    for row in zip(times.tolist(), way.tolist(), load.tolist(), strict=True):
-        if not rows or row[2] > _GROWS * rows[-1][2]:
+    peak = int(np.argmax(load))
+    for k, row in enumerate(zip(times.tolist(), way.tolist(), load.tolist(), strict=True)):
+        if not rows or row[2] > _GROWS * rows[-1][2] or (k == peak and row[2] > rows[-1][2]):
             rows.append(list(row))
     return rows
 
