@@ -1,12 +1,14 @@
 """The force of one contact point: penalty with damping, never tensile, and smooth Coulomb friction (thesis 2.21, 2.22).
 
 With the gap g(r) of the terrain, its normal m and curvature H, penetration delta = -g > 0 and its rate d = -m . v:
-    N = max(k delta + c w(delta) d, 0),   f = N (n - mu tau),   tau = v_t / sqrt(v_t . v_t + v_0^2),
-    v_t = v - (n . v) n.
+    N = max(k delta + c(delta) d, 0),   f = N (n - mu tau),   tau = v_t / sqrt(v_t . v_t + v_0^2),
+    v_t = v - (n . v) n,   c(delta) = c w(delta) + k chi delta.
 n is m, or the inward normal of the tire's surface. v_0 is the slip velocity at which friction is 71 % of mu N; at
 10 v_0 it is 99.5 %. Below it friction is a damper mu N / v_0: a tire held by a share s of mu N creeps, at v_0 s /
-sqrt(1 - s^2). w = 1 is the thesis; a depth h lets damping grow smoothly, w = x^2 (3 - 2 x) with x = delta / h up to 1,
-so that a point that arrives fast meets no sudden force.
+sqrt(1 - s^2). Of the damping, c with w = 1 is the thesis; a depth h lets it grow smoothly, w = x^2 (3 - 2 x) with x = delta / h
+up to 1, so that a point that arrives fast meets no sudden force. The other part is Hunt and Crossley's (1975, from
+memory), N = k delta (1 + chi d): it begins at zero by itself, and a slow point that strikes at v rebounds with
+1 - 2/3 chi v of its speed.
 
 Verified by tests/unit/test_ancf_contact_law.py.
 """
@@ -14,7 +16,7 @@ Verified by tests/unit/test_ancf_contact_law.py.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -34,6 +36,7 @@ class LawNumbers(NamedTuple):
     stiffness: float
     damping: float
     damping_depth: float
+    dissipation: float
     friction: float
     slip_velocity: float
 
@@ -46,7 +49,8 @@ class ContactLaw:
     ----------
     stiffness : k per point [N/m]
     damping : c per point [N s/m]
-    damping_depth : penetration at which damping is fully there [m]; 0: at once (thesis eq. 2.22)
+    damping_depth : penetration at which c is fully there [m]; 0: at once (thesis eq. 2.22)
+    dissipation : chi of Hunt and Crossley's damping, k chi delta [s/m]
     friction : Coulomb's coefficient mu [-]
     slip_velocity : v_0 that smooths friction about standstill [m/s]
 
@@ -59,11 +63,13 @@ class ContactLaw:
     stiffness: float
     damping: float = 0.0
     damping_depth: float = 0.0
+    dissipation: float = 0.0
     friction: float = 0.0
     slip_velocity: float = 1e-3
 
     def __post_init__(self) -> None:
-        units = {"stiffness": "N/m", "damping": "N s/m", "damping_depth": "m", "friction": "-", "slip_velocity": "m/s"}
+        units = {"stiffness": "N/m", "damping": "N s/m", "damping_depth": "m", "dissipation": "s/m"}
+        units |= {"friction": "-", "slip_velocity": "m/s"}
         for name, unit in units.items():
             value, positive = getattr(self, name), name in ("stiffness", "slip_velocity")
             if not (math.isfinite(value) and (value > 0.0 if positive else value >= 0.0)):
@@ -73,22 +79,34 @@ class ContactLaw:
     @property
     def numbers(self) -> LawNumbers:
         """The same for compiled loops."""
-        return LawNumbers(self.stiffness, self.damping, self.damping_depth, self.friction, self.slip_velocity)
+        names = (self.stiffness, self.damping, self.damping_depth, self.dissipation, self.friction, self.slip_velocity)
+        return LawNumbers(*names)
+
+    @property
+    def is_damped(self) -> bool:
+        """Whether there is damping along the normal."""
+        return self.damping > 0.0 or self.dissipation > 0.0
+
+    def undamped(self) -> ContactLaw:
+        """The same without damping along the normal."""
+        return replace(self, damping=0.0, damping_depth=0.0, dissipation=0.0)
 
 
 @compiled
-def _build_up(law: LawNumbers, depth: float) -> tuple[float, float]:
-    """Share w of the damping at a penetration, and its derivative [-, 1/m]."""
+def _damping(law: LawNumbers, depth: float) -> tuple[float, float]:
+    """Damping c(delta) at a penetration, and its derivative [N s/m, N s/m^2]."""
+    own = law.stiffness * law.dissipation
     if depth >= law.damping_depth:
-        return 1.0, 0.0
+        return law.damping + own * depth, own
     x = depth / law.damping_depth
-    return x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / law.damping_depth
+    grown, slope = x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / law.damping_depth
+    return law.damping * grown + own * depth, law.damping * slope + own
 
 
 @compiled
 def normal_force(law: LawNumbers, depth: float, rate: float) -> float:
     """N [N] at penetration ``depth`` > 0 [m] that grows at ``rate`` [m/s]."""
-    return max(law.stiffness * depth + law.damping * _build_up(law, depth)[0] * rate, 0.0)
+    return max(law.stiffness * depth + _damping(law, depth)[0] * rate, 0.0)
 
 
 @compiled
@@ -124,10 +142,10 @@ def point_tangents(
     N = normal_force(law, depth, rate)
     if N <= 0.0:
         return False
-    w, w_prime = _build_up(law, depth)
+    c, c_prime = _damping(law, depth)
     tau, size = slip(law, n, v)[1:]
-    across, c = dot(n, v), law.damping * w
-    elastic = law.stiffness + law.damping * w_prime * rate
+    across = dot(n, v)
+    elastic = law.stiffness + c_prime * rate
     bent = (  # H v
         H[0] * v[0] + H[5] * v[1] + H[4] * v[2],
         H[5] * v[0] + H[1] * v[1] + H[3] * v[2],

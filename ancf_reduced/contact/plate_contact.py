@@ -154,7 +154,7 @@ class PlateContact:
     @property
     def depends_on_rates(self) -> bool:
         """Whether there is damping or friction."""
-        return self.law.damping > 0.0 or self.law.friction > 0.0
+        return self.law.is_damped or self.law.friction > 0.0
 
     def force(self, p: FloatArray, v: FloatArray, time: float = 0.0, out: FloatArray | None = None) -> FloatArray:
         """Generalised force of the ground on the mesh.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, Literal, get_args
 
 from ancf_reduced.contact.layout import ContactLayout
 from contracts.declared import (
@@ -19,9 +19,10 @@ from contracts.declared import (
 )
 from contracts.errors import InputError
 
-__all__ = ["HUB_REACH", "RIM", "SPOKE", "TirePreset", "refined_preset", "thesis_preset"]
+__all__ = ["HUB_REACH", "RIM", "SPOKE", "ContactDamping", "TirePreset", "refined_preset", "thesis_preset"]
 
 GaussPoints = Annotated[int, Whole(1, 10)]
+ContactDamping = Literal["as_printed", "hunt_crossley", "none"]
 RIM, SPOKE = "rim", "spoke"
 """Names of a tire's parts."""
 HUB_REACH = 1e-6
@@ -47,6 +48,8 @@ class TirePreset:
     poisson_ratio : nu [-]
     density : rho [kg/m^3]
     contact_stiffness : k per contact point [N/m]
+    contact_damping : what damps a contact point under the rover. ``"hunt_crossley"``: in proportion to its penetration;
+        ``"as_printed"``: the thesis' constant c / k = 0.1 s; ``"none"``
     contact_points : points per rim plate, along the circumference and across the width
     contact_layout : ``"edges"``: points at i/(n-1), so rows at a node count for both plates; ``"centres"``: (i+1/2)/n
     quadrature : Gauss points along x1, x2, x3
@@ -75,6 +78,7 @@ class TirePreset:
     contact_stiffness: PositiveStiffness
     contact_points: tuple[Annotated[int, Whole(2, 100)], Annotated[int, Whole(2, 100)]]
     contact_layout: ContactLayout = "edges"
+    contact_damping: ContactDamping = "hunt_crossley"
     quadrature: tuple[GaussPoints, GaussPoints, GaussPoints] = (5, 5, 3)
 
     def __post_init__(self) -> None:
@@ -101,6 +105,11 @@ class TirePreset:
         if self.contact_layout not in ("edges", "centres"):
             raise InputError(
                 "contact layout", self.contact_layout, "must be edges or centres", "use edges", key="contact_layout"
+            )
+        if self.contact_damping not in get_args(ContactDamping):
+            rule = f"must be one of {', '.join(get_args(ContactDamping))}"
+            raise InputError(
+                "contact damping", self.contact_damping, rule, "leave it out: hunt_crossley", key="contact_damping"
             )
 
     @property
@@ -138,6 +147,7 @@ def thesis_preset() -> TirePreset:
         contact_stiffness=1000.0,
         contact_points=(10, 10),
         contact_layout="edges",
+        contact_damping="as_printed",
         quadrature=(5, 5, 3),
     )
 

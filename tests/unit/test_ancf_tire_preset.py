@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import pytest
 
-from ancf_reduced.tire.preset import refined_preset, thesis_preset
+from ancf_reduced.tire.preset import TirePreset, refined_preset, thesis_preset
 from contracts.errors import InputError
 
 
@@ -23,11 +23,18 @@ from contracts.errors import InputError
         ({"plates_per_spoke": 0}, "plates per spoke"),
         ({"contact_points": (1, 10)}, "contact points"),
         ({"contact_layout": "random"}, "contact layout"),
+        ({"contact_damping": "critical"}, "contact damping = critical: must be one of as_printed, hunt_crossley, none"),
     ],
 )
 def test_bad_numbers_are_refused(change: dict[str, object], message: str) -> None:
     with pytest.raises(InputError, match=message):
         replace(thesis_preset(), **change)
+
+
+def test_only_the_thesis_tire_is_damped_as_printed() -> None:
+    named = {one.name: getattr(thesis_preset(), one.name) for one in fields(TirePreset)}
+    assert named.pop("contact_damping") == "as_printed"
+    assert TirePreset(**named).contact_damping == "hunt_crossley"
 
 
 def test_refinement_keeps_the_contact_stiffness_per_area() -> None:

@@ -21,7 +21,7 @@ from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from workbench.commands.rover_tires import TireSource, check_tire, file_name, on_tires
 from workbench.execution.task import Task
 from workbench.questions.rover.question import ROVER
-from workbench.questions.rover.tires import AncfRide, contact_law
+from workbench.questions.rover.tires import DISSIPATION, AncfRide, contact_law
 from workbench.questions.rover_ancf.question import LONG, ROVER_ANCF, SHORT
 from workbench.questions.rover_ancf.runs import FINE_GRID, ancf_run
 from workbench.questions.rover_closer.question import ROVER_CLOSER
@@ -29,7 +29,7 @@ from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
 from workbench.study.ancf_tire import tire_from
 from workbench.study.brush_tire import brush_from
 from workbench.study.model import Study
-from workbench.study.model_parameters import fits_rover, rover_on_ancf, rover_on_brush
+from workbench.study.model_parameters import fit_start, fits_rover, rover_ancf, rover_on_ancf, rover_on_brush
 from workbench.study.reading import built_in_study, read_study
 
 STUDY, DESIGN = read_study(built_in_study()), read_rover()
@@ -147,7 +147,7 @@ def test_the_runs_on_the_built_in_studys_ancf_tire_are_those_of_the_thesis() -> 
     tire, law = tire_from(rover_on_ancf(STUDY)), replace(THESIS_LAW, damping_depth=1e-3)
     share = 100.0 / math.prod(FINE_GRID)
     fine = replace(law, stiffness=share * 1000.0, damping=share * 100.0)
-    other = {"traction_undamped": replace(law, damping=0.0), "traction_fine_grid": fine}
+    other = {"traction_undamped": law.undamped(), "traction_fine_grid": fine}
     for name in (*SHORT, *LONG):
         ride = ancf_run(name, DESIGN, tire).ride
         assert isinstance(ride, AncfRide)
@@ -165,6 +165,21 @@ def test_the_runs_on_the_built_in_studys_ancf_tire_are_those_of_the_thesis() -> 
 def test_a_finer_contact_grid_of_as_much_stiffness_has_as_much_damping() -> None:
     law = contact_law(replace(thesis_preset(), contact_points=(20, 20), contact_stiffness=250.0))
     assert (law.stiffness, law.damping, law.friction) == (250.0, 25.0, 0.6)
+
+
+def test_every_tire_but_the_thesis_has_hunt_and_crossleys_damping() -> None:
+    """Without a word of the study; what it states stands."""
+    assert STUDY.ancf is not None
+    another = changed("ancf", thesis_preset=False)
+    law = contact_law(rover_ancf(another))
+    assert (law.damping, law.damping_depth, law.dissipation, law.friction) == (0.0, 0.0, DISSIPATION, 0.6)
+    assert contact_law(rover_ancf(changed("ancf", contact_damping="none"))) == law.undamped()
+    printed = changed("ancf", thesis_preset=False, contact_damping="as_printed")
+    assert contact_law(rover_ancf(printed)) == replace(THESIS_LAW, damping_depth=1e-3)
+    assert STUDY.ancf_fit is not None
+    for tire in STUDY.ancf_fit.tires:
+        assert fit_start(STUDY, tire).contact_damping == "hunt_crossley"
+        assert fit_start(printed, tire).contact_damping == "as_printed"
 
 
 def test_a_load_sweep_begins_on_a_spoke_wherever_the_spokes_stand() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +19,8 @@ from workbench.execution.result_files import read_result, write_result
 from workbench.execution.task import task_keys
 from workbench.questions.kept import Kept
 from workbench.questions.models.wheel_tasks import Between
-from workbench.questions.rover.tires import AncfRide
-from workbench.questions.rover_ancf.runs import FITTED_DAMPING, SETTLING_DAMPING, fitted_run
+from workbench.questions.rover.tires import DISSIPATION, AncfRide
+from workbench.questions.rover_ancf.runs import fitted_run
 from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_name, mission_tasks
 from workbench.questions.rover_mission.question import ROVER_MISSION, HeldMission
 from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
@@ -219,15 +220,13 @@ def test_the_section_tells_every_cell_and_the_searches() -> None:
     assert "333 J/m" in long
 
 
-def test_a_fitted_run_has_the_fits_contact_and_settles_quietly() -> None:
-    scenario = fitted_run("rocks", thesis_preset(), read_rover())
+def test_a_fitted_run_has_the_fits_contact() -> None:
+    fit = replace(thesis_preset(), contact_damping="hunt_crossley")
+    scenario = fitted_run("rocks", fit, read_rover())
     assert isinstance(scenario.ride, AncfRide)
-    assert (scenario.name, scenario.ride.settling_damping) == ("rocks_fitted", None)
-    assert (scenario.ride.law.stiffness, scenario.ride.law.damping) == (1000.0, FITTED_DAMPING)
+    law = scenario.ride.law
+    assert (scenario.name, law.stiffness, law.damping, law.dissipation) == ("rocks_fitted", 1000.0, 0.0, DISSIPATION)
     assert "random rocks" in scenario.title
-    down = fitted_run("slope_down", thesis_preset(), read_rover())
-    assert isinstance(down.ride, AncfRide)
-    assert down.ride.settling_damping == SETTLING_DAMPING["slope_down"]
     assert (scenario.friction, scenario.ride.on_ground(scenario).friction) == (None, 0.6)
     icy = fitted_run("slope_down", thesis_preset(), read_rover(), friction=0.1)
     assert isinstance(icy.ride, AncfRide)

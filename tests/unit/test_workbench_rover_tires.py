@@ -22,7 +22,7 @@ from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario, s
 from rover_dynamics.vehicle.drive_control import Controller, DriveControl
 from rover_dynamics.vehicle.motors import Motor
 from workbench.questions.rover.tire_shapes import TireShapes
-from workbench.questions.rover.tires import START_HEIGHT, on_ancf_tires
+from workbench.questions.rover.tires import on_ancf_tires
 
 DESIGN = read_rover()
 
@@ -76,7 +76,7 @@ def test_motors_turn_flexible_tires_as_laws_do() -> None:
 def test_what_is_handed_on_and_what_is_left() -> None:
     drop = on_ancf_tires(SCENARIOS["drop"])
     assert (drop.height, drop.tire_model, drop.has_closed_forms) == (0.010, "ancf", False)
-    assert on_ancf_tires(SCENARIOS["static"]).height == START_HEIGHT
+    assert on_ancf_tires(SCENARIOS["static"]).height == 0.0
 
 
 def test_a_rover_with_other_wheels_is_refused() -> None:
@@ -122,7 +122,7 @@ def test_a_stop_is_explained_by_a_tire_only_if_one_gives_way(held: ScenarioRun) 
     assert "a tire folds at t = 0.1 s, where no step converges" in str(shapes.explained(stopped))
 
 
-def test_on_another_ground_the_tires_start_as_deep_as_on_level_ground() -> None:
+def test_on_another_ground_the_first_tire_touches_as_on_level_ground() -> None:
     scenario = on_ancf_tires(SCENARIOS["straight"])
     raised = on_terrain(scenario, DESIGN, Plane(), "the same")
-    assert raised.height == pytest.approx(START_HEIGHT + touching_height(Plane(), DESIGN))
+    assert raised.height == pytest.approx(touching_height(Plane(), DESIGN))

@@ -21,7 +21,7 @@ from workbench.study.wheel_design import in_section, wheel_design
 
 if TYPE_CHECKING:
     from ancf_reduced.plates.mesh import PlateMesh
-    from ancf_reduced.tire.preset import TirePreset
+    from ancf_reduced.tire.preset import ContactDamping, TirePreset
     from rover_dynamics.tires.brush_tire import BrushTireParameters
 
 __all__ = [
@@ -40,12 +40,19 @@ __all__ = [
 ]
 
 
+AS_PRINTED: ContactDamping = "as_printed"
+OF_OTHERS: ContactDamping = "hunt_crossley"
+"""Contact damping of the thesis' tire, and of all others, where [ancf] states none."""
+
+
 def ancf_preset(study: Study) -> TirePreset:
     """Parameters of the ANCF tire; raises SectionInputError if they do not fit together."""
     from ancf_reduced.tire.preset import TirePreset
 
+    section = stated(study.ancf, "ancf")
     exclude = {"orientations", "max_deflection", "points", "thesis_preset", "surfaces"}
-    values = stated(study.ancf, "ancf").model_dump(exclude=exclude)
+    values = section.model_dump(exclude=exclude)
+    values["contact_damping"] = section.contact_damping or (AS_PRINTED if section.thesis_preset else OF_OTHERS)
     return in_section("ancf", lambda: TirePreset(**values))
 
 
@@ -75,14 +82,16 @@ def ancf_tire(study: Study) -> dict[str, Any]:
 def fit_start(study: Study, tire: FittedTireSection) -> TirePreset:
     """Where the fit of a tire begins: that of [ancf] with the fitted one's mesh and start.
 
-    The contact stiffness per area stays that of [ancf] unless the start says otherwise. Raises SectionInputError if
+    The contact stiffness per area stays that of [ancf] unless the start says otherwise; a damping of the contact that
+    [ancf] does not state is that of tires other than the thesis'. Raises SectionInputError if
     the numbers do not fit together.
     """
-    own = ancf_preset(study)
+    own, section = ancf_preset(study), stated(study.ancf, "ancf")
     stiffness = own.contact_stiffness * own.circumferential_plates / tire.circumferential_plates
     changes: dict[str, Any] = {"contact_stiffness": stiffness} | tire.start.model_dump(exclude_none=True)
     changes["datum_radius"] = own.zero_radius  # a free outer radius does not move zero deflection
     changes |= {"spokes": tire.spokes, "circumferential_plates": tire.circumferential_plates}
+    changes["contact_damping"] = section.contact_damping or OF_OTHERS
     return in_section("ancf_fit.tires", lambda: replace(own, **changes))
 
 

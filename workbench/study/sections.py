@@ -22,7 +22,7 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from ancf_reduced.tire.preset import TirePreset
+from ancf_reduced.tire.preset import ContactDamping, TirePreset
 from rover_dynamics.tires.brush_tire import BrushTireParameters
 from workbench.study.contact import ObstacleSection, PlaneSection
 from workbench.study.declared import reads
@@ -156,6 +156,9 @@ class AncfSection(Section):
     """Of a curve, in equal steps."""
     thesis_preset: StrictBool = False
     """True states that these are the thesis' numbers: the curve is then held against its known table."""
+    contact_damping: ContactDamping | None = None
+    """Of a contact point under the rover: "hunt_crossley", in proportion to its penetration; "as_printed", the thesis'
+    constant c / k = 0.1 s; "none". Without it "as_printed" with thesis_preset, "hunt_crossley" on any other tire."""
     surfaces: Annotated[str, Field(min_length=1)] | None = None
     """STEP file of the mid-surfaces of rim and spokes, in place of cylinder and planes; relative to the study file."""
 

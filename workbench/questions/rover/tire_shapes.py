@@ -16,14 +16,14 @@ from ancf_reduced.tire.wheel_set import WheelSet
 from contracts.errors import ConvergenceError, IncrementRecord
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 
-__all__ = ["NEARLY", "TireShapes", "Watch"]
+__all__ = ["NEARLY", "TRY", "TireShapes", "Watch"]
 
 Watch = Callable[[float, Instant], None]
 NEARLY = 0.1
 """Volume ratio of a plate below which a motion that stops is said to stop for it [-]."""
 _EACH = 5
 """Steps from one look at the plates to the next; a look takes a third of a step's time."""
-_TRY = "lower the load, fall less far, or take a stiffer tire: one of more plates, or one fitted to the wheel"
+TRY = "lower the load, fall less far, or take a stiffer tire: one of more plates, or one fitted to the wheel"
 
 
 @dataclass(slots=True, eq=False)
@@ -51,10 +51,15 @@ class TireShapes:
         """Raises ConvergenceError for a plate that is inverted: its volume is not above zero somewhere."""
         self.seen, self.steps = (t, now), self.steps + 1
         if self.steps % _EACH == 0 and (ratios := self.ratios(now)).min() <= 0.0:
-            message = f"a tire folds at t = {t:g} s: {self._worst(ratios, now)} is inverted; {_TRY}"
+            message = f"a tire folds at t = {t:g} s: {self._worst(ratios, now)} is inverted; {TRY}"
             raise ConvergenceError(message, [IncrementRecord(target=t, step=0.0, converged=False, residuals=())])
         if self.also is not None:
             self.also(t, now)
+
+    def faults(self, now: Instant) -> tuple[str, float]:
+        """The plate of least volume in words, and its volume ratio [-]."""
+        ratios = self.ratios(now)
+        return self._worst(ratios, now), float(ratios.min())
 
     def explained(self, error: ConvergenceError) -> ConvergenceError:
         """The error of a motion that stopped, which says whether a tire was about to fold."""
@@ -64,7 +69,7 @@ class TireShapes:
         if ratios.min() > NEARLY:
             message = f"{error}. No tire is near folding: least volume has {self._worst(ratios, now)} at t = {t:g} s"
             return ConvergenceError(message, error.history, error.last_good)
-        message = f"a tire folds at t = {t:g} s, where no step converges: {self._worst(ratios, now)} gives way; {_TRY}"
+        message = f"a tire folds at t = {t:g} s, where no step converges: {self._worst(ratios, now)} gives way; {TRY}"
         return ConvergenceError(message, error.history, error.last_good)
 
     def ratios(self, now: Instant) -> NDArray[np.float64]:

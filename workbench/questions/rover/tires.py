@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ancf_reduced.contact.law import ContactLaw
 from ancf_reduced.tire.mesh import Tire, build_tire
@@ -21,15 +20,16 @@ from rover_dynamics.flexible.even_steps import EvenSteps
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 from rover_dynamics.flexible.flexible_vehicle import FlexibleMotion, FlexibleVehicle, on_flexible_tires
 from rover_dynamics.flexible.implicit_motion import drive_on_flexible_tires
+from rover_dynamics.flexible.quasi_static import brought_to_rest
 from rover_dynamics.rover.rover_file import RoverDesign
+from rover_dynamics.rover.scenarios.parking import parked
 from rover_dynamics.rover.scenarios.scenario import Scenario
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion
-from workbench.questions.rover.tire_shapes import TireShapes, Watch
+from workbench.questions.rover.tire_shapes import TRY, TireShapes, Watch
 
 __all__ = [
     "DAMPING_RATIO",
     "LAW",
-    "START_HEIGHT",
     "AncfRide",
     "contact_law",
     "on_ancf_tires",
@@ -44,11 +44,10 @@ DAMPING_RATIO = 0.05
 LAW = replace(THESIS_LAW, damping_depth=1e-3)
 """The thesis' contact, its damping built up over a millimetre of penetration: at the speeds of traction points arrive
 so fast that the force of eq. 2.22, which is there at once, ends every Newton iteration."""
+DISSIPATION = 0.5
+"""Of Hunt and Crossley's damping [s/m]: after a fall of 10 mm on Mars, 0.27 m/s, a point keeps 0.91 of its speed."""
 STEPS = EvenSteps(shortest=1e-5)
 """On level ground and slopes a motion that needs shorter ones is one in which a tire folds."""
-START_HEIGHT = -0.015
-"""Lowest points of the undeformed wheels over the ground at the start of the settling [m]: from there the tires sink by
-themselves, while from the ground up the fall takes them beyond what they carry."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +56,7 @@ class AncfRide:
 
     Attributes
     ----------
-    tire, steps, law, turned, settling_damping : as there
+    tire, steps, law, turned : as there
     checkpoint : file that a long motion is kept in, or None; see `rover_dynamics.flexible.motion_checkpoint`
     watched : makes of the equations what sees each step's end from time zero on, or None
     """
@@ -66,7 +65,6 @@ class AncfRide:
     steps: EvenSteps
     law: ContactLaw
     turned: float
-    settling_damping: float | None = None
     checkpoint: Path | None = None
     watched: Callable[[FlexibleSystem], Watch] | None = None
 
@@ -80,60 +78,65 @@ class AncfRide:
         Raises
         ------
         ConvergenceError
-            If a tire folds or no step converges; with the motion up to there.
+            If the rover does not stand; if a tire folds or no step converges, with the motion up to there.
         """
         _check_size(self.tire, design)
-        law = self.on_ground(scenario)
-        vehicle, times, start = scenario.vehicle(design), scenario.times(), None
-        if self.settling_damping is not None and times[0] < 0.0:
-            quieter = self._on_tires(vehicle, replace(law, damping=self.settling_damping))
-            start = self._driven(quieter, np.array([times[0], 0.0]), None)[1]
-        ride = self._on_tires(vehicle, law)
-        return self._driven(ride, times, start, checkpoint=self.checkpoint, watched=self.watched)[0]
+        begins = float(scenario.times()[0])
+        return self.moved(scenario, design, self.standing(scenario, design, begins) if begins < 0.0 else None)
 
-    def _on_tires(self, vehicle: Vehicle, law: ContactLaw) -> tuple[FlexibleVehicle, WheelSet]:
-        n = len(vehicle.wheels)
-        tires = wheel_set(self.tire, vehicle.terrain, n, law=law, damping_ratio=DAMPING_RATIO)
-        return on_flexible_tires(vehicle, tires, np.full(n, self.turned)), tires
-
-    def _driven(
-        self,
-        ride: tuple[FlexibleVehicle, WheelSet],
-        times: NDArray[np.float64],
-        start: Instant | None,
-        *,
-        checkpoint: Path | None = None,
-        watched: Callable[[FlexibleSystem], Watch] | None = None,
-    ) -> tuple[FlexibleMotion, Instant]:
-        """The motion, and the state at its end."""
-        vehicle, tires = ride
+    def moved(self, scenario: Scenario, design: RoverDesign, start: Instant | None) -> FlexibleMotion:
+        """As a call, from another motion's end, at rest, or without one from undeformed tires."""
+        vehicle, tires = self.on_tires(scenario.vehicle(design), self.on_ground(scenario))
         system = FlexibleSystem(vehicle)
-        shapes = TireShapes(system, tires, vehicle.vehicle.wheels, _from_zero(watched(system)) if watched else None)
+        watched = _from_zero(self.watched(system)) if self.watched else None
+        shapes = TireShapes(system, tires, vehicle.vehicle.wheels, watched)
         try:
-            motion = drive_on_flexible_tires(
+            return drive_on_flexible_tires(
                 vehicle,
-                times,
+                scenario.times(),
                 self.steps,
                 settles_until=0.0,
                 watch=shapes.watch,
                 start=start,
-                checkpoint=checkpoint,
+                checkpoint=self.checkpoint,
             )
         except ConvergenceError as error:
             raise shapes.explained(error) from error
-        assert shapes.seen is not None or checkpoint is not None  # a resumed motion may have no step left
-        return motion, shapes.seen[1] if shapes.seen is not None else system.at_rest(float(times[0]))
+
+    def standing(self, scenario: Scenario, design: RoverDesign, t: float) -> Instant:
+        """The rover at rest at a time t [s] before it moves, brakes on; contact without damping, of no use at rest.
+
+        Raises
+        ------
+        ConvergenceError
+            If it does not stand on these tires: load asked for, largest one found, and the plate that gives way.
+        """
+        law = self.on_ground(scenario).undamped()
+        vehicle, tires = self.on_tires(parked(scenario).vehicle(design), law)
+        shapes = TireShapes(FlexibleSystem(vehicle), tires, vehicle.vehicle.wheels)
+        try:
+            return brought_to_rest(vehicle, t, shapes.faults)
+        except ConvergenceError as error:
+            raise ConvergenceError(f"the rover does not stand: {error}; {TRY}", error.history) from error
+
+    def on_tires(self, vehicle: Vehicle, law: ContactLaw) -> tuple[FlexibleVehicle, WheelSet]:
+        n = len(vehicle.wheels)
+        tires = wheel_set(self.tire, vehicle.terrain, n, law=law, damping_ratio=DAMPING_RATIO)
+        return on_flexible_tires(vehicle, tires, np.full(n, self.turned)), tires
 
 
 def contact_law(preset: TirePreset) -> ContactLaw:
     """What each contact point of a tire feels under the rover.
 
-    Stiffness is the tire's. Damping, its depth and friction are no numbers of a tire but the rover's, those of `LAW`;
-    the damping is in proportion to the stiffness, the thesis' c / k = 0.1 s, so that a finer grid of as much stiffness
-    has as much damping.
+    Stiffness and kind of damping are the tire's, friction is that of `LAW`. As printed, damping is in proportion to the
+    stiffness, the thesis' c / k = 0.1 s, so that a finer grid of as much stiffness has as much damping; that of Hunt
+    and Crossley is so by itself.
     """
-    damping = LAW.damping * (preset.contact_stiffness / LAW.stiffness)
-    return replace(LAW, stiffness=preset.contact_stiffness, damping=damping)
+    k = preset.contact_stiffness
+    if preset.contact_damping == "as_printed":
+        return replace(LAW, stiffness=k, damping=LAW.damping * (k / LAW.stiffness))
+    chi = DISSIPATION if preset.contact_damping == "hunt_crossley" else 0.0
+    return replace(LAW.undamped(), stiffness=k, dissipation=chi)
 
 
 def _from_zero(watch: Watch) -> Watch:
@@ -153,9 +156,11 @@ def on_ancf_tires(
     steps: EvenSteps = STEPS,
     law: ContactLaw | None = None,
     turned: float = 0.0,
-    settling_damping: float | None = None,
 ) -> Scenario:
-    """The same on six flexible tires; they settle by strongly damped implicit steps until time zero.
+    """The same on six flexible tires; the rover comes to rest first, see `rover_dynamics.flexible.quasi_static`.
+
+    From there strongly damped implicit steps lead to time zero, in which wheels that nothing holds roll to where they
+    stand by themselves.
 
     What is searched beside the run is left out, its bisections would take many minutes; a motion in which a tire folds
     ends before it. Friction is that of the scenario, so that all tires slip alike there; of one that asks for none it
@@ -168,8 +173,6 @@ def on_ancf_tires(
     steps : how they are chosen
     law : contact of each point; `contact_law` if left out
     turned : angle of each tire on its wheel about the axle, positive rolls forward [rad]
-    settling_damping : of each contact point while the rover first comes to rest, after which it starts again from
-        there [N s/m]: on slopes it otherwise overshoots; None: that of the law, and one settling
     """
     tire = tire or build_tire(thesis_preset())
     ride = AncfRide(
@@ -177,9 +180,8 @@ def on_ancf_tires(
         steps=steps,
         law=law or contact_law(tire.preset),
         turned=turned,
-        settling_damping=settling_damping,
     )
-    height = START_HEIGHT if scenario.height is None else scenario.height
+    height = scenario.height or 0.0
     return replace(scenario, ride=ride, height=height, tire_model="ancf", has_closed_forms=False, search=None)
 
 

@@ -17,6 +17,7 @@ from contracts.errors import InputError
 from workbench.questions.rover.drive import Drive
 from workbench.questions.rover.oscillation import period, ripple, spectrum
 from workbench.questions.rover_mission.requirements import MissionRow, mission_rows
+from workbench.questions.speed.damping import DampingRow, damping_rows
 
 __all__ = ["OBSERVED", "AncfRover"]
 
@@ -109,6 +110,11 @@ class AncfRover:
             return self["traction"].spent(DRIVEN) | {"speed": float(speed.mean())}
         except InputError:
             return None
+
+    @property
+    def dampings(self) -> list[DampingRow]:
+        """What other damping of the contact points makes of the rover on the thesis' tires, from a kept benchmark."""
+        return damping_rows() if self.of_thesis else []
 
     @property
     def sweep(self) -> list[tuple[str, float, float, float]]:

@@ -10,7 +10,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from ancf_reduced.contact.law import ContactLaw
 from ancf_reduced.tire.mesh import Tire, build_tire, tire_on_mesh
 from ancf_reduced.tire.preset import TirePreset
 from contracts.errors import InputError
@@ -21,7 +20,7 @@ from rover_dynamics.rover.scenarios.ground import on_friction, on_terrain, rocks
 from rover_dynamics.rover.scenarios.level_ground import all_drives, sweep_of_gravity
 from rover_dynamics.rover.scenarios.scenario import Scenario
 from workbench.questions.rover.close_look import EVERY
-from workbench.questions.rover.tires import LAW, STEPS, contact_law, on_ancf_tires
+from workbench.questions.rover.tires import STEPS, contact_law, on_ancf_tires
 
 __all__ = ["ancf_run", "fitted_run"]
 
@@ -35,12 +34,6 @@ ROCK_SEED = 1
 LIGHTER = 0.5
 """Density of a fitted tire, of which nothing at rest depends: as fitted it has the mass of the whole wheel, hub
 included."""
-FITTED_START = -0.02
-"""As `workbench.questions.rover.tires.START_HEIGHT`, of fitted tires [m]."""
-FITTED_DAMPING = 10.0
-SETTLING_DAMPING = {"slope_down": 300.0}
-"""Of each contact point of a fitted tire [N s/m]; that of runs in which the rover settles beyond what its tires carry
-otherwise (380 N on the front wheels, at rest 300)."""
 
 
 def _sweep(between: float) -> _Variant:
@@ -68,7 +61,7 @@ def _traction(
     *,
     half_step: bool = False,
     fine_grid: bool = False,
-    damping: float | None = None,
+    undamped: bool = False,
     lasts: float = 2.0,
 ) -> Scenario:
     title = f"3.5 N m on each drive for {lasts:g} s after 5 s of settling, friction 0.6"
@@ -76,8 +69,7 @@ def _traction(
     steps = replace(STEPS, tolerance=STEPS.tolerance / 8.0) if half_step else STEPS  # of third order
     law = contact_law(tire.preset)
     if not fine_grid:
-        law = law if damping is None else replace(law, damping=damping)
-        return on_ancf_tires(short, tire, steps=steps, law=law)
+        return on_ancf_tires(short, tire, steps=steps, law=law.undamped() if undamped else law)
     share = math.prod(tire.preset.contact_points) / math.prod(FINE_GRID)
     finer = tire_on_mesh(replace(tire.preset, contact_points=FINE_GRID), tire.mesh)
     law = replace(law, stiffness=share * law.stiffness, damping=share * law.damping)
@@ -104,7 +96,7 @@ _VARIANTS: dict[str, _Variant] = {
     "traction_half_step": lambda tire, _: _traction(tire, half_step=True),
     "traction_fine_grid": lambda tire, _: _traction(tire, fine_grid=True),
     "traction_whole": lambda tire, _: _traction(tire, lasts=10.0),
-    "traction_undamped": lambda tire, _: _traction(tire, damping=0.0),
+    "traction_undamped": lambda tire, _: _traction(tire, undamped=True),
     "rocks": _rocks,
 }
 
@@ -121,15 +113,9 @@ def ancf_run(name: str, design: RoverDesign, tire: Tire, friction: float | None 
 
 def fitted_run(name: str, preset: TirePreset, design: RoverDesign, friction: float | None = None) -> Scenario:
     """A scenario of the mission, or random rocks, on six tires of a fit; friction as of `ancf_run`."""
-    law = ContactLaw(
-        stiffness=preset.contact_stiffness,
-        damping=FITTED_DAMPING,
-        damping_depth=LAW.damping_depth,
-        friction=LAW.friction,
-    )
     tire = build_tire(replace(preset, density=LIGHTER * preset.density))
-    base = replace(SCENARIOS["straight" if name == "rocks" else name], height=FITTED_START)
-    scenario = on_ancf_tires(base, tire, law=law, settling_damping=SETTLING_DAMPING.get(name))
+    base = SCENARIOS["straight" if name == "rocks" else name]
+    scenario = on_ancf_tires(base, tire)
     if name == "rocks":
         rocks = rocks_on_the_way(base, design, ROCK_SEED)
         scenario = on_terrain(scenario, design, rocks, f"random rocks, seed {ROCK_SEED}")

@@ -27,7 +27,7 @@ from rover_dynamics.rover.standing import stand_under_loads
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.questions.rover.close_look import EVERY, body_series, coarse_skin
 from workbench.questions.rover.motion_file import MOTION, read_motion
-from workbench.questions.rover.tires import DAMPING_RATIO, START_HEIGHT, contact_law, on_ancf_tires
+from workbench.questions.rover.tires import DAMPING_RATIO, contact_law, on_ancf_tires
 from workbench.study.ancf_tire import drawn_tire, tire_from
 from workbench.study.brush_tire import brush_from
 
@@ -126,7 +126,7 @@ def _path(lasts: float) -> Scenario:
 
 
 def _on_rocks(path: Scenario, design: RoverDesign, seed: int) -> Scenario:
-    """Small rocks, which the tires bear: the rover comes down on them as softly as on level ground."""
+    """Small rocks, which the tires bear."""
     assert path.path is not None
     places = path.path(design)
     low, high = places.min(axis=0) - _BEYOND, places.max(axis=0) + _BEYOND
@@ -140,5 +140,4 @@ def _on_rocks(path: Scenario, design: RoverDesign, seed: int) -> Scenario:
         height_ratio=0.15,
         spacing=0.0125,
     )
-    rough = on_terrain(path, design, rocks.terrain(), f"random rocks up to 22 mm high, seed {seed}")
-    return replace(rough, height=float(rough.height or 0.0) + START_HEIGHT)
+    return on_terrain(path, design, rocks.terrain(), f"random rocks up to 22 mm high, seed {seed}")
