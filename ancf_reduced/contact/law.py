@@ -5,10 +5,10 @@ With the gap g(r) of the terrain, its normal m and curvature H, penetration delt
     v_t = v - (n . v) n,   c(delta) = c w(delta) + k chi delta.
 n is m, or the inward normal of the tire's surface. v_0 is the slip velocity at which friction is 71 % of mu N; at
 10 v_0 it is 99.5 %. Below it friction is a damper mu N / v_0: a tire held by a share s of mu N creeps, at v_0 s /
-sqrt(1 - s^2). Of the damping, c with w = 1 is the thesis; a depth h lets it grow smoothly, w = x^2 (3 - 2 x) with x = delta / h
-up to 1, so that a point that arrives fast meets no sudden force. The other part is Hunt and Crossley's (1975, from
-memory), N = k delta (1 + chi d): it begins at zero by itself, and a slow point that strikes at v rebounds with
-1 - 2/3 chi v of its speed.
+sqrt(1 - s^2). Of the damping, c with w = 1 is the thesis; a depth h lets it grow smoothly, w = x^2 (3 - 2 x) with
+x = delta / h up to 1, so that a point that arrives fast meets no sudden force. The other part is Hunt and Crossley's
+(1975, from memory), N = k delta (1 + chi d): it begins at zero by itself, and a slow point that strikes at v rebounds
+with 1 - 2/3 chi v of its speed.
 
 Verified by tests/unit/test_ancf_contact_law.py.
 """

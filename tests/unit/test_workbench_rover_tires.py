@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -108,6 +109,7 @@ def test_a_folded_tire_ends_the_motion_and_is_named(held: ScenarioRun) -> None:
         shapes.watch(0.1, inverted)
     assert DESIGN.legs[3].name.replace("_", " ") in str(caught.value)
     assert "is inverted; lower the load" in str(caught.value)
+    assert re.search(r"volume ratio -\S+, at (\d+) deg of the wheel\)", str(caught.value))
 
 
 def test_a_stop_is_explained_by_a_tire_only_if_one_gives_way(held: ScenarioRun) -> None:

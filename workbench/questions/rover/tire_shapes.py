@@ -83,4 +83,7 @@ class TireShapes:
         load = self.tires.contacts(*self.system.whole(now)).load[wheel]
         ratio = float(ratios[wheel, plate])
         name = self.wheels[int(wheel)].replace("_", " ")
-        return f"plate {plate + 1} ({part}, volume ratio {ratio:.2g}) of {name}, which carries {load:.0f} N,"
+        mesh = self.tires.tire.mesh
+        x, _, z = mesh.points[mesh.elements[plate]].mean(axis=0)
+        at = f"at {np.degrees(np.arctan2(x, -z)) % 360.0:.0f} deg of the wheel"
+        return f"plate {plate + 1} ({part}, volume ratio {ratio:.2g}, {at}) of {name}, which carries {load:.0f} N,"

@@ -101,7 +101,8 @@ _FOLDS = re.compile(
     r"which carries (?P<load>[.\d]+) N"
 )
 
-
+_STANDS = re.compile(r"asked for a mean wheel load of (?P<asked>\d+) N, found (?P<found>up to \d+ N|none)")
+"""The sentence of `rover_dynamics.flexible.quasi_static`."""
 _STOPS = re.compile(r"(?:stopped|broke down|folds) at (?:t = )?(?P<time>[-+.\de]+) s")
 _REASONS = {"plates fold": "plates fold", "a tire folds": "a tire folds"}
 """What a message says -> why, in words; that no step converges, else."""
@@ -113,7 +114,9 @@ def plainly(stopped: str) -> str:
     The sentence is that of `workbench.questions.rover.tire_shapes.TireShapes`. Verified by
     tests/unit/test_workbench_rover_mission.py.
     """
-    folds, stops = _FOLDS.search(stopped), _STOPS.search(stopped)
+    folds, stops, stands = _FOLDS.search(stopped), _STOPS.search(stopped), _STANDS.search(stopped)
+    if stands is not None:
+        return f"does not stand: {stands['asked']} N a wheel asked for, {stands['found']} found"
     if folds is not None:
         part, wheel, load = folds["part"], folds["wheel"], folds["load"]
         return f"{_when(folds['time'])}: a {part} of the {wheel} wheel folds at {load} N"
