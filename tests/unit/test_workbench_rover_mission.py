@@ -247,8 +247,8 @@ def test_a_fitted_run_has_the_fits_contact() -> None:
             "stops before it sets out: a rim of the rear left wheel folds at 396 N",
         ),
         (
-            "the rover does not stand: no equilibrium: asked for a mean wheel load of 523 N, found up to 262 N (261 N on "
-            "wheel front right, which carries most); beyond, a tire folds; least volume has plate 5 (spoke)",
+            "the rover does not stand: no equilibrium: asked for a mean wheel load of 523 N, found up to 262 N "
+            "(261 N on wheel front right, which carries most); beyond, a tire folds; least volume has plate 5 (spoke)",
             "does not stand: 523 N a wheel asked for, up to 262 N found",
         ),
         ("motion on flexible tires stopped at t = 3 s of 9 s: no step", "stops at 3 s: no step converges there"),
