@@ -25,7 +25,7 @@ IntArray = NDArray[np.int64]
 Constants = tuple[
     tuple[IntArray, IntArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray],
     tuple[FloatArray, FloatArray, FloatArray],
-    tuple[float, float, float, float, float],
+    tuple[float, float, float, float, float, float],
     bool,
 ]
 """Fields of GridTables, TerrainPieces and LawNumbers, and whether the normal is the tire's own (thesis 2.22): as plain
