@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ from contracts.errors import InputError
 from rover_dynamics.tires.brush_tire import BrushTireParameters
 from rover_dynamics.tires.wheel_potential import NO_POTENTIAL, WheelPotential
 
-__all__ = ["BrushSettings", "DamperLaw", "SlipLaw", "WheelNumbers", "wheel_numbers"]
+__all__ = ["BrushSettings", "Carcass", "DamperLaw", "SlipLaw", "WheelNumbers", "wheel_numbers", "yielding"]
 
 
 class SlipLaw(IntEnum):
@@ -90,6 +90,29 @@ class BrushSettings:
             raise InputError("brush lateral ratio", f"{self.lateral_ratio:g}", rule, "take the carcass")
         _positive("retardation_time", self.retardation_time, "s")
         _positive("standstill_speed", self.standstill_speed, "m/s")
+
+
+class Carcass(NamedTuple):
+    """How stiffly a wheel that sticks to the ground holds its hub, forwards and sideways [N/m]."""
+
+    forward: float
+    sideways: float
+
+
+def yielding(settings: BrushSettings, parameters: BrushTireParameters, carcass: Carcass) -> BrushSettings:
+    """The same on a carcass that gives way to a force as it says while the tread sticks.
+
+    Rolling steadily the tire slips as before: relaxation lengths are slip stiffness over stiffness,
+    sigma_x = C_s / k_x and sigma_y = C_alpha / k_y.
+
+    Verified by tests/unit/test_workbench_wheel_brush.py.
+    """
+    return replace(
+        settings,
+        slip_law=SlipLaw.CARCASS,
+        relaxation_length=parameters.longitudinal_slip_stiffness / carcass.forward,
+        lateral_ratio=carcass.sideways / carcass.forward,
+    )
 
 
 class WheelNumbers(NamedTuple):

@@ -3,7 +3,8 @@
 Rigid means here: 1000 times the radial stiffness of Table II whatever that of the tire it is made of, unless that is
 more still (24 micrometres at rest under 197.92 N on Mars instead of 24 mm), with a damper of 5 ms, critical for a sixth
 of the rover. Friction, slip stiffnesses and rolling resistance stay the tire's own, so that the two differ by the
-radial deflection only; the deflections over which damper and bristles build up shrink as the stiffness grows.
+radial deflection only; the deflections over which damper and bristles build up shrink as the stiffness grows. A carcass
+is none of a rigid wheel's: it has the bristles of the brush.
 
 Verified by tests/verification/test_rover_rigid.py.
 """
@@ -13,7 +14,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from contracts.terrain import Terrain
-from rover_dynamics.tires.brush_settings import BrushSettings
+from rover_dynamics.tires.brush_settings import BrushSettings, SlipLaw
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.tires.brush_wheel import BrushTire
 
@@ -38,6 +39,9 @@ def rigid_parameters(parameters: BrushTireParameters = THESIS_BRUSH) -> BrushTir
 def rigid_settings(settings: BrushSettings | None = None) -> BrushSettings:
     """Damper and bristles build up over deflections as much smaller as the contact is stiffer."""
     settings = settings or BrushSettings()
+    if settings.slip_law is SlipLaw.CARCASS:
+        length = BrushSettings().relaxation_length
+        settings = replace(settings, slip_law=SlipLaw.BRUSH, relaxation_length=length, lateral_ratio=1.0)
     return replace(
         settings,
         damping_ramp=settings.damping_ramp / TIMES_STIFFER,

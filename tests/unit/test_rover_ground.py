@@ -16,7 +16,6 @@ from rover_dynamics.rover.planets import gravity_named
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import (
-    Carcass,
     on_brush_tires,
     on_friction,
     on_rigid_tires,
@@ -26,7 +25,7 @@ from rover_dynamics.rover.scenarios.ground import (
     touching_height,
 )
 from rover_dynamics.rover.scenarios.scenario import Tilt, run_scenario
-from rover_dynamics.tires.brush_settings import BrushSettings, wheel_numbers
+from rover_dynamics.tires.brush_settings import BrushSettings, Carcass, wheel_numbers
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
 from rover_dynamics.tires.wheel_potential import load_and_slope, wheel_potential
 from tests.unit.test_wheel_potential import GROUSERS, PERIOD, curves

@@ -18,7 +18,8 @@ from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.tires.wheel_potential import AHEAD, MOMENT, load_and_slope, raise_and_slope
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.model_curves import CURVE
-from workbench.questions.models.wheel_curves import carcass_of, curves_around, largest_between, on_solved_tires
+from workbench.questions.models.wheel_brush import carcass_of
+from workbench.questions.models.wheel_curves import curves_around, largest_between, on_solved_tires
 from workbench.questions.models.wheel_tasks import (
     between_steps,
     deep_tasks,

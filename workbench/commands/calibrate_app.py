@@ -1,4 +1,4 @@
-"""``workbench calibrate``: its two commands. Verified by tests/end_to_end/test_calibrate.py."""
+"""``workbench calibrate``: its three commands. Verified by tests/end_to_end/test_calibrate.py."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ class _ThicknessByDefault(DefaultCommand):
 
 
 calibrate_app = typer.Typer(
-    cls=_ThicknessByDefault, help="Strip thickness for an initial tangent (the default), or the fit of the ANCF tire."
+    cls=_ThicknessByDefault,
+    help="Strip thickness for an initial tangent (the default), fit of the ANCF tire, brush numbers of the wheel.",
 )
 
 
@@ -68,3 +69,20 @@ def calibrate_ancf(
     from workbench.commands.calibrate_ancf import run_calibrate_ancf
 
     raise typer.Exit(run_calibrate_ancf(study, tire, out, store, computing(workers, ranks, scheduler)))
+
+
+@calibrate_app.command("brush")
+def calibrate_brush(
+    study: StudyOrBuiltIn = None,
+    model: Annotated[str, typer.Option(help="fe or ancf_wheel.")] = "fe",
+    load: Annotated[float, typer.Option(help="Load in newtons at which the two are alike.")] = 200.0,
+    out: Annotated[Path, typer.Option(help="Folder of brush_of_wheel.csv.")] = Path("build/calibration"),
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
+) -> None:
+    """Brush numbers of the wheel beside Table II, from its curves and its load cases along the ground."""
+    from workbench.commands.calibrate_brush import run_calibrate_brush
+
+    raise typer.Exit(run_calibrate_brush(study, (model, load), out, store, computing(workers, ranks, scheduler)))

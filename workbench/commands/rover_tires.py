@@ -13,7 +13,9 @@ from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction, on_rigid_tires
 from rover_dynamics.rover.scenarios.scenario import Scenario
+from rover_dynamics.tires.brush_settings import Carcass
 from workbench.execution.task import Task, needed_for
+from workbench.questions.models.driving_brush import driving_brush
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_brush, rover_on_ancf
 from workbench.study.wheel_design import wheel_design
@@ -37,12 +39,21 @@ class TireSource:
 
 
 def _on_brush(scenario: Scenario, source: TireSource) -> Scenario:
+    """The brush tire that [rover] names."""
+    if source.study is None:
+        return scenario
+    tire, carcass = driving_brush(source.study)
+    return on_brush_tires(scenario, tire, None if carcass is None else Carcass(*carcass))
+
+
+def _on_stated_brush(scenario: Scenario, source: TireSource) -> Scenario:
+    """That of [brush]: what rigid wheels and wheels that were solved have of a brush tire is not the wheel's."""
     return scenario if source.study is None else on_brush_tires(scenario, rover_brush(source.study))
 
 
 def _on_rigid(scenario: Scenario, source: TireSource) -> Scenario:
     """Friction, slip and rolling resistance of the brush tire."""
-    return on_rigid_tires(_on_brush(scenario, source))
+    return on_rigid_tires(_on_stated_brush(scenario, source))
 
 
 def _on_ancf(scenario: Scenario, source: TireSource) -> Scenario:
@@ -77,7 +88,7 @@ def _on_solved(scenario: Scenario, source: TireSource, model: str) -> Scenario:
         if min(curve.deflection[-1] for curve in curves_around(values, folders)) < study.fe.max_deflection - 1e-9:
             complain_of_early_ends(path, ended)
         warn(path, [f"{task} ends early: {why}" for task, why in ended.items()])
-        return on_solved_tires(_on_brush(scenario, source), values, folders)
+        return on_solved_tires(_on_stated_brush(scenario, source), values, folders)
 
 
 def _on_fitted(scenario: Scenario, source: TireSource, design: RoverDesign, name: str) -> Scenario:

@@ -255,6 +255,8 @@ class RoverSection(Section):
 
     on_ancf_tires: Literal["none", "short", "all"] = "short"
     """Runs on flexible tires beside those on brush tires: none, the thesis' and quick ones, all."""
+    brush: Literal["study", "wheel"] = "study"
+    """Whose numbers its brush tires have: those of [brush], or the wheel's that `workbench calibrate brush` keeps."""
 
 
 def runs_on_ancf_tires(rover: RoverSection | None, short: Iterable[str], long: Iterable[str]) -> tuple[str, ...]:

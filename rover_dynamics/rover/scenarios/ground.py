@@ -10,7 +10,6 @@ Verified by tests/unit/test_rover_ground.py.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -20,13 +19,12 @@ from contracts.terrain_cover import check_covered
 from contracts.terrain_rocks import RandomRocks
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.scenario import FloatArray, Scenario
-from rover_dynamics.tires.brush_settings import SlipLaw
+from rover_dynamics.tires.brush_settings import Carcass, yielding
 from rover_dynamics.tires.brush_tire import BrushTireParameters
 from rover_dynamics.tires.rigid import rigid_parameters, rigid_settings
 from rover_dynamics.tires.wheel_potential import WheelPotential, mean_stiffness
 
 __all__ = [
-    "Carcass",
     "on_brush_tires",
     "on_friction",
     "on_rigid_tires",
@@ -40,13 +38,6 @@ ABUNDANCE = 0.2
 """Share of the ground under random rocks, as in `benchmarks/rover_brush.py`: a rocky site."""
 MARGIN, ASIDE = 0.5, 0.25
 """A field of rocks beyond the wheels' places [m], and more by this share of the way, along which rocks turn a rover."""
-
-
-class Carcass(NamedTuple):
-    """How stiffly a wheel that sticks to the ground holds its hub, forwards and sideways [N/m]."""
-
-    forward: float
-    sideways: float
 
 
 def on_terrain(scenario: Scenario, design: RoverDesign, terrain: Terrain, words: str) -> Scenario:
@@ -84,9 +75,10 @@ def rocks_on_the_way(scenario: Scenario, design: RoverDesign, seed: int) -> Terr
     return RandomRocks(seed=seed, size=(length, width), origin=(x, y), abundance=ABUNDANCE).terrain()
 
 
-def on_brush_tires(scenario: Scenario, tire: BrushTireParameters) -> Scenario:
-    """The same on six of these brush tires."""
-    return replace(scenario, tire=tire)
+def on_brush_tires(scenario: Scenario, tire: BrushTireParameters, carcass: Carcass | None = None) -> Scenario:
+    """The same on six of these brush tires; with a carcass they yield along the ground as it does, see `yielding`."""
+    settings = scenario.settings if carcass is None else yielding(scenario.settings, tire, carcass)
+    return replace(scenario, tire=tire, settings=settings)
 
 
 def on_friction(scenario: Scenario, friction: float | None) -> Scenario:
@@ -132,12 +124,7 @@ def on_wheel_curves(
     tire = replace(scenario.tire, radial_stiffness=mean_stiffness(potential), source=source)
     settings = replace(scenario.settings, potential=potential)
     if carcass is not None:
-        settings = replace(
-            settings,
-            slip_law=SlipLaw.CARCASS,
-            relaxation_length=tire.longitudinal_slip_stiffness / carcass.forward,
-            lateral_ratio=carcass.sideways / carcass.forward,
-        )
+        settings = yielding(settings, tire, carcass)
     return replace(scenario, tire=tire, settings=settings, tire_model=model, has_closed_forms=False)
 
 

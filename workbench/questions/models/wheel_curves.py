@@ -11,13 +11,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from contracts.curves import StiffnessCurve, read_curve
-from contracts.errors import InputError
 from contracts.hub_travel import Way
-from contracts.travel_curve import TravelCurve, read_travel
-from rover_dynamics.rover.scenarios.ground import Carcass, on_wheel_curves
+from contracts.travel_curve import read_travel
+from rover_dynamics.rover.scenarios.ground import on_wheel_curves
 from rover_dynamics.rover.scenarios.scenario import Scenario
 from rover_dynamics.tires.wheel_potential import (
     MOMENT,
@@ -28,10 +25,11 @@ from rover_dynamics.tires.wheel_potential import (
     wheel_potential,
 )
 from workbench.questions.model_curves import CURVE
+from workbench.questions.models.wheel_brush import carcass_of
 from workbench.questions.models.wheel_tasks import Between, deep_name
 from workbench.questions.travel_start import TRAVEL
 
-__all__ = ["carcass_of", "curves_around", "largest_between", "on_solved_tires"]
+__all__ = ["curves_around", "largest_between", "on_solved_tires"]
 
 
 def on_solved_tires(scenario: Scenario, values: Mapping[str, Any], folders: Mapping[str, Path]) -> Scenario:
@@ -81,21 +79,3 @@ def curves_around(values: Mapping[str, Any], folders: Mapping[str, Path]) -> lis
             curve = replace(curve, columns={**curve.columns, MOMENT: -curve.columns[MOMENT]})
         found.append(curve)
     return found
-
-
-def carcass_of(travels: Sequence[TravelCurve]) -> Carcass:
-    """Mean stiffness of the wheel forwards and sideways.
-
-    Raises
-    ------
-    InputError
-        If there is no travel one way, or one that does not resist.
-    """
-    found = {}
-    for way in (Way.FORE_AFT, Way.LATERAL):
-        stiffness = [one.stiffness for one in travels if one.way is way]
-        if not stiffness or not min(stiffness) > 0.0:
-            rule = "must be found at one orientation at least, and be > 0 at each"
-            raise InputError(f"stiffness {way} of the wheel", f"{stiffness} N/m", rule, "ask for closer points in [fe]")
-        found[way] = float(np.mean(stiffness))
-    return Carcass(forward=found[Way.FORE_AFT], sideways=found[Way.LATERAL])

@@ -17,11 +17,11 @@ from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from workbench.execution.task import Task
+from workbench.questions.models.driving_brush import driving_brush, driving_inputs
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import Drive, read_drive
 from workbench.questions.rover_mission.requirements import MISSION_SOURCE, TITLES, MissionRow, mission_checks, tightest
 from workbench.study.model import Study
-from workbench.study.model_parameters import rover_brush, rover_on_brush
 from workbench.verdict.rules import Claim, at_least, at_most, near
 
 __all__ = ["ROVER", "RoverResults"]
@@ -46,17 +46,19 @@ THESIS_TORQUE = 3.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoverResults:
-    """All scenarios by name, the brush tire they were driven on, friction of the ground or None, a still."""
+    """All scenarios by name, the brush tire they were driven on with its carcass or None, see `DrivingBrush`, friction
+    of the ground or None, a still."""
 
     by_name: Mapping[str, Drive]
     tire: BrushTireParameters
+    carcass: tuple[float, float] | None
     friction: float | None
     picture: Path
 
     @property
     def on_table_two(self) -> bool:
         """Whether the tire's numbers are those of Table II."""
-        return replace(self.tire, source=THESIS_BRUSH.source) == THESIS_BRUSH
+        return self.carcass is None and replace(self.tire, source=THESIS_BRUSH.source) == THESIS_BRUSH
 
     @property
     def first_touch(self) -> float:
@@ -90,7 +92,7 @@ class RoverResults:
 
 def _tasks(study: Study) -> Sequence[Task]:
     still = Task(name="rover_still", function="workbench.questions.rover.still:draw", inputs={}, cost=5.0)
-    tires = rover_on_brush(study)
+    tires = driving_inputs(study)
     scenarios = [
         Task(
             name=f"rover_{name}",
@@ -106,7 +108,8 @@ def _tasks(study: Study) -> Sequence[Task]:
 def _read(study: Study, folders: Mapping[str, Path]) -> RoverResults:
     found = {name: read_drive(folders[f"rover_{name}"], name, "brush") for name in (*THESIS, *MISSION)}
     picture = folders["rover_still"] / "rover.png"
-    return RoverResults(by_name=found, tire=rover_brush(study), friction=study.ground.friction, picture=picture)
+    tire, carcass = driving_brush(study)
+    return RoverResults(by_name=found, tire=tire, carcass=carcass, friction=study.ground.friction, picture=picture)
 
 
 def _claim(name: str, title: str, outcome: str, unit: str, source: str, *, gate: bool = False) -> Claim:

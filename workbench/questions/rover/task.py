@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 from contracts.series import write_series
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
-from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction
+from rover_dynamics.rover.scenarios.ground import on_friction
 from rover_dynamics.rover.scenarios.scenario import run_scenario, scenario_series
 from workbench.execution.result_files import FAILURE, write_result
+from workbench.questions.rover.brush import on_given_brush
 from workbench.questions.rover.motion_file import MOTION, write_motion
-from workbench.study.brush_tire import brush_from
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
@@ -28,9 +28,9 @@ __all__ = ["drive_rover"]
 def drive_rover(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """``series.csv``, ``motion.npz``, and ``result.json`` with the outcomes of scenario and study.
 
-    The inputs hold the scenario's name, the ``brush`` tire, see `brush_from`, and the ground's ``friction`` or None.
+    The inputs hold the scenario's name, the brush tire, see `on_given_brush`, and the ground's ``friction`` or None.
     """
-    driven = on_brush_tires(scenario_named(inputs["scenario"]), brush_from(inputs["brush"]))
+    driven = on_given_brush(scenario_named(inputs["scenario"]), inputs)
     scenario, design = on_friction(driven, inputs["friction"]), read_rover()
     run = run_scenario(scenario, design)
     progress(0.5)

@@ -18,13 +18,14 @@ from contracts.series import TimeSeries, read_series
 from rover_dynamics.rover.rover_file import read_rover
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
+from workbench.questions.models.driving_brush import driving_inputs
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import read_drive
 from workbench.questions.rover_closer.figures import closer_figures
 from workbench.questions.rover_closer.results import GROUNDS, CloserLook, Resting
 from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
 from workbench.study.model import Study
-from workbench.study.model_parameters import on_tire_of_thesis, rover_ancf, rover_on_ancf, rover_on_brush
+from workbench.study.model_parameters import on_tire_of_thesis, rover_ancf, rover_on_ancf
 from workbench.verdict.rules import Claim, near
 
 __all__ = ["ROVER_CLOSER"]
@@ -39,7 +40,7 @@ def _tasks(study: Study) -> Sequence[Task]:
         Task(
             name=TASK,
             function="workbench.questions.rover_closer.task:drive_closely",
-            inputs={"lasts": 20.0, "rocks": 3, **rover_on_brush(study), **rover_on_ancf(study)},
+            inputs={"lasts": 20.0, "rocks": 3, **driving_inputs(study), **rover_on_ancf(study)},
             cost=14.0,
         ),
         Task(

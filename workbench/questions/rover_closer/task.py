@@ -20,16 +20,16 @@ from contracts.terrain import Plane
 from contracts.terrain_rocks import RandomRocks
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
-from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction, on_terrain
+from rover_dynamics.rover.scenarios.ground import on_friction, on_terrain
 from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward, straight_ahead
 from rover_dynamics.rover.scenarios.scenario import Scenario, run_scenario
 from rover_dynamics.rover.standing import stand_under_loads
 from workbench.execution.result_files import FAILURE, write_result
+from workbench.questions.rover.brush import on_given_brush
 from workbench.questions.rover.close_look import EVERY, body_series, coarse_skin
 from workbench.questions.rover.motion_file import MOTION, read_motion
 from workbench.questions.rover.tires import DAMPING_RATIO, contact_law, on_ancf_tires
 from workbench.study.ancf_tire import drawn_tire, tire_from
-from workbench.study.brush_tire import brush_from
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
@@ -46,10 +46,10 @@ _ASIDE = 0.05
 def drive_closely(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """``straight_brush.csv``, ``rocks_{brush,ancf}.csv``, and in the result what `stands` finds; why a drive ended.
 
-    The inputs hold both tires, see `workbench.study.brush_tire` and `workbench.study.ancf_tire`, and the friction.
+    The inputs hold both tires, see `on_given_brush` and `workbench.study.ancf_tire`, and the friction.
     """
     design, tire, stopped = read_rover(), tire_from(inputs), dict[str, str]()
-    path = on_friction(on_brush_tires(_path(inputs["lasts"]), brush_from(inputs["brush"])), inputs["friction"])
+    path = on_friction(on_given_brush(_path(inputs["lasts"]), inputs), inputs["friction"])
     rocks = _on_rocks(path, design, inputs["rocks"])
     for ground, scenario in (("straight", path), ("rocks", rocks)):
         write_series(body_series(run_scenario(scenario, design), ground, None), out / f"{ground}_brush.csv")

@@ -8,6 +8,7 @@ from typing import Any
 from contracts.errors import InputError
 from workbench.execution.task import Task
 from workbench.questions.curve_graph import stiffness_tasks
+from workbench.questions.models.driving_brush import driving_inputs
 from workbench.questions.models.wheel_tasks import between_steps, solved_tire
 from workbench.questions.rover_mission.requirements import MISSION
 from workbench.study.model import Study
@@ -48,6 +49,8 @@ def mission_tasks(study: Study, tires: Sequence[str] = MISSION_TIRES) -> tuple[T
             own["wheel"], tasks = solved_tire(study, tire)
             before |= {task.name: task for task in (*tasks, *stiffness_tasks(study, tire, between_steps(study)))}
             needs = tuple(sorted({name for *_, name in (*own["wheel"]["curves"], *own["wheel"]["travels"])}))
+        elif tire == "brush":
+            own |= driving_inputs(study)
         elif tire == "ancf":
             if not fits_rover(study):
                 raise InputError("ANCF tire", study.name, "is not of the rover's size", "leave ancf out of --tire")

@@ -18,13 +18,13 @@ from contracts.series import write_series
 from rover_dynamics.rover.rover_design import RoverDesign, WheelDrive
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
-from rover_dynamics.rover.scenarios.ground import on_brush_tires, on_friction, on_rigid_tires
+from rover_dynamics.rover.scenarios.ground import on_friction, on_rigid_tires
 from rover_dynamics.rover.scenarios.needs import ending, smallest_friction, smallest_torque
 from rover_dynamics.rover.scenarios.readings import energy_of_drives
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
 from rover_dynamics.vehicle.motors import Motor
 from workbench.execution.result_files import read_result, write_result
-from workbench.study.brush_tire import brush_from
+from workbench.questions.rover.brush import on_given_brush
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
@@ -42,7 +42,7 @@ _GROWS = 1.01
 def drive_mission(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """``result.json``, and ``series.csv`` of the run with drives that have no limits, if it began.
 
-    The inputs hold ``scenario`` and ``tire``; the ``brush`` tire, see `brush_from`, and the ground's ``friction`` or
+    The inputs hold ``scenario`` and ``tire``; the brush tire, see `on_given_brush`, and the ground's ``friction`` or
     None; ``wheel`` for a tire of `workbench.questions.models.wheel_tasks.solved_tire`, ``ancf`` for an ANCF tire;
     whether smallest torque and friction are ``searched``; and ``confirms``, the task whose torque is tried, or None.
     """
@@ -73,7 +73,7 @@ def with_own_friction(scenario: Scenario) -> float:
 
 
 def _on_tires(inputs: Mapping[str, Any], needs: Mapping[str, Path]) -> Scenario:
-    scenario = on_brush_tires(scenario_named(inputs["scenario"]), brush_from(inputs["brush"]))
+    scenario = on_given_brush(scenario_named(inputs["scenario"]), inputs)
     if inputs["tire"] == "rigid":
         scenario = on_rigid_tires(scenario)
     elif inputs["wheel"] is not None:
