@@ -46,7 +46,14 @@ FREE = {
 """Numbers that may be scaled without a word, and why."""
 COMMANDS = [
     *(["stiffness", "FILE", "--model", model] for model in ("fe", "section", "ancf_wheel", "ancf", "brush")),
-    *(["report", "FILE"], ["mesh", "FILE"], ["calibrate", "FILE"], ["calibrate", "ancf", "FILE"], ["sweep", "FILE"]),
+    *(
+        ["report", "FILE"],
+        ["mesh", "FILE"],
+        ["calibrate", "FILE"],
+        ["calibrate", "ancf", "FILE"],
+        ["calibrate", "brush", "FILE"],
+        ["sweep", "FILE"],
+    ),
 ]
 _WARNING = "workbench: warning: "
 _ERROR = "workbench: error: "

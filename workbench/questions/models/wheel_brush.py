@@ -136,7 +136,8 @@ def lines_beside_table_two(found: WheelBrush) -> tuple[Line, ...]:
     table, wheel, at = wheel_numbers(THESIS_BRUSH, BrushSettings()), found.numbers, f"at {found.load:g} N"
     slips = "kept: a wheel that stands does not slip"
     ground = "kept: of tire and ground"
-    moved = f"load case {at}, first step; Table II: C_s over our relaxation length"
+    case = f"load case {at}, first step"
+    moved = f"{case}; Table II: C_s over our relaxation length"
     length = "slip stiffness over standing stiffness; Table II: ours"
     a, b, bristles = THESIS_BRUSH, found.tire, table.tangential_stiffness
     return (
@@ -150,7 +151,7 @@ def lines_beside_table_two(found: WheelBrush) -> tuple[Line, ...]:
             "N*m/rad",
             None,
             found.turning,
-            f"load case {at}, first step; not in the tire",
+            f"{case}; not in the tire",
         ),
         Line("longitudinal slip stiffness", "N", a.longitudinal_slip_stiffness, b.longitudinal_slip_stiffness, slips),
         Line("cornering stiffness", "N/rad", a.cornering_stiffness, b.cornering_stiffness, slips),
@@ -164,7 +165,7 @@ def lines_beside_table_two(found: WheelBrush) -> tuple[Line, ...]:
             "m",
             2.0 * table.half_length,
             found.contact_length,
-            f"{at}; not in the tire: a carcass needs none",
+            f"{at}; not in the tire",
         ),
     )
 
