@@ -33,6 +33,24 @@ __all__ = [
 EXOMARS_ROVER = Path(__file__).with_name("exomars_rover.toml")
 _RANGES = Path(__file__).with_name("ranges.toml")
 _LEG_BODIES = ("arm", "spindle", "wheel")
+_DRIVE_UNITS = {
+    "gear": "",
+    "torque_limit": "N m",
+    "stall_torque": "N m",
+    "no_load_speed": "rad/s",
+    "gain": "N m s/rad",
+    "efficiency": "",
+    "allowed_slip": "",
+    "share_gain": "N m s/rad",
+}
+_POWERS_OF_GEAR = {"torque_limit": 1, "stall_torque": 1, "no_load_speed": -1}
+"""Of the gear by which the wheel's shaft shows a number of the motor."""
+_OF_CONTROL = ("allowed_slip", "share_gain")
+_COUNTS_WITH = {
+    "gain": (Controller.SPEED, Controller.SLIP),
+    "allowed_slip": (Controller.SLIP,),
+    "share_gain": (Controller.SHARED,),
+}
 
 
 def read_rover(path: Path = EXOMARS_ROVER) -> RoverDesign:
@@ -125,24 +143,36 @@ def _legs(row: RoverTable, rover: RoverTable) -> list[Leg]:
 
 
 def _drive(row: RoverTable) -> WheelDrive:
-    """Motor numbers are those before the gear."""
-    gear, given = row.number("gear") if "gear" in row.content else 1.0, set(row.content)
-    if not gear > 0.0:
-        raise InputError(f"{row.place}: gear", f"{gear:g}", "must be > 0", "motor turns by wheel turn, e.g. 1000")
-    at_wheel = {"torque_limit": gear, "stall_torque": gear, "no_load_speed": 1.0 / gear, "gain": 1.0, "efficiency": 1.0}
-    motor = {key: times * row.number(key) for key, times in at_wheel.items() if key in given}
-    control: dict[str, Any] = {key: row.number(key) for key in ("allowed_slip", "share_gain") if key in given}
-    if "controller" in given:
-        word = row.word("controller")
-        if word not in list(Controller):
-            known = ", ".join(Controller)
-            raise InputError(f"{row.place}: controller", repr(word), "is not known", f"give one of {known}")
-        control["controller"] = Controller(word)
-    for key, needs in (("allowed_slip", Controller.SLIP), ("share_gain", Controller.SHARED)):
-        if key in control and control.get("controller", Controller.SPEED) is not needs:
-            rule = f"counts with controller = '{needs}' only"
-            raise InputError(f"{row.place}: {key}", f"{control[key]:g}", rule, "remove it, or name that controller")
-    return WheelDrive(motor=Motor(**motor), control=DriveControl(**control))
+    """Motor numbers are those before the gear; what is wrong is told as the file has it."""
+    numbers = {key: _positive(row, key, unit) for key, unit in _DRIVE_UNITS.items() if key in row.content}
+    controller = _controller(row)
+    for key, needs in _COUNTS_WITH.items():
+        if key in numbers and controller not in needs:
+            rule = f"counts with controller = {' or '.join(repr(one.value) for one in needs)} only"
+            raise InputError(f"{row.place}: {key}", f"{numbers[key]:g}", rule, "remove it, or name that controller")
+    ends = [key for key in ("stall_torque", "no_load_speed") if key not in numbers]
+    if len(ends) == 1:
+        hint = "stall_torque and no_load_speed are the two ends of one line: give both, or none"
+        raise InputError(f"{row.place}: {ends[0]}", "", "is missing", hint)
+    gear, control = numbers.pop("gear", 1.0), {key: numbers.pop(key) for key in _OF_CONTROL if key in numbers}
+    motor = {key: gear ** _POWERS_OF_GEAR.get(key, 0) * value for key, value in numbers.items()}
+    return WheelDrive(motor=Motor(**motor), control=DriveControl(controller=controller, **control))
+
+
+def _positive(row: RoverTable, key: str, unit: str) -> float:
+    value = row.number(key)
+    if not value > 0.0:
+        hint = "leave it out for the usual one, or for none"
+        raise InputError(f"{row.place}: {key}", f"{value:g} {unit}".rstrip(), "must be > 0", hint)
+    return value
+
+
+def _controller(row: RoverTable) -> Controller:
+    word = row.word("controller") if "controller" in row.content else Controller.SPEED
+    if word not in list(Controller):
+        known = ", ".join(Controller)
+        raise InputError(f"{row.place}: controller", repr(word), "is not known", f"give one of {known}")
+    return Controller(word)
 
 
 def _leg_body(name: str, row: RoverTable) -> BodyRow:

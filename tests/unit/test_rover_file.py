@@ -58,7 +58,12 @@ def test_motors_are_given_before_their_gear(tmp_path: Path) -> None:
         ("allowed_slip = 0.1", "counts with controller = 'slip' only"),
         ("share_gain = 50", "counts with controller = 'shared' only"),
         ("torque_limit = 0", "drive.torque_limit"),
-        ("stall_torque = 2", "are the two ends of one line"),
+        ("stall_torque = 2", "drive: no_load_speed: is missing; stall_torque and no_load_speed are the two ends"),
+        ("gear = 1000\ntorque_limit = -2", "drive: torque_limit = -2 N m: must be > 0"),
+        ("efficiency = -0.5", "drive: efficiency = -0.5: must be > 0"),
+        ("efficiency = 1.2", "drive.efficiency = 1.2: must lie between 0.001 and 1"),
+        ("controller = 'slip'\nallowed_slip = 1", "drive.allowed_slip = 1: must lie between 0.001 and 0.999"),
+        ("controller = 'shared'\ngain = 50", "gain = 50: counts with controller = 'speed' or 'slip' only"),
         ("power = 3", "drive: power = 3: is not a known key"),
         ("gear = 0", "drive.gear"),
         ("gear = true", "must be a number"),
@@ -69,6 +74,7 @@ def test_a_bad_drive_gives_one_clear_message(tmp_path: Path, text: str, words: s
     path.write_text(with_drive(text), encoding="utf-8")
     with pytest.raises(InputError) as caught:
         read_rover(path)
+    assert str(caught.value).startswith(str(path))
     assert words in str(caught.value)
 
 
