@@ -14,7 +14,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from contracts.errors import WorkbenchError
+from contracts.errors import InputError, WorkbenchError
 from contracts.text import for_terminal
 from workbench.commands.calibrate_app import calibrate_app
 from workbench.commands.ending import complain, flushed, full_disk
@@ -158,7 +158,12 @@ def stiffness(
     travel: Annotated[
         str | None, typer.Option(help="Move the pressed hub: fore_aft, lateral, turning or all (fe and ancf_wheel).")
     ] = None,
-    load: Annotated[float, typer.Option(help="Load in newtons from which the hub moves, with --travel.")] = 200.0,
+    load: Annotated[
+        float | None,
+        typer.Option(
+            help="With --travel: load in newtons from which the hub moves; 200 if left out.", show_default=False
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
     store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
@@ -173,6 +178,8 @@ def stiffness(
         from workbench.commands.travel import run_travel
 
         raise typer.Exit(run_travel(study, model, (travel, load), tuple(orientation or ()), out, store, who))
+    if load is not None:
+        raise InputError("load", f"{load:g} N", "is where the hub's travel begins", "give --travel, or leave it out")
     raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who))
 
 

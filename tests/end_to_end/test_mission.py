@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -51,3 +52,20 @@ def test_what_cannot_be_driven_is_one_message(tmp_path: Path) -> None:
         assert found.returncode == 2
         assert "tire of the mission = 'wood': is not known; give of rigid, brush" in found.stderr
     assert not (tmp_path / "own.kept").exists()
+    study.write_text(re.sub(r"(?m)^\[rover\]\n.*\n", "", small_study_text()), encoding="utf-8")
+    found = said("mission", study, "--tire", "brush")
+    assert (found.returncode, "own.toml: [rover]: is missing" in found.stderr) == (2, True), found.stderr
+
+
+@pytest.mark.parametrize("command", ["mission", "check", "report"])
+def test_what_is_no_record_is_told_before_anything_runs_and_stays(tmp_path: Path, command: str) -> None:
+    study, record = tmp_path / "own.toml", tmp_path / "own.kept" / "mission.json"
+    study.write_text(small_study_text(), encoding="utf-8")
+    record.parent.mkdir()
+    for text in ('{"mine": 1}', '{"command": "workb', ""):
+        record.write_text(text, encoding="utf-8")
+        found = said(command, study, folder=tmp_path)
+        assert (found.returncode, found.stdout) == (2, ""), found.stderr
+        assert "mission.json: cannot be read" in found.stderr
+        assert found.stderr.count("error:") == 1
+        assert record.read_text(encoding="utf-8") == text

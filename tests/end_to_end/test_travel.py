@@ -53,9 +53,10 @@ def test_six_components_stand_in_every_curve(folder: Path) -> None:
     [
         (["--travel", "up"], "'up': is not known; give fore_aft, lateral, turning or all"),
         (["--travel", "lateral", "--model", "brush"], "has no hub that could be moved"),
-        (["--travel", "lateral", "--load", "0"], "load = 0 N: must be > 0"),
-        (["--travel", "lateral", "--load", "nan"], "must be > 0"),
-        (["--travel", "lateral", "--load", "1e6", "--orientation", "15"], "lies outside the curve"),
+        (["--travel", "lateral", "--load", "0"], "load = 0 N: must lie between 0.1 N and fe.max_load, 300 N"),
+        (["--travel", "lateral", "--load", "inf"], "load = inf N: must lie between"),
+        (["--travel", "lateral", "--load", "290", "--orientation", "15"], "lies outside the curve"),
+        (["--load", "50"], "load = 50 N: is where the hub's travel begins; give --travel, or leave it out"),
     ],
 )
 def test_bad_input_ends_with_one_message(folder: Path, arguments: list[str], message: str) -> None:

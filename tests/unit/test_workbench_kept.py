@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +14,7 @@ import pytest
 
 from contracts.errors import InputError
 from workbench.execution.task import Task
-from workbench.questions.kept import Kept, keep, kept, keys_of
+from workbench.questions.kept import Kept, keep, kept, keys_of, require_place
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
@@ -56,7 +58,7 @@ def test_names_and_costs_are_no_part_of_the_key() -> None:
     assert keys_of([replace(t, name=f"p/{t.name}", cost=9.0) for t in TASKS]) == keys_of(TASKS)
 
 
-@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"command": 1, "odd": 2}', "[" * 100_000])
+@pytest.mark.parametrize("text", ["", "{}", "[1]", "NaN", '{"command": 1, "odd": 2}', "[" * 100_000])
 def test_a_file_that_is_no_record_is_told(study: Study, text: str) -> None:
     path = keep(study, "sample", "make sample", TASKS, 1.0, {})
     path.write_text(text, encoding="utf-8")
@@ -79,6 +81,8 @@ def test_a_copy_of_a_study_keeps_its_folder(study: Study) -> None:
         {"found": {"load_N": {}}},
         {"found": {"load_N": []}},
         {"found": {}},
+        {"found": {"load_N": [2.0], "odd": math.nan}},
+        {"schema": 7},
     ],
 )
 def test_a_record_that_its_question_cannot_read_is_told(study: Study, damage: dict[str, Any]) -> None:
@@ -109,3 +113,49 @@ def test_a_folder_in_a_records_place_is_told(study: Study, tmp_path: Path) -> No
     (tmp_path / "own.kept" / "sample.json").mkdir(parents=True)
     with pytest.raises(InputError, match="is not what it should be"):
         kept(study, "sample")
+
+
+@pytest.mark.parametrize("number", ["1e999", "-1e999", "Infinity"])
+def test_no_number_of_a_record_is_infinite(study: Study, number: str) -> None:
+    path = keep(study, "sample", "make sample", TASKS, 1.0, {"x": 0.5})
+    path.write_text(path.read_text(encoding="utf-8").replace("0.5", number), encoding="utf-8")
+    with pytest.raises(InputError, match="is no finite number"):
+        kept(study, "sample")
+
+
+def test_a_record_takes_the_place_of_a_record_only(study: Study) -> None:
+    """Somebody's file of that name stays as it is."""
+    path = keep(study, "sample", "make sample", TASKS, 1.0, {})
+    keep(study, "sample", "make sample", TASKS, 2.0, {})
+    assert record(study).wall_s == 2.0
+    path.write_text('{"mine": 1}', encoding="utf-8")
+    for attempt in (lambda: require_place(study, "sample"), lambda: keep(study, "sample", "", TASKS, 1.0, {})):
+        with pytest.raises(InputError, match=r"sample.json: cannot be read.*move it away"):
+            attempt()
+    assert path.read_text(encoding="utf-8") == '{"mine": 1}'
+
+
+def test_a_record_is_written_whole_or_not_at_all(study: Study, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = keep(study, "sample", "make sample", TASKS, 1.0, {})
+    before = path.read_text(encoding="utf-8")
+
+    def full(file: Path, text: str, encoding: str) -> None:
+        file.write_bytes(text.encode(encoding)[:20])
+        raise OSError("no space left")
+
+    monkeypatch.setattr(Path, "write_text", full)
+    with pytest.raises(OSError, match="no space left"):
+        keep(study, "sample", "make sample", TASKS, 2.0, {})
+    assert path.read_text(encoding="utf-8") == before
+    assert [one.name for one in path.parent.iterdir()] == ["sample.json"]
+
+
+def test_a_folder_that_cannot_be_written_is_told_before_anything_runs(
+    study: Study, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert study.kept is not None
+    assert require_place(study, "sample") == study.kept / "sample.json"
+    assert not study.kept.exists()
+    monkeypatch.setattr(os, "access", lambda place, mode: False)
+    with pytest.raises(InputError, match=r"folder of kept records = .*: cannot be written"):
+        require_place(study, "sample")

@@ -268,3 +268,55 @@ def test_what_decides_is_what_is_not_met_or_nearest_to_its_limit() -> None:
     assert tightest([counted, wide, near]) is near
     assert tightest([counted, wide, one(3.0, 6.0), near]).value == 3.0
     assert tightest([counted]) is counted
+
+
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        (("wheel", "load_N"), "300"),
+        (("wheel", "part"), 5),
+        (("between",), {"wood": [1.0, 2.0, 3.0]}),
+        (("between", "fe"), [1.0, 2.0]),
+        (("runs",), []),
+        (("runs", 0, "tire"), "wood"),
+        (("runs", 0, "tire"), None),
+        (("runs", 0, "scenario"), "rocks"),
+        (("runs", 0, "scenario"), "crevasse"),  # one tire is asked another requirement than the rest
+        (("runs", 1, "tire"), "brush"),  # the same one twice
+        (("runs", 0, "met"), "yes"),
+        (("runs", 0, "outcomes", 0, "unit"), []),
+        (("runs", 0, "outcomes", 0, "limit"), None),
+        (("runs", 0, "outcomes", 0, "at_least"), 1),
+        (("runs", 0, "way_m"), "far"),
+        (("runs", 0, "energy_J"), 1e308),
+        (("runs", 0, "loads", 0, 2), None),
+        (("runs", 0, "smallest_friction"), "little"),
+        (("runs", 0, "smallest_torque"), {"torque_Nm": 5.0}),
+        (("runs", 1, "ends", "cause"), "weather"),
+    ],
+)
+def test_a_record_that_no_mission_writes_is_not_understood(place: tuple[str | int, ...], value: Any) -> None:
+    """Negative control: as it was written it is."""
+    ends = {"cause": "friction", "time": 8.25, "way": 0.125}
+    least = {"torque_Nm": 24.8, "power_W": 12.0, "energy_J": 727.0, "way_m": 2.5}
+    runs = [
+        run("brush", "step", smallest_torque=least, smallest_friction=0.6),
+        run("fe", "step", met=False, ends=ends, outcomes=[]),
+    ]
+    found = json.loads(json.dumps(found_of(runs, replace_load(280.0), {"fe": Between(17.5, 0.005, -0.023)})))
+    assert mission_of(found).tires == ["brush", "fe"]
+    inside = found
+    for key in place[:-1]:
+        inside = inside[key]
+    inside[place[-1]] = value
+    with pytest.raises((ValueError, TypeError, LookupError)):
+        mission_of(found)
+
+
+def test_without_a_rover_or_on_a_tire_of_another_size_nothing_is_driven() -> None:
+    with pytest.raises(InputError, match=r"\[rover\]: is missing"):
+        mission_tasks(STUDY.model_copy(update={"rover": None}), ["brush"])
+    assert STUDY.ancf is not None
+    larger = STUDY.ancf.model_copy(update={"outer_radius": 0.15, "thesis_preset": False})
+    with pytest.raises(InputError, match=r"radius of \[ancf\] = .* mm: is not that of the rover's wheels"):
+        mission_tasks(STUDY.model_copy(update={"ancf": larger}), ["ancf"])

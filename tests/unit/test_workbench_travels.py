@@ -78,7 +78,12 @@ def test_a_run_that_ended_before_its_first_step_has_no_curve(tmp_path: Path) -> 
 
 @pytest.mark.parametrize(
     ("model", "load", "message"),
-    [("brush", 200.0, "has no hub"), ("fe", 0.0, "must be > 0"), ("fe", -1.0, "must be > 0")],
+    [
+        ("brush", 200.0, "has no hub"),
+        *(("fe", load, "must lie between 0.1 N and fe.max_load, 320 N") for load in (0.0, -1.0, 1e-300, 321.0, 1e300)),
+        ("ancf_wheel", float("nan"), "load = nan N: must lie between"),
+        ("ancf_wheel", float("inf"), "load = inf N: must lie between"),
+    ],
 )
 def test_what_cannot_be_moved_is_refused(model: str, load: float, message: str) -> None:
     with pytest.raises(InputError, match=message):

@@ -5,8 +5,9 @@ Verified by tests/end_to_end/test_mission.py.
 
 from __future__ import annotations
 
+import shlex
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from contracts.curves import read_curve
@@ -16,15 +17,16 @@ from workbench.execution.result_files import early_ends, read_result
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.terminal import empty_table
-from workbench.questions.kept import keep
+from workbench.questions.kept import keep, require_place
 from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_curves import curves_around, largest_between
-from workbench.questions.models.wheel_tasks import between_steps, solved_tire
+from workbench.questions.models.wheel_tasks import Between, between_steps, solved_tire
 from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_name, mission_tasks
 from workbench.questions.rover_mission.question import RECORD, TIRE_WORDS
 from workbench.questions.rover_mission.requirements import MISSION, TITLES
-from workbench.questions.rover_mission.results import Cell, Mission, found_of, mission_of, wheel_yield
+from workbench.questions.rover_mission.results import Cell, Mission, WheelYield, found_of, mission_of, wheel_yield
 from workbench.questions.strength.yielding import yield_strengths
+from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study
 
@@ -39,16 +41,31 @@ def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, comp
     path = study_path or built_in_study()
     study = read_and_warn(path)
     asked = [tire for tire in MISSION_TIRES if tire in tires] if set(tires) <= set(MISSION_TIRES) else list(tires)
+    driven = tuple(asked) or MISSION_TIRES
     begun = time.monotonic()
     with naming(path):
-        tasks = mission_tasks(study, asked or MISSION_TIRES)
+        tasks = mission_tasks(study, driven)
+        require_place(study, RECORD)
         with RunDisplay(console, tasks) as display:
             entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
     folders = {name: entry.path for name, entry in entries.items()}
     warn(path, [f"{task} ends early: {why}" for task, why in early_ends(folders).items()])
-    names = [mission_task_name(tire, scenario) for tire in asked or MISSION_TIRES for scenario in MISSION]
+    runs = [read_result(folders[mission_task_name(tire, scenario)]) for tire in driven for scenario in MISSION]
+    with naming(path):
+        found = found_of(runs, *_of_wheel(study, driven, folders))
+    seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
+    record = keep(study, RECORD, _again(study_path, driven), tasks, seconds, found)
+    _print(mission_of(found))
+    console.print(f"kept for the report: {record}", soft_wrap=True)
+    return 0
+
+
+def _of_wheel(
+    study: Study, tires: Sequence[str], folders: Mapping[str, Path]
+) -> tuple[WheelYield | None, dict[str, Between]]:
+    """Where the wheel yields, if its solid model is asked; what its tires miss half way between their orientations."""
     between, wheel = {}, None
-    for tire in (one for one in ("fe", "ancf_wheel") if one in (asked or MISSION_TIRES)):
+    for tire in (one for one in ("fe", "ancf_wheel") if one in tires):
         values = solved_tire(study, tire)[0]
         if tire == "fe":
             wheel = wheel_yield(curves_around(values, folders), yield_strengths(study))
@@ -57,15 +74,15 @@ def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, comp
             for one in between_steps(study)
         ]
         between[tire] = largest_between(values, folders, halves, _LOADS)
-    found = found_of([read_result(folders[name]) for name in names], wheel, between)
-    seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
-    again = "make mission" if study_path is None else f"workbench mission {path}"
-    if asked and tuple(asked) != MISSION_TIRES:
-        again = again.replace("make", "workbench") + "".join(f" --tire {tire}" for tire in asked)
-    record = keep(study, RECORD, again, tasks, seconds, found)
-    _print(mission_of(found))
-    console.print(f"kept for the report: {record}", soft_wrap=True)
-    return 0
+    return wheel, between
+
+
+def _again(study_path: Path | None, tires: tuple[str, ...]) -> str:
+    """What makes the record anew, as a user types it."""
+    some = "" if tires == MISSION_TIRES else "".join(f" --tire {tire}" for tire in tires)
+    if study_path is None:
+        return f"workbench mission{some}" if some else "make mission"
+    return f"workbench mission {shlex.quote(str(study_path))}{some}"
 
 
 def _print(mission: Mission) -> None:

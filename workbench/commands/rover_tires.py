@@ -81,7 +81,8 @@ def _on_solved(scenario: Scenario, source: TireSource, model: str) -> Scenario:
     from workbench.questions.models.wheel_tasks import solved_tire
 
     study, path = _studied(source)
-    values, tasks = solved_tire(study, model)
+    with naming(path):
+        values, tasks = solved_tire(study, model)
     folders = _computed(tasks, source, path)
     ended = early_ends(folders)
     with naming(path):

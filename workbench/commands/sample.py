@@ -5,6 +5,7 @@ Verified by tests/end_to_end/test_sample.py.
 
 from __future__ import annotations
 
+import shlex
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,7 +17,7 @@ from workbench.execution.runner import Computing, run_all
 from workbench.execution.store import Store
 from workbench.questions.input_uncertainty.keeping import found_of
 from workbench.questions.input_uncertainty.samples import RECORD, record_task, require_inputs
-from workbench.questions.kept import keep
+from workbench.questions.kept import keep, require_place
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.sweep.graph import sweep_graph
 from workbench.questions.sweep.results import Outcome, outcomes
@@ -37,6 +38,7 @@ def run_sample(study_path: Path | None, store: Path, computing: Computing) -> in
     warn(path, of_the_file(study))
     section = _stated(path, study)
     require_inputs(path, content, section)
+    require_place(study, RECORD)
     console.print(f"reading {section.samples} samples, each as a whole study")
     points = input_points(path, content, section)
     graph = sweep_graph(points, ("section",))
@@ -48,7 +50,7 @@ def run_sample(study_path: Path | None, store: Path, computing: Computing) -> in
     elapsed = max(time.monotonic() - begun, _seconds(found) / (computing.workers or 1))
     with naming(path):
         record = found_of(study, section, found)
-    again = "make sample" if study_path is None else f"workbench sample {path}"
+    again = "make sample" if study_path is None else f"workbench sample {shlex.quote(str(path))}"
     kept = keep(study, RECORD, again, [record_task(study, section)], elapsed, record)
     failed = sum(one.curve is None for one in found)
     console.print(

@@ -24,7 +24,7 @@ from workbench.commands.stiffness import check_orientation
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
-from workbench.questions.travels import travel_curves, travel_tasks
+from workbench.questions.travels import WORKING_LOAD, travel_curves, travel_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish
 from workbench.study.orientation import degrees, orientation_name
@@ -44,7 +44,7 @@ def check_way(name: str) -> tuple[Way, ...]:
 def run_travel(
     study_path: Path,
     model: str,
-    travel: tuple[str, float],
+    travel: tuple[str, float | None],
     orientations: tuple[float, ...],
     out: Path,
     store: Path,
@@ -52,9 +52,9 @@ def run_travel(
 ) -> int:
     """Curves of force and moment against the hub's travel at the orientations asked for.
 
-    travel : name of the way, and load from which the hub moves [N]
+    travel : name of the way, and load from which the hub moves [N]; None for `WORKING_LOAD`
     """
-    ways, load = check_way(travel[0]), travel[1]
+    ways, load = check_way(travel[0]), WORKING_LOAD if travel[1] is None else travel[1]
     for orientation in orientations:
         check_orientation(orientation)
     study = read_and_warn(study_path)

@@ -12,7 +12,7 @@ import math
 import os
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Literal
 
@@ -23,7 +23,7 @@ from workbench.execution.fingerprint import canonical_json, text_sha256
 from workbench.execution.task import Task, task_keys
 from workbench.study.model import Study
 
-__all__ = ["Kept", "State", "keep", "kept", "keys_of"]
+__all__ = ["Kept", "State", "keep", "kept", "keys_of", "require_place"]
 
 State = Literal["current", "older sources", "stale"]
 _DIGITS, _WORDS, _MOST = 16, 200, 50_000_000
@@ -77,37 +77,60 @@ def kept(study: Study, name: str, understand: Callable[[Mapping[str, Any]], obje
     path = study.kept / f"{name}.json"
     for place, wanted in ((study.kept, Path.is_dir), (path, Path.is_file)):
         if os.path.lexists(place) and not wanted(place):
-            raise InputError("kept record", place, "is not what it should be", "remove it, or make the record anew")
+            raise InputError("kept record", place, "is not what it should be", "move it away")
     if not path.exists():
         return None
     try:
-        record = Kept(**json.loads(input_bytes(path, "kept record", _MOST)))
-        _whole(record)
+        content = input_bytes(path, "kept record", _MOST)
+        record = _record(json.loads(content, parse_float=_finite, parse_constant=_finite))
         understand(record.found)
     except (OSError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError, RecursionError) as error:
         rule = f"cannot be read ({type(error).__name__}: {str(error)[:_WORDS]})"
-        raise InputError("kept record", str(path), rule, "remove it, or make it anew") from error
+        raise InputError("kept record", str(path), rule, "move it away, and make it anew") from error
     return record
 
 
-def _whole(record: Kept) -> None:
+def _finite(text: str) -> float:
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(f"{text} is no finite number")
+    return number
+
+
+def _record(content: Any) -> Kept:
+    names = [one.name for one in fields(Kept)]
+    if not isinstance(content, dict) or set(content) != set(names):
+        raise ValueError(f"a record holds {', '.join(names)}, and nothing else")
+    record = Kept(**content)
     words = record.command, record.inputs, record.sources, record.date, record.machine
     if not (
         all(isinstance(w, str) for w in words) and isinstance(record.found, dict) and 0.0 <= record.wall_s < math.inf
     ):
         raise ValueError("command, inputs, sources, date and machine are texts, found a table, wall_s seconds")
+    return record
 
 
-def keep(study: Study, name: str, command: str, tasks: Sequence[Task], wall_s: float, found: Mapping[str, Any]) -> Path:
-    """Write a record beside the study's file; gives its path.
+def require_place(study: Study, name: str) -> Path:
+    """Make sure before any computing that a record can be kept, where there is none or over one; gives its path.
 
     Raises
     ------
     InputError
-        For a study that was read from no file.
+        For a study that was read from no file, a folder that cannot be written, and a file that is no record: it may
+        be somebody's.
     """
     if study.kept is None:
         raise InputError("study", study.name, "was read from no file", "read it with read_study")
+    kept(study, name)
+    folder = study.kept if study.kept.exists() else study.kept.absolute().parent
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise InputError("folder of kept records", folder, "cannot be written", "copy the study into one of yours")
+    return study.kept / f"{name}.json"
+
+
+def keep(study: Study, name: str, command: str, tasks: Sequence[Task], wall_s: float, found: Mapping[str, Any]) -> Path:
+    """Write a record beside the study's file, whole or not at all; gives its path. Raises what `require_place` does."""
+    path = require_place(study, name)
     inputs, sources = keys_of(tasks)
     record = {
         "command": command,
@@ -118,8 +141,12 @@ def keep(study: Study, name: str, command: str, tasks: Sequence[Task], wall_s: f
         "wall_s": round(wall_s, 1),
         "found": dict(found),
     }
-    study.kept.mkdir(exist_ok=True)
-    path = study.kept / f"{name}.json"
     text = json.dumps(record, allow_nan=False, ensure_ascii=False, indent=1)
-    path.write_text(for_json(text) + "\n", encoding="utf-8")
+    path.parent.mkdir(exist_ok=True)
+    fresh = path.with_name(f".{name}-{os.getpid()}.json")
+    try:
+        fresh.write_text(for_json(text) + "\n", encoding="utf-8")
+        fresh.replace(path.resolve())
+    finally:
+        fresh.unlink(missing_ok=True)
     return path

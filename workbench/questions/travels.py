@@ -30,6 +30,8 @@ STEPS: Mapping[Way, tuple[float, ...]] = {
 """Steps of the hub over the ground [m; rad of a turn]."""
 WORKING_LOAD = 200.0
 """Between the 160 and 250 N on a wheel of Samarini 2020, section 3.2 [N]."""
+_LEAST_LOAD = 0.1
+"""Below it a wheel is pressed by less than iterations leave [N]."""
 FRICTION = 0.6
 """Of the thesis' contact, eq. 2.22, where neither [fe] nor [ground] states one [-]."""
 
@@ -42,12 +44,14 @@ def travel_tasks(
     Raises
     ------
     InputError
-        For another model than fe and ancf_wheel, and a study whose wheel is not pressed on level ground.
+        For another model than fe and ancf_wheel, a load beyond the curves or next to none, and a study whose wheel is
+        not pressed on level ground.
     """
     if model not in ("fe", "ancf_wheel"):
         raise InputError("model", model, "has no hub that could be moved", "give fe or ancf_wheel")
-    if not load > 0.0:
-        raise InputError("load", f"{load:g} N", "must be > 0", f"{WORKING_LOAD:g} N is usual")
+    if not _LEAST_LOAD <= load <= study.fe.max_load:
+        rule = f"must lie between {_LEAST_LOAD:g} N and fe.max_load, {study.fe.max_load:g} N, at which curves end"
+        raise InputError("load", f"{load:g} N", rule, f"{WORKING_LOAD:g} N is usual")
     require_level(study)
     asked = tuple(orientations_deg) or tuple(degrees(o) for o in study.fe.orientations)
     make = _fe_tasks if model == "fe" else _ancf_wheel_tasks

@@ -12,7 +12,7 @@ from workbench.questions.models.driving_brush import driving_inputs
 from workbench.questions.models.wheel_tasks import between_steps, solved_tire
 from workbench.questions.rover_mission.requirements import MISSION
 from workbench.study.model import Study
-from workbench.study.model_parameters import fits_rover, rover_on_ancf, rover_on_brush
+from workbench.study.model_parameters import fits_rover, rover_ancf, rover_on_ancf, rover_on_brush, rover_radius
 
 __all__ = ["MISSION_TIRES", "SEARCHED", "mission_task_name", "mission_tasks"]
 
@@ -34,12 +34,15 @@ def mission_tasks(study: Study, tires: Sequence[str] = MISSION_TIRES) -> tuple[T
     Raises
     ------
     InputError
-        For a tire that is none of `MISSION_TIRES`, or a wheel that is not of the rover's size.
+        For a tire that is none of `MISSION_TIRES`, a study without [rover], or a wheel that is not of the rover's size.
     """
     for tire in tires:
         if tire not in MISSION_TIRES:
             raise InputError("tire of the mission", repr(tire), "is not known", f"give of {', '.join(MISSION_TIRES)}")
     base = {"wheel": None, "ancf": None, "confirms": None, **rover_on_brush(study)}
+    if study.rover is None:
+        hint = "copy it from studies/exomars.toml, if the wheel is of the rover's size"
+        raise InputError("[rover]", "", "is missing: it says that a rover drives on the study's tires", hint)
     before: dict[str, Task] = {}
     driven: list[Task] = []
     for tire in tires:
@@ -53,7 +56,9 @@ def mission_tasks(study: Study, tires: Sequence[str] = MISSION_TIRES) -> tuple[T
             own |= driving_inputs(study)
         elif tire == "ancf":
             if not fits_rover(study):
-                raise InputError("ANCF tire", study.name, "is not of the rover's size", "leave ancf out of --tire")
+                rule = "is not that of the rover's wheels"
+                hint = f"give {1e3 * rover_radius():g} mm, or leave ancf out of --tire"
+                raise InputError("radius of [ancf]", f"{1e3 * rover_ancf(study).zero_radius:g} mm", rule, hint)
             own["ancf"] = {name: value for name, value in rover_on_ancf(study).items() if name != "friction"}
         for scenario in MISSION:
             confirms = mission_task_name("fe", scenario) if tire == "ancf_wheel" and "fe" in tires else None

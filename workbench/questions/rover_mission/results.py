@@ -12,11 +12,13 @@ from typing import Any, Literal
 from contracts.curves import StiffnessCurve
 from rover_dynamics.rover.scenarios.outcome import LEAST_FRICTION, Outcome
 from workbench.questions.models.wheel_tasks import Between
+from workbench.questions.rover_mission.graph import MISSION_TIRES
 from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
 from workbench.questions.strength.yielding import first_yield
 
 __all__ = ["Cell", "Decided", "Effort", "Mission", "WheelYield", "found_of", "mission_of", "wheel_yield"]
 
+_LARGEST = 1e12
 Decided = Literal["met", "not met", "undecided"]
 _SOLVED = ("fe", "ancf_wheel")
 """Tires that are the study's wheel, which yields as its solid model says."""
@@ -150,47 +152,89 @@ def _rounded(value: Any) -> Any:
 
 
 def mission_of(found: Mapping[str, Any]) -> Mission:
-    """The table of a record's ``found``; a run in which the study's wheel carries more than it yields at is not met."""
-    strength = found["wheel"]
+    """The table of a record's ``found``; a run in which the study's wheel carries more than it yields at is not met.
+
+    Raises
+    ------
+    ValueError, TypeError, LookupError
+        For what no record of ours holds: other tires or requirements, one tire asked less than another, other kinds of
+        values.
+    """
+    strength, runs = found["wheel"], found["runs"]
     wheel = None
     if strength is not None:
-        wheel = WheelYield(
-            load=float(strength["load_N"]), orientation_deg=float(strength["orientation_deg"]), part=strength["part"]
-        )
-    cells = [_with_strength(_cell(run), run, wheel) for run in found["runs"]]
-    between = {tire: Between(*map(float, one)) for tire, one in found["between"].items()}
-    return Mission(cells={(cell.tire, cell.scenario): cell for cell in cells}, wheel=wheel, between=between)
+        part = None if strength["part"] is None else _word(strength["part"])
+        load, orientation = _number(strength["load_N"]), _number(strength["orientation_deg"])
+        wheel = WheelYield(load=load, orientation_deg=orientation, part=part)
+    cells = {(run["tire"], run["scenario"]): _with_strength(_cell(run), run, wheel) for run in runs}
+    between = {tire: Between(*map(_number, one)) for tire, one in found["between"].items()}
+    tires, scenarios = ({key[k] for key in cells} for k in (0, 1))
+    if not cells or not {*tires, *between} <= set(MISSION_TIRES) or not scenarios <= set(MISSION):
+        raise ValueError("runs are those of the mission's requirements on its kinds of tire")
+    if not len(runs) == len(cells) == len(tires) * len(scenarios):
+        raise ValueError("every tire is asked the same requirements, each once")
+    return Mission(cells=cells, wheel=wheel, between=between)
+
+
+def _number(value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < _LARGEST:
+        raise TypeError(f"{value!r} is no number that a run has")
+    return float(value)
+
+
+def _word(value: object) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{value!r} is no word")
+    return value
+
+
+def _yes_or_no(value: object) -> bool:
+    if not isinstance(value, bool):
+        raise TypeError(f"{value!r} is neither true nor false")
+    return value
+
+
+def _outcome(one: Mapping[str, Any]) -> Outcome:
+    reference = one.get("reference")
+    return Outcome(
+        quantity=_word(one["quantity"]),
+        value=_number(one["value"]),
+        unit=_word(one["unit"]),
+        reference=None if reference is None else _number(reference),
+        limit=_number(one["limit"]),
+        at_least=_yes_or_no(one["at_least"]),
+    )
 
 
 def _cell(run: Mapping[str, Any]) -> Cell:
-    outcomes = [Outcome(**one) for one in run["outcomes"]]
+    outcomes = [_outcome(one) for one in run["outcomes"]]
     stopped, ends, least = run["stopped"], run.get("ends"), run.get("smallest_torque")
+    friction, confirmed = run.get("smallest_friction"), run.get("confirmed")
+    met = _yes_or_no(run["met"])
     cell = Cell(
         tire=run["tire"],
         scenario=run["scenario"],
-        decided="met" if run["met"] else "not met",
+        decided="met" if met else "not met",
         decides=tightest(outcomes) if outcomes else None,
-        load=max((row[2] for row in run.get("loads", ())), default=0.0),
+        load=max((_number(load) for _, _, load in run.get("loads", ())), default=0.0),
         unlimited=_effort(run) if "torque_Nm" in run else None,
         least=None if least is None else _effort(least),
-        friction=run.get("smallest_friction"),
-        confirmed=run.get("confirmed"),
+        friction=None if friction is None else _number(friction),
+        confirmed=None if confirmed is None else _yes_or_no(confirmed),
     )
-    if run["met"]:
+    if met:
         return cell
     if ends is None:
-        return replace(cell, decided="undecided", words=plainly(stopped or ""))
-    cause = str(ends["cause"])
-    where = f"at {ends['time']:.3g} s, after {ends['way']:.2f} m"
-    words = plainly(stopped) if stopped else f"ended by {_CAUSES[cause]} {where}"
-    decided: Decided = "undecided" if stopped else "not met"
-    return replace(cell, decided=decided, cause=cause, time=ends["time"], way=ends["way"], words=words)
+        return replace(cell, decided="undecided", words=plainly(_word(stopped or "")))
+    cause, time, way = _word(ends["cause"]), _number(ends["time"]), _number(ends["way"])
+    words = plainly(_word(stopped)) if stopped else f"ended by {_CAUSES[cause]} at {time:.3g} s, after {way:.2f} m"
+    decided: Decided = "undecided" if cause == "computation" else "not met"
+    return replace(cell, decided=decided, cause=cause, time=time, way=way, words=words)
 
 
 def _effort(run: Mapping[str, Any]) -> Effort:
-    return Effort(
-        torque=float(run["torque_Nm"]), power=float(run["power_W"]), energy=float(run["energy_J"]), way=run["way_m"]
-    )
+    torque, power, energy, way = (_number(run[name]) for name in ("torque_Nm", "power_W", "energy_J", "way_m"))
+    return Effort(torque=torque, power=power, energy=energy, way=way)
 
 
 def _with_strength(cell: Cell, run: Mapping[str, Any], wheel: WheelYield | None) -> Cell:
