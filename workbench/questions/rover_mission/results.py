@@ -228,7 +228,7 @@ def _cell(run: Mapping[str, Any]) -> Cell:
         return replace(cell, decided="undecided", words=plainly(_word(stopped or "")))
     cause, time, way = _word(ends["cause"]), _number(ends["time"]), _number(ends["way"])
     words = plainly(_word(stopped)) if stopped else f"ended by {_CAUSES[cause]} at {time:.3g} s, after {way:.2f} m"
-    decided: Decided = "undecided" if cause == "computation" else "not met"
+    decided: Decided = "undecided" if stopped else "not met"
     return replace(cell, decided=decided, cause=cause, time=time, way=way, words=words)
 
 
