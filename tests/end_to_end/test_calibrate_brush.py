@@ -50,11 +50,13 @@ def test_the_table_stands_beside_table_two(calibrated: Calibrated) -> None:
         rows = {row["parameter"]: row for row in csv.DictReader(file)}
     record = json.loads((folder / "study.kept" / "brush.json").read_text(encoding="utf-8"))
     assert record["command"] == " ".join(["workbench", *COMMAND])
-    for name, key in (("radial stiffness", "radial"), ("stiffness forwards, standing", "forward")):
+    for name, key in (("radial stiffness", "radial"), ("standing stiffness forwards", "forward")):
         assert float(rows[name]["wheel"]) == pytest.approx(record["found"][f"{key}_N_per_m"])
     assert [float(rows["radial stiffness"][one]) for one in ("table_ii", "ratio")] == pytest.approx(
         [8250.0, record["found"]["radial_N_per_m"] / 8250.0]
     )
+    assert len(rows) == len(record["found"]["table"]) == 14
+    assert all(None not in row for row in rows.values())
     assert (rows["contact length"]["wheel"], rows["contact length"]["unit"]) == ("", "m")
     assert 0.0 < record["found"]["forward_N_per_m"] < record["found"]["sideways_N_per_m"] < 275e3
 

@@ -123,8 +123,8 @@ def test_every_number_of_the_tire_has_its_line() -> None:
     """And what was not computed has none; the kept ones say so."""
     lines = {one.name: one for one in lines_beside_table_two(made())}
     assert lines["radial stiffness"].table == 8250.0
-    assert lines["stiffness forwards, standing"][2:4] == (pytest.approx(275e3), pytest.approx(2.8e3))
-    assert lines["stiffness sideways, standing"].ratio == pytest.approx(13.6 / 275.0)
+    assert lines["standing stiffness forwards"][2:4] == (pytest.approx(275e3), pytest.approx(2.8e3))
+    assert lines["standing stiffness sideways"].ratio == pytest.approx(13.6 / 275.0)
     assert lines["relaxation length sideways"].table == pytest.approx(0.1771, rel=1e-3)
     turned = lines["stiffness turned on the spot"]
     assert (turned.table, turned.wheel) == (None, pytest.approx(195.0))

@@ -144,8 +144,8 @@ def lines_beside_table_two(found: WheelBrush) -> tuple[Line, ...]:
         Line("radial stiffness", "N/m", a.radial_stiffness, b.radial_stiffness, f"load over mean deflection {at}"),
         Line("radial tangent stiffness", "N/m", a.radial_stiffness, found.tangent, f"{at}; not in the tire"),
         Line("radial damping", "N*s/m", a.radial_damping, b.radial_damping, _RUBS),
-        Line("stiffness forwards, standing", "N/m", bristles, found.carcass.forward, moved),
-        Line("stiffness sideways, standing", "N/m", bristles, found.carcass.sideways, moved),
+        Line("standing stiffness forwards", "N/m", bristles, found.carcass.forward, moved),
+        Line("standing stiffness sideways", "N/m", bristles, found.carcass.sideways, moved),
         Line(
             "stiffness turned on the spot",
             "N*m/rad",
