@@ -36,7 +36,8 @@ def test_the_kept_run_says_what_the_default_takes() -> None:
         assert shares[DEFAULT] < 5.0
     assert rows[PRINTED].traction[1] > 50.0
     assert all(row.deflection == pytest.approx(rows[NONE].deflection, rel=1e-3) for row in rows)
-    assert all(row.bounces < 30.0 for row in rows)
+    assert all(row.bounces < 50.0 for row in rows)
+    assert rows[PRINTED].bounces < rows[DEFAULT].bounces <= rows[NONE].bounces
 
 
 def test_shares_of_a_path_do_not_exceed_its_drives() -> None:
