@@ -132,13 +132,13 @@ class FlexibleSystem:
         z, z_rate = X @ instant.hub.z, X @ instant.hub.v
         return self.accelerated(q, v, (z, z_rate), self.known(t))
 
-    def at_rest_there(self, place: Instant, t: float) -> Instant:
-        """Another motion's coordinates at rest, with consistent accelerations at t [s].
+    def at_rest_there(self, place: Instant) -> Instant:
+        """Another motion's coordinates without velocities and accelerations; its vehicle may have weighed less.
 
-        Its vehicle may have weighed less.
+        Smoothed friction is none at rest: accelerations that follow from that would begin a slip of what it holds.
         """
-        tires = place.z, np.zeros_like(place.z)
-        return self.accelerated(place.q, np.zeros_like(place.v), tires, self.known(t))
+        still, none = np.zeros_like(place.v), np.zeros_like(place.z)
+        return self.instant((place.q, still, still), (place.z, none, none))
 
     def accelerated(self, q: FloatArray, v: FloatArray, tires: tuple[FloatArray, FloatArray], known: Known) -> Instant:
         """The instant with the accelerations that its forces cause.

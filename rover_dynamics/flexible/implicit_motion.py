@@ -139,7 +139,7 @@ class _Run:
         kept = None if self.checkpoint is None else self.checkpoint.read()
         if kept is None:
             t = float(self.times[0])
-            instant = self.system.at_rest(t) if start is None else self.system.at_rest_there(start, t)
+            instant = self.system.at_rest(t) if start is None else self.system.at_rest_there(start)
             now = StepEnd(instant=instant, A=instant.a, Z=instant.z_acceleration)
             return (t, self.steps.first, 0.0), now, [self.system.row(instant, t)]
         joints = kept["joints0"], kept["joints1"], kept["joints2"]

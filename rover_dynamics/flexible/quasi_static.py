@@ -11,8 +11,8 @@ first term is what the forces lack of balance. Each step's way is taken to last 
 little friction; at the end friction is what balance asks of it, and a wheel that it holds creeps, see
 `ancf_reduced.contact.law`.
 
-Deep in the flank of a rock a contact point has two nearest places on the ground, between which its force jumps: no
-iteration ends there. Such a step is taken where the change goes to and fro by less than a millimetre.
+A step's matrix is made once. Where contact points come and go its changes can go to and fro between two sets of them
+without end; such a step is taken where they are below a millimetre.
 
 Verified by tests/verification/test_rover_starts_at_rest.py.
 """
@@ -151,9 +151,8 @@ class _Way:
 
     def _still(self, place: Instant) -> StepEnd:
         """There without velocities and accelerations."""
-        zero, none = np.zeros_like(place.v), np.zeros_like(place.z)
-        instant = self._system.instant((place.q, zero, zero), (place.z, none, none))
-        return StepEnd(instant=instant, A=zero, Z=none)
+        instant = self._system.at_rest_there(place)
+        return StepEnd(instant=instant, A=instant.a, Z=instant.z_acceleration)
 
     def _stopped(self, what: str, now: Instant) -> ConvergenceError:
         words = "" if self._faults is None else f"; least volume has {self._faults(now)[0].removesuffix(',')}"
