@@ -18,6 +18,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ancf_reduced.contact.law import ContactLaw
+from ancf_reduced.tire.preset import thesis_preset
 from contracts.errors import ConvergenceError
 from rover_dynamics.flexible.flexible_system import FlexibleSystem, Instant
 from rover_dynamics.flexible.quasi_static import unbalanced
@@ -27,14 +29,14 @@ from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.parking import parked
 from rover_dynamics.rover.scenarios.scenario import Scenario, run_scenario
-from workbench.questions.rover.tires import AncfRide, on_ancf_tires
+from workbench.questions.rover.tires import AncfRide, contact_law, on_ancf_tires
 
 DESIGN = read_rover()
 TOLERANCE = 1e-3
 
 
-def straight(lasts: float = 0.2) -> Scenario:
-    return on_ancf_tires(replace(SCENARIOS["straight"], settles=1.0, lasts=lasts, every=0.1))
+def straight(law: ContactLaw | None = None) -> Scenario:
+    return on_ancf_tires(replace(SCENARIOS["straight"], settles=1.0, lasts=0.2, every=0.1), law=law)
 
 
 def at_rest(scenario: Scenario, design: RoverDesign = DESIGN) -> tuple[FlexibleSystem, Instant]:
@@ -53,7 +55,7 @@ def missing(system: FlexibleSystem, place: Instant) -> float:
 
 
 def test_level_ground_is_balanced_and_pressed_tires_are_not() -> None:
-    smooth = replace(straight(), friction=0.0)
+    smooth = straight(law=replace(contact_law(thesis_preset()), friction=0.0))
     system, place = at_rest(smooth)
     assert missing(system, place) < TOLERANCE
     load = system.tires.contacts(*system.whole(place)).load
