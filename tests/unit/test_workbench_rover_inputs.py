@@ -61,6 +61,7 @@ OTHER_ANCF = {
     "contact_stiffness": 1100.0,
     "contact_points": (9, 10),
     "contact_layout": "centres",
+    "contact_damping": "none",
     "quadrature": (4, 4, 2),
 }
 
