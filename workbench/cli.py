@@ -265,6 +265,7 @@ def rover(
         ),
     ] = None,
     rocks: Annotated[int | None, typer.Option(help="Seed of random rocks to drive on.", show_default=False)] = None,
+    walk: Annotated[bool, typer.Option("--walk", help="Walk by legs and drives, beside the driven run.")] = False,
     out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/rover"),
     store: StoreOption = DEFAULT_STORE,
     animate: Annotated[bool, typer.Option("--animate", help="Write a page that plays it; about a minute.")] = False,
@@ -281,6 +282,7 @@ def rover(
         terrain=terrain,
         start=start,
         rocks=rocks,
+        walk=walk,
         animate=animate,
     )
     raise typer.Exit(list_scenarios() if names else run_rover(scenario, out, choices, store))

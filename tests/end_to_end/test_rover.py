@@ -100,6 +100,16 @@ def test_the_list_names_every_scenario() -> None:
         assert name in ended.stdout
 
 
+def test_a_straight_path_is_walked_beside_the_driven_one(tmp_path: Path) -> None:
+    ended = run("rover", "straight", "--walk", "--tire", "rigid", "--out", tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    for text in ("walked instead", "energy of the deployment joints", "driven instead: way ahead"):
+        assert text in " ".join(ended.stdout.split())
+    series = read_series(tmp_path / "series" / "straight_walk_rigid.csv", "straight_walk", "rigid")
+    assert series["body_x_m"][-1] - series["body_x_m"][0] == pytest.approx(0.8, rel=1e-4)
+    assert series.time[-1] == 160.0
+
+
 def test_six_ancf_tires_carry_the_rover(tmp_path: Path) -> None:
     ended = run("rover", "static", "--tire", "ancf", "--out", tmp_path)
     assert ended.returncode == 0, ended.stderr
@@ -125,6 +135,8 @@ def test_six_ancf_tires_carry_the_rover(tmp_path: Path) -> None:
         (["straight", "--rocks", "-1"], "rock seed = -1"),
         (["straight", "--start", "1", "1"], "start = (1.0, 1.0) m"),
         (["step", "--rocks", "1"], "has a ground of its own"),
+        (["step", "--rocks", "1", "--walk"], "has a ground of its own"),
+        (["drop", "--walk"], "is not driven straight ahead; walk one of straight"),
     ],
 )
 def test_bad_input_is_one_message(tmp_path: Path, arguments: list[str], text: str) -> None:

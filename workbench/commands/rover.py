@@ -18,6 +18,7 @@ from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
 from rover_dynamics.rover.scenarios.ground import on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.walking import walked
 from workbench.commands.computing import read_and_warn, warn
 from workbench.commands.rover_tires import TireSource, check_tire, file_name, on_tires
 from workbench.execution.errors import RunError
@@ -54,6 +55,7 @@ class RoverChoices:
     terrain : file of a height field to drive on, or None
     start : where on it the rover starts, x and y in the file's coordinates [m]; None for its origin
     rocks : seed of random rocks to drive on, or None
+    walk : whether legs and drives walk it, see `rover_dynamics.rover.walking`
     animate : whether to write a page that plays the motion
     """
 
@@ -64,6 +66,7 @@ class RoverChoices:
     terrain: Path | None = None
     start: tuple[float, float] | None = None
     rocks: int | None = None
+    walk: bool = False
     animate: bool = False
 
 
@@ -169,8 +172,12 @@ def _chosen(name: str | None, choices: RoverChoices, store: Path) -> tuple[Scena
     warn(path, design.warnings)
     if choices.gravity is not None:
         design = replace(design, gravity=gravity_named(choices.gravity))
+    if choices.walk:
+        walked(scenario).actuators(design)  # what cannot walk is refused before its tires are computed
     study = None if choices.study is None else read_and_warn(choices.study)
     scenario = on_tires(scenario, choices.tire, TireSource(study=study, path=choices.study, store=store), design)
+    if choices.walk:
+        scenario = walked(scenario)
     return _on_ground(scenario, design, choices), design
 
 

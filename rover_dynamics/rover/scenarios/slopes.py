@@ -23,7 +23,7 @@ from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import largest_lean, stated
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, run_scenario
 
-__all__ = ["ALLOWED_LOSS", "SLOPES", "largest_passed", "velocity_loss"]
+__all__ = ["ALLOWED_LOSS", "SLOPES", "largest_passed", "steady", "velocity_loss"]
 
 REQUIRED = math.radians(25.0)
 ALLOWED_LOSS, LEAST_LOAD = 0.1, 0.1
@@ -52,6 +52,15 @@ def largest_passed(passes: Callable[[float], bool], low: float, high: float, wid
     return low
 
 
+def steady(run: ScenarioRun) -> tuple[Outcome, ...]:
+    """What every wheel must carry, and how far the body may lean."""
+    least, limit = float(run.loads.min()), LEAST_LOAD * run.design.static_load
+    return (
+        Outcome(quantity="smallest wheel load on the way", value=least, unit="N", limit=limit),
+        largest_lean(run, ALLOWED_LEAN),
+    )
+
+
 def _judge(run: ScenarioRun) -> tuple[Outcome, ...]:
     angle = math.degrees(run.scenario.tilt.angle)
     return (
@@ -62,13 +71,7 @@ def _judge(run: ScenarioRun) -> tuple[Outcome, ...]:
             limit=ALLOWED_LOSS,
             at_least=False,
         ),
-        Outcome(
-            quantity="smallest wheel load on the way",
-            value=float(run.loads.min()),
-            unit="N",
-            limit=LEAST_LOAD * run.design.static_load,
-        ),
-        largest_lean(run, ALLOWED_LEAN),
+        *steady(run),
         Outcome(quantity="speed ahead at the end", value=float(run.motion.velocities[-1, 0, 0]), unit="m/s"),
         Outcome(quantity="sideways drift", value=float(run.place[-1, 1] - run.place[0, 1]), unit="m"),
         *stated(run),
