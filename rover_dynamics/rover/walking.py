@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -121,9 +122,9 @@ def repeated(values: FloatArray, period: float, cycles: int) -> RepeatedLaw:
     """The law through values (n,) at equally spaced times of a period, both of its ends among them [rad]."""
     from scipy.interpolate import PPoly, make_interp_spline
 
-    rests = [(1, 0.0), (2, 0.0)]
-    spline = make_interp_spline(np.linspace(0.0, period, len(values)), values, k=5, bc_type=(rests, rests))
-    found = PPoly.from_spline(spline)
+    rests: Any = ([(1, 0.0), (2, 0.0)], [(1, 0.0), (2, 0.0)])
+    spline = make_interp_spline(np.linspace(0.0, period, len(values)), values, k=5, bc_type=rests)
+    found = PPoly.from_spline((spline.t, spline.c, spline.k))
     pieces = tuple(tuple(row) for row in found.c.T[np.diff(found.x) > 0.0].tolist())
     return RepeatedLaw(pieces=pieces, part=period / len(pieces), cycles=cycles, ahead=float(values[-1] - values[0]))
 
@@ -142,7 +143,7 @@ def walking_actuators(design: RoverDesign, gait: Gait, cycles: int) -> Actuators
     body, wheels = gait.ways(times, axles)
     pose = view.pose(wheels - body[:, None])
     turned = wheels * (1.0 + gait.overdrive) / design.wheel_radius - pose.arms
-    laws = {}
+    laws: dict[str, RepeatedLaw] = {}
     for joint, angles in (("deploy", pose.deployment), ("drive", turned)):
         for axle, column in zip(view.axles, angles.T, strict=True):
             law = repeated(column, gait.period, cycles)
