@@ -20,13 +20,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
-from rover_dynamics.multibody.motion_law import Turn
+from rover_dynamics.multibody.motion_law import MotionLaw, Turn
 from rover_dynamics.rover.planar_pose import side_view
 from rover_dynamics.rover.rover import Actuators
 from rover_dynamics.rover.rover_design import SIDES, RoverDesign
@@ -122,8 +121,9 @@ def repeated(values: FloatArray, period: float, cycles: int) -> RepeatedLaw:
     """The law through values (n,) at equally spaced times of a period, both of its ends among them [rad]."""
     from scipy.interpolate import PPoly, make_interp_spline
 
-    rests: Any = ([(1, 0.0), (2, 0.0)], [(1, 0.0), (2, 0.0)])
-    spline = make_interp_spline(np.linspace(0.0, period, len(values)), values, k=5, bc_type=rests)
+    rests = [(1, 0.0), (2, 0.0)]
+    times = np.linspace(0.0, period, len(values))
+    spline = make_interp_spline(times, values, k=5, bc_type=(rests, rests))  # type: ignore[arg-type]  # its stub's gap
     found = PPoly.from_spline((spline.t, spline.c, spline.k))
     pieces = tuple(tuple(row) for row in found.c.T[np.diff(found.x) > 0.0].tolist())
     return RepeatedLaw(pieces=pieces, part=period / len(pieces), cycles=cycles, ahead=float(values[-1] - values[0]))
@@ -143,7 +143,7 @@ def walking_actuators(design: RoverDesign, gait: Gait, cycles: int) -> Actuators
     body, wheels = gait.ways(times, axles)
     pose = view.pose(wheels - body[:, None])
     turned = wheels * (1.0 + gait.overdrive) / design.wheel_radius - pose.arms
-    laws: dict[str, RepeatedLaw] = {}
+    laws: dict[str, MotionLaw] = {}
     for joint, angles in (("deploy", pose.deployment), ("drive", turned)):
         for axle, column in zip(view.axles, angles.T, strict=True):
             law = repeated(column, gait.period, cycles)
