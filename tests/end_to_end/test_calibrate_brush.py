@@ -98,8 +98,8 @@ def test_numbers_of_another_wheel_are_not_driven_on(calibrated: Calibrated, tmp_
     ("arguments", "message"),
     [
         (("--model", "brush"), "has no hub that could be moved"),
-        (("--load", "0"), "load = 0 N: must be > 0"),
-        (("--load", "nan"), "must be > 0"),
+        (("--load", "0"), "load = 0 N: must lie between 0.1 N and fe.max_load, 300 N"),
+        (("--load", "nan"), "load = nan N: must lie between"),
     ],
 )
 def test_bad_input_ends_with_one_message(tmp_path: Path, arguments: tuple[str, ...], message: str) -> None:
