@@ -95,8 +95,8 @@ def _largest(system: FlexibleSystem, A: FloatArray, Z: FloatArray) -> float:
 def _weighing(vehicle: FlexibleVehicle, share: float) -> FlexibleVehicle:
     """The same under a share of its gravity."""
     body, model = vehicle.vehicle, vehicle.vehicle.model
-    x, y, z = model.gravity
-    return replace(vehicle, vehicle=replace(body, model=replace(model, gravity=(share * x, share * y, share * z))))
+    x, y, z = (share * float(g) for g in model.gravity)
+    return replace(vehicle, vehicle=replace(body, model=replace(model, gravity=(x, y, z))))
 
 
 class _Way:

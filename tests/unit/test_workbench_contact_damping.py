@@ -26,15 +26,16 @@ def test_the_laws_are_those_of_their_names() -> None:
 
 
 def test_the_kept_run_says_what_the_default_takes() -> None:
-    """Less than 5 % of the drives' power where the printed damping takes half; at rest all are alike."""
+    """Less than a tenth of the drives' power where the printed damping takes more than half; at rest all are alike."""
     rows = damping_rows()
     assert [row.law for row in rows] == list(LAWS)
     assert rows[NONE].straight[1] == rows[NONE].traction[1] == 0.0
     for path in ("straight", "traction"):
         shares = [getattr(row, path)[1] for row in rows]
         assert shares[NONE] < shares[DEFAULT] < shares[TENTH] < shares[PRINTED]
-        assert shares[DEFAULT] < 5.0
-    assert rows[PRINTED].traction[1] > 50.0
+        assert shares[DEFAULT] < 10.0
+        assert shares[PRINTED] > 50.0
+    assert rows[DEFAULT].traction[1] < 5.0
     assert all(row.deflection == pytest.approx(rows[NONE].deflection, rel=1e-3) for row in rows)
     assert all(row.bounces < 50.0 for row in rows)
     assert rows[PRINTED].bounces < rows[DEFAULT].bounces <= rows[NONE].bounces
