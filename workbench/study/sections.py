@@ -157,8 +157,7 @@ class AncfSection(Section):
     thesis_preset: StrictBool = False
     """True states that these are the thesis' numbers: the curve is then held against its known table."""
     contact_damping: ContactDamping | None = None
-    """Of a contact point under the rover: "hunt_crossley", in proportion to its penetration; "as_printed", the thesis'
-    constant c / k = 0.1 s; "none". Without it "as_printed" with thesis_preset, "hunt_crossley" on any other tire."""
+    """Of contact points under the rover: "hunt_crossley" (default), "as_printed" (with thesis_preset) or "none"."""
     surfaces: Annotated[str, Field(min_length=1)] | None = None
     """STEP file of the mid-surfaces of rim and spokes, in place of cylinder and planes; relative to the study file."""
 
