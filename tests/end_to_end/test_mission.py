@@ -52,7 +52,7 @@ def test_what_cannot_be_driven_is_one_message(tmp_path: Path) -> None:
         assert found.returncode == 2
         assert "tire of the mission = 'wood': is not known; give of rigid, brush" in found.stderr
     assert not (tmp_path / "own.kept").exists()
-    study.write_text(re.sub(r"(?m)^\[rover\]\n.*\n", "", small_study_text()), encoding="utf-8")
+    study.write_text(re.sub(r"(?m)^\[rover\]\n(?:[^\[\n].*\n)*", "", small_study_text()), encoding="utf-8")
     found = said("mission", study, "--tire", "brush")
     assert (found.returncode, "own.toml: [rover]: is missing" in found.stderr) == (2, True), found.stderr
 
