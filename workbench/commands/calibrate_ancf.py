@@ -119,7 +119,7 @@ def _values(tire: FittedTire[Fitted]) -> dict[str, object]:
     preset = asdict(tire.numbers.preset)
     values: dict[str, object] = {name: f"{1e3 * preset[name]:.7g} mm" for name in _LENGTHS}
     values |= {name: f"{preset[name]:.7g} {unit}" for name, unit in _UNITS.items()}
-    values |= {name: preset[name] for name in _COUNTS}
+    values |= {name: preset[name] for name in (*_COUNTS, "contact_damping")}
     return values | {"orientations": [f"{o:g} deg" for o in tire.numbers.orientations_deg], "thesis_preset": False}
 
 

@@ -82,16 +82,16 @@ def ancf_tire(study: Study) -> dict[str, Any]:
 def fit_start(study: Study, tire: FittedTireSection) -> TirePreset:
     """Where the fit of a tire begins: that of [ancf] with the fitted one's mesh and start.
 
-    The contact stiffness per area stays that of [ancf] unless the start says otherwise; a damping of the contact that
-    [ancf] does not state is that of tires other than the thesis'. Raises SectionInputError if
+    The contact stiffness per area stays that of [ancf] unless the start says otherwise; damping of the contact as
+    printed is that of the thesis' tire alone. Raises SectionInputError if
     the numbers do not fit together.
     """
-    own, section = ancf_preset(study), stated(study.ancf, "ancf")
+    own = ancf_preset(study)
     stiffness = own.contact_stiffness * own.circumferential_plates / tire.circumferential_plates
     changes: dict[str, Any] = {"contact_stiffness": stiffness} | tire.start.model_dump(exclude_none=True)
     changes["datum_radius"] = own.zero_radius  # a free outer radius does not move zero deflection
     changes |= {"spokes": tire.spokes, "circumferential_plates": tire.circumferential_plates}
-    changes["contact_damping"] = section.contact_damping or OF_OTHERS
+    changes["contact_damping"] = OF_OTHERS if own.contact_damping == AS_PRINTED else own.contact_damping
     return in_section("ancf_fit.tires", lambda: replace(own, **changes))
 
 

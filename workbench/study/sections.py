@@ -157,7 +157,7 @@ class AncfSection(Section):
     thesis_preset: StrictBool = False
     """True states that these are the thesis' numbers: the curve is then held against its known table."""
     contact_damping: ContactDamping | None = None
-    """Of contact points under the rover: "hunt_crossley" (default), "as_printed" (with thesis_preset) or "none"."""
+    """What damps a contact point under the rover; without it "as_printed" with thesis_preset, else "hunt_crossley"."""
     surfaces: Annotated[str, Field(min_length=1)] | None = None
     """STEP file of the mid-surfaces of rim and spokes, in place of cylinder and planes; relative to the study file."""
 
