@@ -23,7 +23,7 @@ from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import largest_lean, stated
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, run_scenario
 
-__all__ = ["ALLOWED_LOSS", "SLOPES", "largest_passed", "steady", "velocity_loss"]
+__all__ = ["ALLOWED_LOSS", "SLOPES", "largest_passed", "steady", "steepest", "velocity_loss"]
 
 REQUIRED = math.radians(25.0)
 ALLOWED_LOSS, LEAST_LOAD = 0.1, 0.1
@@ -78,19 +78,23 @@ def _judge(run: ScenarioRun) -> tuple[Outcome, ...]:
     )
 
 
-def _steepest(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
-    """The mission's requirement: the steepest slope that is driven, to a quarter of a degree."""
+def steepest(scenario: Scenario, design: RoverDesign, every: float, width: float) -> float:
+    """The steepest slope on which a scenario meets what is required [deg], to ``width``; samples ``every`` [s]."""
 
     def passes(degrees: float) -> bool:
         tilt = replace(scenario.tilt, angle=math.radians(degrees))
         try:
-            return run_scenario(replace(scenario, tilt=tilt, every=1.0), design).met
+            return run_scenario(replace(scenario, tilt=tilt, every=every), design).met
         except ConvergenceError:
             return False
 
-    steepest = largest_passed(passes, 0.0, 50.0, 0.2)
-    required = math.degrees(REQUIRED)
-    return (Outcome(quantity="steepest slope driven", value=steepest, unit="deg", limit=required),)
+    return largest_passed(passes, 0.0, 50.0, width)
+
+
+def _steepest(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
+    """The mission's requirement: the steepest slope that is driven, to a quarter of a degree."""
+    value = steepest(scenario, design, every=1.0, width=0.2)
+    return (Outcome(quantity="steepest slope driven", value=value, unit="deg", limit=math.degrees(REQUIRED)),)
 
 
 def _slope(name: str, words: str, heading: float) -> Scenario:

@@ -22,7 +22,7 @@ from rover_dynamics.rover.scenarios.level_ground import SPEED, straight_ahead
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import energy_of_drives
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
-from rover_dynamics.rover.scenarios.slopes import ALLOWED_LOSS, largest_passed, steady
+from rover_dynamics.rover.scenarios.slopes import ALLOWED_LOSS, steady, steepest
 from rover_dynamics.rover.walking import Gait, walking_actuators
 
 __all__ = ["WALKS", "deployment_speeds", "walked"]
@@ -132,15 +132,6 @@ def _driven_instead(_: Scenario, design: RoverDesign, driven: Scenario) -> tuple
 def _steepest(_: Scenario, design: RoverDesign, driven: Scenario, gait: Gait) -> tuple[Outcome, ...]:
     """The steepest slope that is walked, to half a degree, beside the steepest that is driven."""
     ways = (("steepest slope walked", walked(driven, gait)), ("driven instead: steepest slope", driven))
-    return tuple(Outcome(quantity=words, value=_largest_tilt(one, design), unit="deg") for words, one in ways)
-
-
-def _largest_tilt(scenario: Scenario, design: RoverDesign) -> float:
-    def passes(degrees: float) -> bool:
-        tilt = replace(scenario.tilt, angle=math.radians(degrees))
-        try:
-            return run_scenario(replace(scenario, tilt=tilt, every=0.5), design).met
-        except ConvergenceError:
-            return False
-
-    return largest_passed(passes, 0.0, 50.0, 0.5)
+    return tuple(
+        Outcome(quantity=words, value=steepest(one, design, every=0.5, width=0.5), unit="deg") for words, one in ways
+    )
