@@ -113,7 +113,7 @@ def test_a_run_beyond_the_wheels_yield_is_not_met() -> None:
     assert held([run("fe", "step")], strong).mission.cells["fe", "step"].decided == "met"
     cell = held([run("fe", "step")], weak).mission.cells["fe", "step"]
     assert (cell.decided, cell.cause, cell.time, cell.way) == ("not met", "strength", 6.0, 0.1)
-    assert cell.words == "ended by the wheel's strength at 6 s, after 0.10 m: 310 N, outer springs yields"
+    assert cell.words == "ended by the wheel's strength at 6 s, after 0.10 m: 310 N, beyond first yield (outer springs)"
     unknown = WheelYield(load=300.0, orientation_deg=0.0, part=None)
     assert held([run("fe", "step")], unknown).mission.cells["fe", "step"].decided == "met"
 
@@ -217,7 +217,7 @@ def test_the_section_tells_every_cell_and_the_searches() -> None:
         "make mission",
     ):
         assert words in short, words
-    assert "outer springs yields" in long
+    assert "beyond first yield (outer springs)" in long
     assert "333 J/m" in long
 
 

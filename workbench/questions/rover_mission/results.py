@@ -245,5 +245,6 @@ def _with_strength(cell: Cell, run: Mapping[str, Any], wheel: WheelYield | None)
         return cell
     time, way, load = beyond[0]
     part = wheel.part.replace("_", " ")
-    words = f"ended by the wheel's strength at {time:.3g} s, after {way:.2f} m: {load:.0f} N, {part} yields"
+    where = f"at {time:.3g} s, after {way:.2f} m" if time > 0.0 else "where it starts"
+    words = f"ended by the wheel's strength {where}: {load:.0f} N, beyond first yield ({part})"
     return replace(cell, decided="not met", cause="strength", time=time, way=way, words=words)
