@@ -1,9 +1,10 @@
 """One step of the generalised-alpha method for a vehicle on flexible tires, by Newton's method.
 
 The tires are condensed onto their hubs, see `linear_solves`, so that the linear system has the size of the joints. A
-matrix serves as long as the iterations it still needs cost less than another. Contact forces have kinks, between whose
-sides a fixed matrix can go to and fro without end: there only a share of each change is made. Verified by
-tests/verification/test_flexible_motion.py.
+matrix serves as long as the iterations it still needs cost less than another. Contact forces have kinks, and friction
+is nearly one where a point sticks: from either side Newton's method goes beyond the other without end. There only a
+share of each change is made, halved whenever a change turns back on the one before. Verified by
+tests/verification/test_flexible_motion.py and tests/unit/test_flexible_steps.py.
 """
 
 from __future__ import annotations
@@ -25,9 +26,11 @@ FloatArray = NDArray[np.float64]
 
 _WORTH = 5.0
 """Iterations still expected above which the matrix is made anew; it takes the time of as many."""
-_STALLED, _WORSE, _SHARE = 0.7, 2.0, 0.5
-"""With a new matrix: ratio of one change to the one before above which only a share is made, above which the step has
-failed, and the share."""
+_STALLED, _WORSE = 0.7, 2.0
+"""With a new matrix: ratio of one change to the one before above which only a share is made, and above which the step
+has failed."""
+_TURNED, _ONWARDS, _PATIENCE = 0.5, 1.5, 2
+"""Change of the share where a change turns back and where it does not, and how many times the iterations it may take."""
 _SAME = 0.01
 """Relative difference of two steps' lengths that may share a matrix."""
 _OLD = 0.1
@@ -96,15 +99,16 @@ class StepSolver:
         """As `step`; raises LinAlgError for a singular matrix."""
         system, earlier = self._system, (before.A, before.Z)
         A, Z = before.instant.a.copy(), before.instant.z_acceleration.copy()
-        last, fresh, share = np.inf, False, 1.0
-        for iteration in range(method.iterations):
+        last, fresh, share, former, most, iteration = np.inf, False, 1.0, np.zeros_like(Z), method.iterations, 0
+        while iteration < most:
             after = system.advanced(before.instant, earlier, (A, Z), known, (dt, method))
             if not np.isfinite(after.z).all():
                 break
             residual = system.residual(after, known)
             if self._matrix is None or not self._matrix.serves(dt, method):
                 fresh = self._linearise(after, dt, method)
-            size = dt * dt * self._correct(after, residual, (A, Z), share)
+            largest, change = self._correct(after, residual, (A, Z), share)
+            size = dt * dt * largest
             if size < method.tolerance * (1.0 if iteration or fresh else _OLD):
                 after = system.advanced(before.instant, earlier, (A, Z), known, (dt, method))
                 error = method.error * dt * dt * self._largest(A - before.A, Z - before.Z)
@@ -112,11 +116,12 @@ class StepSolver:
             if not np.isfinite(size) or (fresh and iteration > 2 and size > _WORSE * last):
                 break
             if fresh and size > _STALLED * last:
-                share = _SHARE
+                turned, most = np.vdot(change, former) < 0.0, _PATIENCE * method.iterations
+                share = _TURNED * share if turned else min(1.0, _ONWARDS * share)
             if not fresh and _left(size, last, method.tolerance) > _WORTH:
                 fresh = self._linearise(after, dt, method)
                 size = np.inf
-            last = size
+            last, former, iteration = size, change, iteration + 1
         return None, np.inf
 
     def _largest(self, A: FloatArray, Z: FloatArray) -> float:
@@ -133,8 +138,10 @@ class StepSolver:
         self.linearisations += 1
         return True
 
-    def _correct(self, after: Instant, residual: Residual, of: tuple[FloatArray, FloatArray], share: float) -> float:
-        """A share of Newton's change of A and Z, made in place; largest entry of the whole change."""
+    def _correct(
+        self, after: Instant, residual: Residual, of: tuple[FloatArray, FloatArray], share: float
+    ) -> tuple[float, FloatArray]:
+        """A share of Newton's change of A and Z, made in place; largest entry of the whole change, and that of Z."""
         A, Z = of
         assert self._matrix is not None
         tires, system, R, J = self._matrix.tires, self._system, self._system.axes(after), after.J
@@ -155,7 +162,7 @@ class StepSolver:
         A += share * change
         Z += share * of_tires
         self.iterations += 1
-        return self._largest(change, of_tires)
+        return self._largest(change, of_tires), of_tires
 
 
 def _left(size: float, last: float, goal: float) -> float:
