@@ -30,7 +30,7 @@ _STALLED, _WORSE = 0.7, 2.0
 """With a new matrix: ratio of one change to the one before above which only a share is made, and above which the step
 has failed."""
 _TURNED, _ONWARDS, _PATIENCE = 0.5, 1.5, 2
-"""Change of the share where a change turns back and where it does not, and how many times the iterations it may take."""
+"""Change of the share where a change turns back and where it does not; factor of the iterations allowed there."""
 _SAME = 0.01
 """Relative difference of two steps' lengths that may share a matrix."""
 _OLD = 0.1
