@@ -152,7 +152,6 @@ def _fields(folder: Path) -> Mapping[float, Path]:
 
 
 def _increments(folder: Path) -> list[IncrementRecord]:
-    from workbench.execution.result_files import read_result
+    from workbench.execution.result_files import increments_of, read_result
 
-    records = read_result(folder)["increments"]
-    return [IncrementRecord(**{**one, "residuals": tuple(one["residuals"])}) for one in records]
+    return list(increments_of(read_result(folder)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import math
 import re
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -19,7 +20,7 @@ from contracts.errors import ConvergenceError, IncrementRecord, InputError, Stud
 from contracts.records import Check, Timing
 from tests.small_report_folder import write_small_report
 from workbench.execution import runner
-from workbench.execution.result_files import FAILURE, write_result
+from workbench.execution.result_files import FAILURE, increment_rows, write_result
 from workbench.execution.store import Store
 from workbench.execution.task import task_keys
 from workbench.questions.curve_graph import stiffness_tasks
@@ -62,8 +63,10 @@ def stored(study: ww.Study, root: Path, angles: tuple[float, ...], failure: str 
                 partial=bool(failure),
             )
             write_curve(curve, folder / "curve.csv")
-            record = IncrementRecord(target=0.04, step=0.01, converged=False, residuals=(1.0, 0.5))
-            write_result(folder, {FAILURE: failure, "increments": [asdict(record)]})
+            record = IncrementRecord(
+                target=0.04, step=0.01, converged=False, residuals=(1.0, math.inf)
+            )  # a refused iterate
+            write_result(folder, {FAILURE: failure, "increments": increment_rows([record])})
             (folder / "fields_200N.vtu").write_text("fields", encoding="utf-8")
         store.put(keys[task.name], folder, {"task": task.name, "wall_s": 1.0})
 
@@ -194,7 +197,7 @@ def test_a_partial_curve_is_an_error_that_holds_it(study: ww.Study, tmp_path: Pa
     assert isinstance(curve, ww.Curve)
     assert curve.partial
     assert curve.deflection[-1] == 0.04
-    assert [record.residuals for record in raised.value.history] == [(1.0, 0.5)]
+    assert [record.residuals for record in raised.value.history] == [(1.0, math.inf)]  # a refused iterate
 
 
 @pytest.fixture

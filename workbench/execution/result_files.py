@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
+
+from contracts.errors import IncrementRecord
 
 __all__ = [
     "FAILURE",
     "RESULT",
     "UNSTABLE",
     "early_ends",
+    "increment_rows",
+    "increments_of",
     "losses_of_stability",
     "read_record",
     "read_result",
@@ -42,6 +48,21 @@ def read_record[Record](folder: Path, kind: type[Record]) -> Record:
     from pydantic import TypeAdapter
 
     return TypeAdapter(kind).validate_python(read_result(folder))
+
+
+def increment_rows(records: Iterable[IncrementRecord]) -> list[dict[str, Any]]:
+    """Attempts as JSON values; null is the residual of an iterate that was refused and has none."""
+    return [
+        asdict(one) | {"residuals": [value if math.isfinite(value) else None for value in one.residuals]}
+        for one in records
+    ]
+
+
+def increments_of(result: Mapping[str, Any]) -> tuple[IncrementRecord, ...]:
+    """The attempts among a task's numbers; none where it made none."""
+    rows = result.get("increments", ())
+    refused = ((math.inf if value is None else value for value in row["residuals"]) for row in rows)
+    return tuple(IncrementRecord(**row | {"residuals": tuple(r)}) for row, r in zip(rows, refused, strict=True))
 
 
 def early_ends(folders: Mapping[str, Path]) -> dict[str, str]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from contracts.curves import Around, StiffnessCurve, average_curve, read_curve
 from contracts.errors import IncrementRecord
-from workbench.execution.result_files import FAILURE, UNSTABLE, read_result
+from workbench.execution.result_files import FAILURE, UNSTABLE, increments_of, read_result
 
 __all__ = [
     "CURVE",
@@ -67,12 +67,11 @@ class RunNumbers:
 def read_run(folder: Path) -> RunNumbers:
     """Numbers of the run whose task filled a folder."""
     found = read_result(folder)
-    rows = [row | {"residuals": tuple(row["residuals"])} for row in found.get("increments", ())]
     return RunNumbers(
         dofs=found.get("dofs", 0),
         cells=found.get("cells", 0),
         solve_s=found.get("solve_s", 0.0),
-        increments=tuple(IncrementRecord(**row) for row in rows),
+        increments=increments_of(found),
         failure=found.get(FAILURE),
         unstable=found.get(UNSTABLE),
         flexible_mass=found.get("flexible_mass_kg", math.nan),

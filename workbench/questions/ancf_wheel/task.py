@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +18,7 @@ from ancf_reduced.wheel.stress import largest_spring_stress
 from contracts.curves import StiffnessCurve, write_curve
 from contracts.errors import ConvergenceError, IncrementRecord
 from contracts.travel_curve import WRENCH
-from workbench.execution.result_files import FAILURE, UNSTABLE, write_result
+from workbench.execution.result_files import FAILURE, UNSTABLE, increment_rows, write_result
 from workbench.questions.ancf_wheel.ground import terrain_of
 from workbench.questions.model_curves import CURVE
 from workbench.study.wheel_design import design_from
@@ -66,7 +65,7 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
         "dofs": wheel.basis.shape[1],
         "cells": len(wheel.plates.plates),
         "solve_s": time.perf_counter() - start,
-        "increments": [asdict(record) for record in history],
+        "increments": increment_rows(history),
         FAILURE: failure,
         UNSTABLE: _does_not_stand(problem, states),
     }

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +15,7 @@ from ancf_reduced.wheel.static import Equilibrium, WheelOnGround, press
 from contracts.errors import ConvergenceError, IncrementRecord
 from contracts.hub_travel import HubTravel
 from contracts.travel_curve import TravelCurve, write_travel
-from workbench.execution.result_files import FAILURE, write_result
+from workbench.execution.result_files import FAILURE, increment_rows, write_result
 from workbench.questions.ancf_wheel.task import wrench_columns
 from workbench.questions.travel_start import TRAVEL, approach, hub_travel
 from workbench.study.wheel_design import design_from
@@ -54,7 +53,7 @@ def solve_travel(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path
         "dofs": wheel.basis.shape[1],
         "cells": len(wheel.plates.plates),
         "solve_s": time.perf_counter() - start,
-        "increments": [asdict(record) for record in history],
+        "increments": increment_rows(history),
         FAILURE: failure,
     }
     write_result(out, numbers)

@@ -6,7 +6,6 @@ Verified by tests/end_to_end/test_report.py.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +19,7 @@ from reference_fe.contact.obstacle import ContactMethod
 from reference_fe.material.hyperelastic import MaterialLaw
 from reference_fe.solver.newton import NewtonSettings
 from reference_fe.wheel.pressed import FieldSnapshot, WheelLoadCase, WheelResult, solve_wheel
-from workbench.execution.result_files import FAILURE, write_result
+from workbench.execution.result_files import FAILURE, increment_rows, write_result
 from workbench.questions.fe.field_file import POINTS_FILE, write_fields, write_points
 from workbench.questions.fe.ground import obstacle_of
 from workbench.questions.wheel.mesh_file import MESH, read_mesh
@@ -61,7 +60,7 @@ def solve_orientation(
         "dofs": result.dofs,
         "solve_s": result.wall_s,
         "cells": len(mesh.cells),
-        "increments": [asdict(record) for record in result.increments],
+        "increments": increment_rows(result.increments),
         FAILURE: failure,
         "snapshots": [{"load_N": s.load, "deflection_m": s.deflection} for s in result.snapshots],
     }

@@ -6,7 +6,7 @@ Verified by tests/end_to_end/test_travel.py.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,7 @@ from contracts.hub_travel import HubTravel
 from contracts.materials import Material
 from contracts.travel_curve import WRENCH, TravelCurve, write_travel
 from reference_fe.wheel.pressed import WheelResult, solve_wheel
-from workbench.execution.result_files import FAILURE, write_result
+from workbench.execution.result_files import FAILURE, increment_rows, write_result
 from workbench.questions.fe.task import converged_part, load_case
 from workbench.questions.travel_start import TRAVEL, approach, hub_travel
 from workbench.questions.wheel.mesh_file import MESH, read_mesh
@@ -52,7 +52,7 @@ def solve_travel(
         "dofs": result.dofs,
         "solve_s": result.wall_s,
         "cells": len(mesh.cells),
-        "increments": [asdict(record) for record in result.increments],
+        "increments": increment_rows(result.increments),
         FAILURE: failure,
     }
     write_result(out, numbers)

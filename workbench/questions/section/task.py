@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,7 @@ from contracts.curves import write_curve
 from contracts.mesh import TaggedMesh
 from geometry.planar import build_planar_mesh
 from reference_fe.wheel.section import solve_section
-from workbench.execution.result_files import FAILURE, write_result
+from workbench.execution.result_files import FAILURE, increment_rows, write_result
 from workbench.questions.fe.task import converged_part, load_case
 from workbench.study.wheel_design import design_from
 
@@ -40,7 +39,7 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
         "dofs": result.dofs,
         "solve_s": result.wall_s,
         "cells": len(mesh.cells),
-        "increments": [asdict(record) for record in result.increments],
+        "increments": increment_rows(result.increments),
         FAILURE: failure,
     }
     write_result(out, numbers)
