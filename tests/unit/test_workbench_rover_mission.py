@@ -51,8 +51,10 @@ def run(tire: str, scenario: str, **values: Any) -> dict[str, Any]:
 
 
 def held(runs: list[dict[str, Any]], wheel: WheelYield | None = None, state: Any = "current") -> HeldMission:
-    between = {"fe": Between(17.5, 0.005, -0.023)} if runs[0]["tire"] == "fe" else {}
-    found = json.loads(json.dumps(found_of(runs, wheel, between)))
+    on_fe = runs[0]["tire"] == "fe"
+    between = {"fe": Between(17.5, 0.005, -0.023)} if on_fe else {}
+    rock = Between(15.0, 0.03, 0.032) if on_fe else None
+    found = json.loads(json.dumps(found_of(runs, wheel, between, rock)))
     record = Kept(
         command="make mission", inputs="", sources="", date="2026-11-27T10:00", machine="", wall_s=60.0, found=found
     )
@@ -175,6 +177,7 @@ def test_checks_count_requirements_and_a_stale_record_decides_nothing() -> None:
         "rover_mission.ancf": "undecided",
         "rover_mission.torque": "fail",
         "rover_mission.between_fe": "fail",
+        "rover_mission.rock": "pass",
     }
     assert checks["rover_mission.torque"].value == pytest.approx(5.0 / 6.0)
     assert {check.role for check in checks.values()} == {"finding"}
@@ -278,6 +281,7 @@ def test_what_decides_is_what_is_not_met_or_nearest_to_its_limit() -> None:
         (("wheel", "part"), 5),
         (("between",), {"wood": [1.0, 2.0, 3.0]}),
         (("between", "fe"), [1.0, 2.0]),
+        (("rock",), [1.0, 2.0]),
         (("runs",), []),
         (("runs", 0, "tire"), "wood"),
         (("runs", 0, "tire"), None),
@@ -304,7 +308,8 @@ def test_a_record_that_no_mission_writes_is_not_understood(place: tuple[str | in
         run("brush", "step", smallest_torque=least, smallest_friction=0.6),
         run("fe", "step", met=False, ends=ends, outcomes=[]),
     ]
-    found = json.loads(json.dumps(found_of(runs, replace_load(280.0), {"fe": Between(17.5, 0.005, -0.023)})))
+    apart = Between(17.5, 0.005, -0.023)
+    found = json.loads(json.dumps(found_of(runs, replace_load(280.0), {"fe": apart}, apart)))
     assert mission_of(found).tires == ["brush", "fe"]
     inside = found
     for key in place[:-1]:

@@ -21,9 +21,12 @@ from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_brush import carcass_of
 from workbench.questions.models.wheel_curves import curves_around, largest_between, on_solved_tires
 from workbench.questions.models.wheel_tasks import (
+    ROCK_RADIUS,
     between_steps,
     deep_tasks,
     orientations_to_solve,
+    rock_name,
+    rock_tasks,
     solved_tire,
     where_it_moves,
 )
@@ -105,6 +108,24 @@ def test_between_its_curves_a_tire_is_held_against_curves_solved_apart(tmp_path:
     found = largest_between(values, folders, apart, (20.0, 250.0))
     assert (found.orientation_deg, found.difference) == (17.5, pytest.approx(1.0 / 1.03 - 1.0, abs=2e-3))
     assert largest_between(values, folders, apart, (900.0, 999.0)).difference == 0.0
+
+
+def test_on_a_half_round_the_same_wheel_is_solved_under_names_of_its_own() -> None:
+    study = read_study(built_in_study())
+    plane = {task.name: task for task in solved_tire(study, "fe")[1]}
+    mesh, *curves = rock_tasks(study, 250.0)
+    assert mesh == plane["mesh"]
+    assert [task.name for task in curves] == [rock_name(one) for one in where_it_moves(study)[::2]]
+    assert not {task.name for task in curves} & set(plane)
+    for task in curves:
+        flat = plane[task.name.replace("rock", "deep")].inputs
+        assert task.inputs["obstacle"] == {
+            "shape": "half_round_rock",
+            "radius": ROCK_RADIUS,
+            "position": 0.0,
+            "yaw": 0.0,
+        }
+        assert {name for name in flat if flat[name] != task.inputs[name]} == {"obstacle", "deflections", "max_load"}
 
 
 def test_curves_of_other_ground_are_refused() -> None:

@@ -10,7 +10,7 @@ import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from contracts.curves import read_curve
+from contracts.curves import StiffnessCurve, read_curve
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.progress import RunDisplay
 from workbench.execution.result_files import early_ends, read_result
@@ -20,8 +20,8 @@ from workbench.execution.terminal import empty_table
 from workbench.questions.kept import keep, require_place
 from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_curves import curves_around, largest_between
-from workbench.questions.models.wheel_tasks import Between, between_steps, solved_tire
-from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_name, mission_tasks
+from workbench.questions.models.wheel_tasks import Between, between_steps, rock_name, solved_tire, where_it_moves
+from workbench.questions.rover_mission.graph import COMPARED, MISSION_TIRES, mission_task_name, mission_tasks
 from workbench.questions.rover_mission.question import RECORD, TIRE_WORDS
 from workbench.questions.rover_mission.requirements import MISSION, TITLES
 from workbench.questions.rover_mission.results import Cell, Mission, WheelYield, found_of, mission_of, wheel_yield
@@ -31,9 +31,6 @@ from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study
 
 __all__ = ["run_mission"]
-
-_LOADS = (20.0, 250.0)
-"""Between which curves are compared [N]."""
 
 
 def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, computing: Computing) -> int:
@@ -62,19 +59,23 @@ def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, comp
 
 def _of_wheel(
     study: Study, tires: Sequence[str], folders: Mapping[str, Path]
-) -> tuple[WheelYield | None, dict[str, Between]]:
-    """Where the wheel yields, if its solid model is asked; what its tires miss half way between their orientations."""
-    between, wheel = {}, None
+) -> tuple[WheelYield | None, dict[str, Between], Between | None]:
+    """Where the wheel yields, if its solid model is asked, what its tires miss half way between their orientations, and
+    what the tangent plane misses on a half-round."""
+    between, wheel, rock = {}, None, None
     for tire in (one for one in ("fe", "ancf_wheel") if one in tires):
         values = solved_tire(study, tire)[0]
         if tire == "fe":
             wheel = wheel_yield(curves_around(values, folders), yield_strengths(study))
-        halves = [
-            read_curve(folders[orientation_name(tire, one)] / CURVE, model=tire, orientation_deg=one)
-            for one in between_steps(study)
-        ]
-        between[tire] = largest_between(values, folders, halves, _LOADS)
-    return wheel, between
+            rocks = {one: folders[rock_name(one)] for one in where_it_moves(study)[::2]}
+            rock = largest_between(values, folders, _curves(tire, rocks), COMPARED)
+        halves = {one: folders[orientation_name(tire, one)] for one in between_steps(study)}
+        between[tire] = largest_between(values, folders, _curves(tire, halves), COMPARED)
+    return wheel, between, rock
+
+
+def _curves(model: str, folders: Mapping[float, Path]) -> list[StiffnessCurve]:
+    return [read_curve(folder / CURVE, model=model, orientation_deg=one) for one, folder in folders.items()]
 
 
 def _again(study_path: Path | None, tires: tuple[str, ...]) -> str:

@@ -14,23 +14,29 @@ from contracts.hub_travel import Way
 from workbench.execution.task import Task
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.fe.foresight import foreseen
-from workbench.questions.fe.graph import without_end
+from workbench.questions.fe.graph import without_end, without_fields
 from workbench.questions.travels import WORKING_LOAD, travel_name, travel_tasks
+from workbench.study.contact import RockSection
 from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.wheel_design import wheel_design
 
 __all__ = [
+    "ROCK_RADIUS",
     "Between",
     "between_steps",
     "deep_name",
     "deep_tasks",
     "orientations_to_solve",
+    "rock_name",
+    "rock_tasks",
     "solved_tire",
     "where_it_moves",
 ]
 
+ROCK_RADIUS = 0.02
+"""Of the half-round below the hub on which a tire's equivalent plane is tried [m]."""
 _MOVED, _BETWEEN, _DEEPER, _ROOM, _APART = 4, 8, 1.4, 0.6, 8.0
 
 
@@ -113,6 +119,28 @@ def between_steps(study: Study) -> list[float]:
     steps = steps_around(study)
     half = 0.5 * (steps[1] - steps[0]) if len(steps) > 1 else 0.5 * rotational_period(study)
     return [one + half for one in steps[:: max(1, len(steps) // _BETWEEN)]]
+
+
+def rock_tasks(study: Study, most: float) -> tuple[Task, ...]:
+    """The solid model on a half-round of `ROCK_RADIUS` under the hub, up to a load [N], at two orientations.
+
+    Its axis is the wheel's: the tire has the half-round's tangent plane there, see `rover_dynamics.tires.brush_edges`.
+    """
+    rock = RockSection(shape="half_round_rock", radius=ROCK_RADIUS)
+    on_it = study.model_copy(update={"fe": study.fe.model_copy(update={"obstacle": rock})})
+    tasks = []
+    for task in stiffness_tasks(on_it, "fe", where_it_moves(study)[::2]):
+        if "deflections" in task.inputs:
+            inputs = without_fields(task.inputs) | {"max_load": most}
+            tasks.append(replace(task, name=rock_name(task.inputs["orientation_deg"]), inputs=inputs))
+        else:
+            tasks.append(task)
+    return foreseen(tasks)
+
+
+def rock_name(orientation_deg: float) -> str:
+    """Name of the task on the half-round."""
+    return orientation_name("fe_rock", orientation_deg)
 
 
 def where_it_moves(study: Study) -> list[float]:

@@ -9,17 +9,19 @@ from contracts.errors import InputError
 from workbench.execution.task import Task
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.models.driving_brush import driving_inputs
-from workbench.questions.models.wheel_tasks import between_steps, solved_tire
+from workbench.questions.models.wheel_tasks import between_steps, rock_tasks, solved_tire
 from workbench.questions.rover_mission.requirements import MISSION
 from workbench.study.model import Study
 from workbench.study.model_parameters import fits_rover, rover_ancf, rover_on_ancf, rover_on_brush, rover_radius
 
-__all__ = ["MISSION_TIRES", "SEARCHED", "mission_task_name", "mission_tasks"]
+__all__ = ["COMPARED", "MISSION_TIRES", "SEARCHED", "mission_task_name", "mission_tasks"]
 
 MISSION_TIRES = ("rigid", "brush", "fe", "ancf_wheel", "ancf")
 """As on the command line of ``workbench rover``."""
 SEARCHED = ("brush", "fe")
 """Tires on which smallest torque and friction are searched; with the last one's torque ``ancf_wheel`` is tried."""
+COMPARED = (20.0, 250.0)
+"""Loads between which a tire is held against curves solved apart [N]."""
 _COSTS = {"rigid": 3.0, "brush": 40.0, "fe": 60.0, "ancf_wheel": 10.0, "ancf": 40.0}
 
 
@@ -51,6 +53,8 @@ def mission_tasks(study: Study, tires: Sequence[str] = MISSION_TIRES) -> tuple[T
         if tire in ("fe", "ancf_wheel"):
             own["wheel"], tasks = solved_tire(study, tire)
             before |= {task.name: task for task in (*tasks, *stiffness_tasks(study, tire, between_steps(study)))}
+            if tire == "fe":
+                before |= {task.name: task for task in rock_tasks(study, COMPARED[1])}
             needs = tuple(sorted({name for *_, name in (*own["wheel"]["curves"], *own["wheel"]["travels"])}))
         elif tire == "brush":
             own |= driving_inputs(study)

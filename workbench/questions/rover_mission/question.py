@@ -12,7 +12,7 @@ from pathlib import Path
 
 from contracts.records import Check
 from workbench.questions.kept import Kept, State, kept
-from workbench.questions.models.wheel_tasks import Between
+from workbench.questions.models.wheel_tasks import ROCK_RADIUS, Between
 from workbench.questions.question import Question
 from workbench.questions.rover_mission.graph import mission_tasks
 from workbench.questions.rover_mission.requirements import MISSION, MISSION_SOURCE, TITLES
@@ -23,7 +23,7 @@ from workbench.verdict.rules import Claim, at_least, at_most
 __all__ = ["RECORD", "ROVER_MISSION", "TIRE_WORDS", "HeldMission"]
 
 RECORD = "mission"
-_BETWEEN = 0.01
+_BETWEEN, _ROCK = 0.01, 0.05
 """Of the load, ours [-]."""
 TIRE_WORDS = {
     "rigid": "rigid wheels",
@@ -75,6 +75,7 @@ def _checks(study: Study, results: HeldMission) -> Sequence[Check]:
         tried = mission.tried
         checks.append(at_least(claim, lambda: sum(bool(one.confirmed) for one in tried) / len(tried), 1.0))
     checks += [_between(tire, one) for tire, one in mission.between.items()]
+    checks += [] if mission.rock is None else [_on_rock(mission.rock)]
     if results.state != "stale":
         return checks
     why = "the kept record is of another study"
@@ -91,6 +92,18 @@ def _between(tire: str, found: Between) -> Check:
         source="the same model solved there",
     )
     return at_most(claim, lambda: abs(found.difference), _BETWEEN)
+
+
+def _on_rock(found: Between) -> Check:
+    claim = Claim(
+        id="rover_mission.rock",
+        title=f"Tire of {TIRE_WORDS['fe']}: load on a half-round of {1e3 * ROCK_RADIUS:g} mm by its tangent plane",
+        quantity="difference",
+        unit="-",
+        role="finding",
+        source="the same model solved on the half-round",
+    )
+    return at_most(claim, lambda: abs(found.difference), _ROCK)
 
 
 def _of_tire(mission: Mission, tire: str) -> Check:

@@ -97,11 +97,13 @@ class Cell:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Mission:
     """All cells by tire and scenario; where the wheel yields, or None where no solid model was asked; by tire where its
-    load differs most from curves solved apart, half way between those it goes through."""
+    load differs most from curves solved apart, half way between those it goes through; the same of the tire by the
+    solid model on a half-round, where a plane stands for it."""
 
     cells: Mapping[tuple[str, str], Cell]
     wheel: WheelYield | None
     between: Mapping[str, Between]
+    rock: Between | None
 
     @property
     def tires(self) -> list[str]:
@@ -132,14 +134,18 @@ def wheel_yield(curves: Sequence[StiffnessCurve], strengths: Mapping[str, float]
 
 
 def found_of(
-    results: Iterable[Mapping[str, Any]], wheel: WheelYield | None, between: Mapping[str, Between]
+    results: Iterable[Mapping[str, Any]],
+    wheel: WheelYield | None,
+    between: Mapping[str, Between],
+    rock: Between | None,
 ) -> dict[str, Any]:
     """The record of what tasks found, JSON values."""
     strength = (
         None if wheel is None else {"load_N": wheel.load, "orientation_deg": wheel.orientation_deg, "part": wheel.part}
     )
     steps = {tire: list(one) for tire, one in between.items()}
-    return {"wheel": strength, "between": _rounded(steps), "runs": [_rounded(dict(one)) for one in results]}
+    apart = {"between": _rounded(steps), "rock": None if rock is None else _rounded(list(rock))}
+    return {"wheel": strength, **apart, "runs": [_rounded(dict(one)) for one in results]}
 
 
 def _rounded(value: Any) -> Any:
@@ -168,12 +174,13 @@ def mission_of(found: Mapping[str, Any]) -> Mission:
         wheel = WheelYield(load=load, orientation_deg=orientation, part=part)
     cells = {(run["tire"], run["scenario"]): _with_strength(_cell(run), run, wheel) for run in runs}
     between = {tire: Between(*map(_number, one)) for tire, one in found["between"].items()}
+    rock = Between(*map(_number, on_rock)) if (on_rock := found.get("rock")) is not None else None
     tires, scenarios = ({key[k] for key in cells} for k in (0, 1))
     if not cells or not {*tires, *between} <= set(MISSION_TIRES) or not scenarios <= set(MISSION):
         raise ValueError("runs are those of the mission's requirements on its kinds of tire")
     if not len(runs) == len(cells) == len(tires) * len(scenarios):
         raise ValueError("every tire is asked the same requirements, each once")
-    return Mission(cells=cells, wheel=wheel, between=between)
+    return Mission(cells=cells, wheel=wheel, between=between, rock=rock)
 
 
 def _number(value: object) -> float:
