@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from tests.end_to_end.small_study import command, environment, run
 
@@ -25,6 +26,7 @@ def _kept(folder: Path) -> list[Path]:
     return [path for path in (folder / "store").glob("checkpoints/*.npz") if not path.name.startswith(".")]
 
 
+@pytest.mark.long
 def test_it_goes_on_and_writes_the_same_bytes(tmp_path: Path) -> None:
     killed, whole = tmp_path / "killed", tmp_path / "whole"
     process = subprocess.Popen(

@@ -85,6 +85,7 @@ def test_a_requirement_is_shown_with_its_margin(tmp_path: Path) -> None:
     assert "met" in row
 
 
+@pytest.mark.long
 def test_a_motion_can_be_played(tmp_path: Path) -> None:
     ended = run("rover", "static", "--animate", "--out", tmp_path)
     assert ended.returncode == 0, ended.stderr

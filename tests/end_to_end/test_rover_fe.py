@@ -31,6 +31,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_at_rest_every_wheel_is_on_its_curve_and_on_the_way_the_rover_is_carried(folder: Path) -> None:
     """The brake holds position 0 down: load and deflection are a point of that curve."""
     where = ("--out", "o", "--store", "s")

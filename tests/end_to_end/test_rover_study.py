@@ -64,6 +64,7 @@ def test_friction_of_the_ground_bounds_the_traction_on_a_slope(tmp_path: Path, t
     assert 15.0 < steepest < math.degrees(math.atan(0.3))
 
 
+@pytest.mark.long
 def test_the_ancf_tire_is_the_studys(tmp_path: Path) -> None:
     """Twice as stiff a plate: the rover stands less deep than on the thesis' tire, 27.2 mm between two spokes.
 

@@ -22,7 +22,9 @@ def test_version() -> None:
 
 
 @pytest.mark.parametrize("shipped", SHIPPED, ids=lambda path: path.stem)
-def test_a_new_study_is_the_shipped_one_wherever_it_lies(shipped: Path, tmp_path: Path) -> None:
+def test_a_new_study_is_the_shipped_one_wherever_it_lies(
+    shipped: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     made = run("new", "my-wheel.toml", "--from", shipped.stem, folder=tmp_path)
     assert (made.returncode, made.stderr) == (0, "")
     text, old = ((path.read_text(encoding="utf-8")) for path in (tmp_path / "my-wheel.toml", shipped))
@@ -33,9 +35,10 @@ def test_a_new_study_is_the_shipped_one_wherever_it_lies(shipped: Path, tmp_path
     if before.of_the_thesis:  # a copy is another wheel, of which the thesis says nothing
         before = before.model_copy(update={"reference": None})
     assert study.of_the_thesis is False
-    checked = run("check", "my-wheel.toml", folder=tmp_path)
-    assert (checked.returncode, checked.stderr) == (0, "")
-    assert f"its report takes {len(report_tasks(before))} tasks" in checked.stdout
+    assert run_check(tmp_path / "my-wheel.toml") == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    assert f"its report takes {len(report_tasks(before))} tasks" in printed.out
     assert [path.name for path in tmp_path.iterdir()] == ["my-wheel.toml"]
 
 

@@ -169,6 +169,7 @@ def test_an_arch_on_a_rock_tells_that_it_does_not_stand(pressed: tuple[WheelOnGr
     assert np.isfinite(sway).all()
 
 
+@pytest.mark.long
 def test_the_branch_of_an_arch_carries_less_and_stands(pressed: tuple[WheelOnGround, list[Equilibrium]]) -> None:
     """Released equilibria; 1 to 6 % below the symmetric path beyond 28 mm."""
     problem, states = pressed

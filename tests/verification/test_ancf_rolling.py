@@ -44,6 +44,7 @@ class WithoutCoriolis(RollingWheel):
         return replace(found, residual=residual)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("kind", "holds"), [(RollingWheel, True), (WithoutCoriolis, False)])
 def test_a_spinning_wheel_let_go_in_space_keeps_momentum_and_energy(kind: type[RollingWheel], *, holds: bool) -> None:
     """As flat as on the ground, then free, at 40 rad/s: momenta are summed in the world, from places and velocities."""
@@ -133,6 +134,7 @@ def test_turning_slowly_on_ice_is_standing_on_one_orientation_after_another(
     assert account.closure() < 0.01
 
 
+@pytest.mark.long
 def test_over_a_half_round_energy_is_kept_and_the_hub_rises() -> None:
     """10 mm high, the ground around it level: 0.45 s at 70 m/h from where the wheel first touches it."""
     terrain = TerrainUnion(parts=(Plane(), HalfRound(radius=10e-3, position=64e-3)))

@@ -51,6 +51,7 @@ def excess(wheel: AncfWheel, terrain: Terrain, curve: StiffnessCurve, camber: fl
     return np.array([e.load / curve.load_at(e.deflection) - 1.0 for e in press(problem, DEFLECTIONS)])
 
 
+@pytest.mark.long
 def test_load_on_a_rock_askew(wheel: AncfWheel) -> None:
     """Within 2 % of the solid, whose coarse mesh and points of contact bear a part of it."""
     rock = obstacles.HalfRoundRock(radius=30e-3, position=10e-3, yaw_deg=30.0)

@@ -55,6 +55,7 @@ def test_two_curved_bodies() -> None:
     assert np.abs(off(gentle(26, radius=2.0 * RADIUS, curvature=0.5 / RADIUS))).max() < 0.005
 
 
+@pytest.mark.long
 def test_what_large_strain_adds_falls_with_the_strain() -> None:
     k = np.array([1.0, 2.0, 4.0])
     error = [abs(off(gentle(24, float(one)), float(one))[0]) for one in k]

@@ -57,6 +57,7 @@ def test_without_the_search_for_the_touching_set_it_takes_more(monkeypatch: pyte
     assert plain.curve.load[-1] == pytest.approx(found.curve.load[-1], rel=1e-6)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_solid_wheel_takes_at_most_eighty_iterations_and_one_increment_to_the_end() -> None:
     curve, end = solid(POINTS), solid(1)

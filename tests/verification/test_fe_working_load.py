@@ -50,6 +50,7 @@ def column(result: WheelResult, name: str) -> np.ndarray:
     return np.array([standing[-1], *(row[name] for row in result.travelled)])
 
 
+@pytest.mark.long
 def test_half_a_wheel_moves_forwards_as_the_whole_does() -> None:
     half, whole = moved(Way.FORE_AFT, half_width=True), moved(Way.FORE_AFT)
     for name in ("load_N", "force_forward_N", "moment_left_Nm"):
@@ -57,6 +58,7 @@ def test_half_a_wheel_moves_forwards_as_the_whole_does() -> None:
     assert np.abs(column(whole, "force_left_N")).max() < 1e-6 * column(whole, "load_N").max()
 
 
+@pytest.mark.long
 def test_sideways_it_slides_at_the_limit_of_friction() -> None:
     """And the friction is along the slip, so that what it has in front of it is given up."""
     result = moved(Way.LATERAL)
