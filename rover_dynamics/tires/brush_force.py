@@ -6,7 +6,7 @@ velocity v_c of the wheel at the contact, and the deflection lambda of `brush_co
     N = max(0, S + c lambda_dot w) / q,    w = ramp(lambda / d_0), or 1 for the damper as printed,
     S = k lambda, or dU/dlambda of a wheel's own potential (`wheel_potential`) with the moment -dU/dbeta e,
     v = -(v_r . t, v_c . l),    V = omega R = t . (r_r x omega) (brush) or t . v_hub (Fiala),
-    force on the hub  N n + F_y l  at the contact r,  F_x t  at r_r,
+    force on the hub  N n + F_y l  at the contact r,  F_x t  at r_r, or at r with the loaded radius as its lever,
     moment            M_z n  and against the spin  -f N |r| tanh(omega R / v_0) e,
 
 F_x, F_y, M_z and the rate of the bristles from `brush_standstill`; r goes from the hub centre to the contact. Rolling
@@ -14,6 +14,7 @@ is that of the rim, which `brush_contact` takes as rigid and held elastically by
 whatever the deflection. So v_r is the wheel's velocity at r_r, the contact moved out to the distance R, and F_x has the
 lever R: |r| by itself, the rest because F_x shifts the rim by F_x / k against the hub and N with it, k delta F_x / k.
 The power of the wrench on the hub's motion is that of spring, damper, slip and rolling resistance, and nothing else.
+The lever |r| leaves that shift out: a drive then gives F_x omega delta less than the wheel's way takes.
 
 State of a wheel: u_x, u_y [m] for each piece of terrain in turn; out of contact u fades with the retardation time, and
 over the first 0.1 mm of deflection (``touch_depth``) its rate goes over into that of the contact.
@@ -217,7 +218,7 @@ def _add_contact(
     arm = math.sqrt(dot(r, r))
     resistance = numbers.rolling_resistance * load * arm * math.tanh(rolling / numbers.standstill_speed)
     M = along(along(cross(r, F), M_z, n), -resistance, e)
-    M = along(M, to_rim * F_x, cross(u_hub, t))
+    M = along(M, numbers.lever_to_rim * to_rim * F_x, cross(u_hub, t))
     M = along(M, -spring[2], e)
     for m in range(3):
         wrench[m] += F[m]

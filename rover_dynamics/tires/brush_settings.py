@@ -118,8 +118,9 @@ def yielding(settings: BrushSettings, parameters: BrushTireParameters, carcass: 
 class WheelNumbers(NamedTuple):
     """All numbers of a wheel [SI], as `BrushTireParameters` and `BrushSettings` define them.
 
-    ``damping_ramp`` is 0 for the damper as printed, ``law`` the value of `SlipLaw`; ``potential`` takes the place of
-    ``radial_stiffness`` where it has pieces.
+    ``damping_ramp`` is 0 for the damper as printed, ``lever_to_rim`` 1 for the wheel's radius as lever of the tractive
+    force and 0 for the loaded one, ``law`` the value of `SlipLaw`; ``potential`` takes the place of the radial stiffness
+    where it has pieces.
     """
 
     radius: float
@@ -138,6 +139,7 @@ class WheelNumbers(NamedTuple):
     retardation_time: float
     standstill_speed: float
     touch_depth: float
+    lever_to_rim: float
     law: float
     potential: WheelPotential
 
@@ -165,6 +167,7 @@ def wheel_numbers(parameters: BrushTireParameters, settings: BrushSettings) -> W
         retardation_time=settings.retardation_time,
         standstill_speed=settings.standstill_speed,
         touch_depth=settings.touch_depth,
+        lever_to_rim=1.0 if parameters.lever == "radius" else 0.0,
         law=float(settings.slip_law),
         potential=NO_POTENTIAL if settings.potential is None else settings.potential,
     )

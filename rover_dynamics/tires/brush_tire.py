@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +21,15 @@ from contracts.errors import InputError
 __all__ = [
     "THESIS_BRUSH",
     "BrushTireParameters",
+    "Lever",
     "line_source",
     "radial_load",
     "stiffness_curve",
     "with_friction",
 ]
+
+
+type Lever = Literal["radius", "loaded"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,11 +50,13 @@ class BrushTireParameters:
     friction_max : friction coefficient at zero slip [-]
     rolling_resistance : rolling resistance coefficient >= 0 [-]; resistance moment per load and loaded radius
     source : where the numbers come from
+    lever : of the tractive force about the hub: the wheel's radius, or the loaded one, less by the deflection; no
+        source says which, and the rolling radius is the wheel's in both
 
     Raises
     ------
     InputError
-        For a value that is not finite or out of its range.
+        For a value that is not finite or out of its range, and another lever.
 
     Verified by tests/unit/test_brush_tire.py.
     """
@@ -63,14 +69,22 @@ class BrushTireParameters:
     friction_max: Annotated[float, In("", above=0.0)]
     rolling_resistance: Annotated[float, In("", least=0.0)]
     source: str
+    lever: Lever = "radius"
 
     def __post_init__(self) -> None:
         require_declared(self, "brush")
+        if self.lever not in get_args(Lever.__value__):
+            hint = 'give "radius" or "loaded"'
+            raise InputError("brush lever", repr(self.lever), "is not known", hint, key="lever")
         if self.friction_max < self.friction_min:
             rule = f"must not be below friction_min, {self.friction_min:g}"
             raise InputError(
                 "brush friction max", f"{self.friction_max:g}", rule, "exchange the two values", key="friction_max"
             )
+
+    def lever_at(self, radius: float, deflection: float) -> float:
+        """Lever of the tractive force [m] of a wheel of this radius [m] at a radial deflection [m]."""
+        return radius if self.lever == "radius" else radius - deflection
 
 
 THESIS_BRUSH = BrushTireParameters(

@@ -31,7 +31,7 @@ def test_thesis_parameters_are_the_printed_table() -> None:
     lateral_per_degree = THESIS_BRUSH.cornering_stiffness * math.pi / 180.0
     assert lateral_per_degree == pytest.approx(printed.pop("lateral_slip_stiffness"), rel=1e-14)
     assert {name: getattr(THESIS_BRUSH, name) for name in printed} == printed
-    assert len(fields(BrushTireParameters)) == len(printed) + 2  # the lateral stiffness and the source
+    assert len(fields(BrushTireParameters)) == len(printed) + 3  # the lateral stiffness, the source, the lever
 
 
 @given(st.floats(-1.0, 1.0))

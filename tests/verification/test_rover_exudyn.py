@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -27,6 +28,14 @@ pytestmark = pytest.mark.slow
 def test_the_rover_does_the_same_in_exudyn(name: str) -> None:
     case = CASES[name]
     for row in rows(case, our_run(case), peer_run(case)):
+        assert row["difference"] < row["limit"], row
+
+
+def test_it_does_the_same_with_the_loaded_radius_as_lever() -> None:
+    case = CASES["drive_up"]
+    tire = replace(case.scenario.tire, lever="loaded")
+    loaded = replace(case, scenario=replace(case.scenario, tire=tire))
+    for row in rows(loaded, our_run(loaded), peer_run(loaded, tire={"loaded": True})):
         assert row["difference"] < row["limit"], row
 
 

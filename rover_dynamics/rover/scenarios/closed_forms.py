@@ -23,17 +23,18 @@ FloatArray = NDArray[np.float64]
 def drive_force(design: RoverDesign, tire: BrushTireParameters, torque: float) -> float:
     """Mean tractive force of a wheel [N] while every wheel is driven by the same torque [N m] on level ground.
 
-    Each wheel T = F R + f N (R - N / k) + I a / R, the rover n F = M a, so
+    Each wheel T = F l + f N (R - N / k) + I a / R, l the tire's lever R or R - N / k, the rover n F = M a, so
 
-        F = (T - f N (R - N / k)) / (R + n I / (M R)),    N = M g / n.
+        F = (T - f N (R - N / k)) / (l + n I / (M R)),    N = M g / n.
 
     Slip makes the wheels' acceleration larger by F / C_s, a quarter of a percent of the last term, which is left out.
     """
     wheel = next(body for body in design.leg_bodies if body.name == "wheel")
     n, R, weight = len(design.legs), design.wheel_radius, design.mass * design.gravity
     load = weight / n
-    resistance = tire.rolling_resistance * load * (R - load / tire.radial_stiffness)
-    return (torque - resistance) / (R + n * wheel.inertia[1] / (design.mass * R))
+    deflection = load / tire.radial_stiffness
+    resistance = tire.rolling_resistance * load * (R - deflection)
+    return (torque - resistance) / (tire.lever_at(R, deflection) + n * wheel.inertia[1] / (design.mass * R))
 
 
 def single_wheel_drop(

@@ -199,13 +199,15 @@ def _mean_force(run: ScenarioRun, last: NDArray[np.bool_]) -> float:
 
 
 def _driven_wheel(run: ScenarioRun, wheel: int, last: NDArray[np.bool_]) -> float:
-    """(T - f N r - I alpha) / R of one wheel, by its load, loaded radius and spin over the times ``last`` [N]."""
+    """(T - f N r - I alpha) / l of one wheel, from load, loaded radius, spin and the lever l, times ``last`` [N]."""
     design, tire = run.design, run.scenario.tire
     inertia = next(body for body in design.leg_bodies if body.name == "wheel").inertia[1]
     spin, times = run.spins[last, wheel], run.motion.times[last]
-    arm = run.loads[last, wheel] * (design.wheel_radius - run.deflections[last, wheel])
+    deflection = run.deflections[last, wheel]
+    arm = run.loads[last, wheel] * (design.wheel_radius - deflection)
     slowed = inertia * (spin[-1] - spin[0]) / (times[-1] - times[0])
-    return float((TORQUE - tire.rolling_resistance * arm.mean() - slowed) / design.wheel_radius)
+    lever = tire.lever_at(design.wheel_radius, float(deflection.mean()))
+    return float((TORQUE - tire.rolling_resistance * arm.mean() - slowed) / lever)
 
 
 STATIC = Scenario(

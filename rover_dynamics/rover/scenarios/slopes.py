@@ -22,8 +22,9 @@ from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward, st
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import largest_lean, stated
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, Tilt, run_scenario
+from rover_dynamics.tires.brush_tire import Lever
 
-__all__ = ["ALLOWED_LOSS", "SLOPES", "largest_passed", "steady", "steepest", "velocity_loss"]
+__all__ = ["ALLOWED_LOSS", "SLOPES", "largest_passed", "moved_by_lever", "steady", "steepest", "velocity_loss"]
 
 REQUIRED = math.radians(25.0)
 ALLOWED_LOSS, LEAST_LOAD = 0.1, 0.1
@@ -97,6 +98,24 @@ def _steepest(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
     return (Outcome(quantity="steepest slope driven", value=value, unit="deg", limit=math.degrees(REQUIRED)),)
 
 
+def moved_by_lever(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
+    """How far the lever of the tractive force, of which no source says what it is, moves a wheel's load at the end.
+
+    Nothing where one of the two runs stops.
+    """
+    levers: tuple[Lever, ...] = ("radius", "loaded")
+    runs = [run_scenario(replace(scenario, tire=replace(scenario.tire, lever=one)), design) for one in levers]
+    if any(run.stopped for run in runs):
+        return ()
+    by_radius, loaded = (run.loads[-1] for run in runs)
+    wheel = int(np.abs(loaded - by_radius).argmax())
+    name = design.legs[wheel].name.replace("_", " ")
+    return (
+        Outcome(quantity=f"wheel load at the end, {name}, lever R", value=float(by_radius[wheel]), unit="N"),
+        Outcome(quantity=f"wheel load at the end, {name}, lever R - d", value=float(loaded[wheel]), unit="N"),
+    )
+
+
 def _slope(name: str, words: str, heading: float) -> Scenario:
     return Scenario(
         name=f"slope_{name}",
@@ -107,6 +126,7 @@ def _slope(name: str, words: str, heading: float) -> Scenario:
         path=straight_ahead(20.0 * SPEED),
         tilt=Tilt(angle=REQUIRED, heading=heading),
         judge=_judge,
+        study=moved_by_lever,
         search=_steepest,
     )
 
