@@ -119,7 +119,7 @@ class WheelNumbers(NamedTuple):
     """All numbers of a wheel [SI], as `BrushTireParameters` and `BrushSettings` define them.
 
     ``damping_ramp`` is 0 for the damper as printed, ``lever_to_rim`` 1 for the wheel's radius as lever of the tractive
-    force and 0 for the loaded one, ``law`` the value of `SlipLaw`; ``potential`` takes the place of the radial stiffness
+    force and 0 for the loaded one, ``law`` the value of `SlipLaw`; ``potential`` stands for the radial stiffness
     where it has pieces.
     """
 
