@@ -165,7 +165,7 @@ def _law(speed: float, begins: float) -> Law:
 
 
 def rows(case: Case, ours: ScenarioRun, peer: PeerMotion) -> list[dict[str, Any]]:
-    """What is compared, each where the two are furthest apart: value of both and difference [SI]."""
+    """What is compared, each where the two are furthest apart, as `workbench.questions.rover.peer.PeerRow` [SI]."""
     times = ours.motion.times + case.scenario.settles
     late = ours.motion.times >= case.since - ROUNDING
     at = np.abs(peer.times[:, None] - times[late]).argmin(axis=0)
@@ -176,5 +176,6 @@ def rows(case: Case, ours: ScenarioRun, peer: PeerMotion) -> list[dict[str, Any]
         a, b = getattr(ours, name)[late], getattr(peer, name)[at]
         worst = np.unravel_index(np.abs(a - b).argmax(), a.shape)
         values = {"ours": float(a[worst]), "peer": float(b[worst]), "difference": float(abs(a - b)[worst])}
-        found.append({"case": case.words, "quantity": QUANTITIES[name], "unit": UNITS[name], **values, "limit": limit})
+        words = {"key": name, "case": case.words, "quantity": QUANTITIES[name], "unit": UNITS[name]}
+        found.append({**words, **values, "limit": limit})
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from workbench.execution.result_files import read_result
 from workbench.questions.rover.question import CLOSED_FORMS, MISSION, ROVER, THESIS, RoverResults
 from workbench.questions.rover.task import drive_rover
-from workbench.report.page import TEMPLATES
+from workbench.report.page import TEMPLATES, page_environment
 from workbench.report.series import series_files
 from workbench.study.model_parameters import rover_on_brush
 from workbench.study.reading import built_in_study, read_study
@@ -108,6 +109,19 @@ def test_series_and_figures_of_the_section_exist(results: RoverResults) -> None:
     parts = (TEMPLATES[1] / "rover" / f"{name}.html.j2" for name in ("section", "evidence"))
     text = "".join(part.read_text(encoding="utf-8") for part in parts)
     assert set(re.findall(r"figures\.(\w+)", text)) == set(ROVER.figures(study, results))
+
+
+def test_the_evidence_shows_the_other_code_and_what_hangs_on_the_lever(results: RoverResults) -> None:
+    template = page_environment().get_template("rover/evidence.html.j2")
+    nothing: defaultdict[str, str] = defaultdict(str)
+    text = str(template.render(results=results, figures=nothing, series=nothing))
+    assert results.peer is not None
+    for words in ("EXUDYN 1.", "braked on 25 degrees up", "lever R - d", "make bench NAME=rover_exudyn"):
+        assert words in text, words
+    assert "in another code" not in str(
+        template.render(results=replace(results, peer=None), figures=nothing, series=nothing)
+    )
+    assert {check.id for check in ROVER.checks(read_study(built_in_study()), results)} >= {"rover.exudyn_rest_up_loads"}
 
 
 def test_a_task_writes_its_outcomes(tmp_path: Path) -> None:

@@ -20,6 +20,7 @@ from workbench.execution.task import Task
 from workbench.questions.models.driving_brush import driving_brush, driving_inputs
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import Drive, read_drive
+from workbench.questions.rover.peer import RoverPeer, peer_checks, rover_peer
 from workbench.questions.rover_mission.requirements import MISSION_SOURCE, TITLES, MissionRow, mission_checks, tightest
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_least, at_most, near
@@ -47,13 +48,14 @@ THESIS_TORQUE = 3.5
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoverResults:
     """All scenarios by name, the brush tire they were driven on with its carcass or None, see `DrivingBrush`, friction
-    of the ground or None, a still."""
+    of the ground or None, a still, the rover in another code or None."""
 
     by_name: Mapping[str, Drive]
     tire: BrushTireParameters
     carcass: tuple[float, float] | None
     friction: float | None
     picture: Path
+    peer: RoverPeer | None = None
 
     @property
     def on_table_two(self) -> bool:
@@ -83,8 +85,8 @@ class RoverResults:
 
     @property
     def stated(self) -> list[tuple[str, Outcome]]:
-        """Torques and slips the mission's scenarios took."""
-        words = ("largest torque", "largest longitudinal slip")
+        """Torques and slips the mission's scenarios took, and what hangs on the tractive force's lever."""
+        words = ("largest torque", "largest longitudinal slip", "wheel load at the end")
         return [
             (title, o) for name, title in MISSION.items() for o in self[name].outcomes if o.quantity.startswith(words)
         ]
@@ -109,7 +111,14 @@ def _read(study: Study, folders: Mapping[str, Path]) -> RoverResults:
     found = {name: read_drive(folders[f"rover_{name}"], name, "brush") for name in (*THESIS, *MISSION)}
     picture = folders["rover_still"] / "rover.png"
     tire, carcass = driving_brush(study)
-    return RoverResults(by_name=found, tire=tire, carcass=carcass, friction=study.ground.friction, picture=picture)
+    return RoverResults(
+        by_name=found,
+        tire=tire,
+        carcass=carcass,
+        friction=study.ground.friction,
+        picture=picture,
+        peer=rover_peer(study),
+    )
 
 
 def _claim(name: str, title: str, outcome: str, unit: str, source: str, *, gate: bool = False) -> Claim:
@@ -153,7 +162,8 @@ def _checks(study: Study, results: RoverResults) -> Sequence[Check]:
     path = _claim("speed", "straight path: speed between 15 and 35 s", "speed", "m/s", "Samarini 2020, section 3.4")
     checks.append(near(path, lambda: results["straight"].value(speed), 70.0 / 3600.0, 0.01))
     checks += [_torque_check(name, results[name]) for name in ("slope_up", "step")]
-    return [*checks, *(check for name in MISSION for check in _requirements(name, results[name]))]
+    checks += [check for name in MISSION for check in _requirements(name, results[name])]
+    return [*checks, *peer_checks(results.peer)]
 
 
 def _torque_check(name: str, result: Drive) -> Check:
