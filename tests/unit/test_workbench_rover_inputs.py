@@ -43,6 +43,7 @@ OTHER_BRUSH = {
     "friction_min": 0.5,
     "friction_max": 0.8,
     "rolling_resistance": 0.02,
+    "lever": "loaded",
 }
 OTHER_ANCF = {
     "outer_radius": 0.14250001,
