@@ -71,11 +71,6 @@ def _measured(name: str, rows: list[dict[str, object]]) -> list[tuple[float, flo
 
 def _exudyn_rows(ours: list[tuple[float, float]]) -> list[dict[str, object]]:
     """The pendulum by EXUDYN, its end position held against the published one."""
-    try:
-        import exudyn  # noqa: F401
-    except ImportError:
-        print("EXUDYN is not installed: its rows are left out")
-        return []
     table, rows = published_table("iftomm_pendulum"), []
     end = np.array([table["x"][-1], table["y"][-1]])
     for steps in STEPS:

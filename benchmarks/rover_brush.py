@@ -134,10 +134,7 @@ def main() -> None:
     options, run = parser.parse_args(), Run("rover_brush")
     straight, rocks = rover(STRAIGHT, Plane()), rover(ON, ROCKS.terrain())
     rows = [r for (case, end), v in zip(PATHS.items(), (straight, rocks), strict=True) for r in own_rows(case, v, end)]
-    try:
-        rows += peer_rows(alike(straight))
-    except ImportError:
-        print("EXUDYN is not installed: its column stays empty (dependency group bench)")
+    rows += peer_rows(alike(straight))
     for r in rows:
         peer = "" if r["peer"] is None else f"{r['peer']:>12.3g}"
         ratio = "" if r["ratio"] is None else f"{r['ratio']:>8.2f}"

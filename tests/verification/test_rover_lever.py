@@ -14,11 +14,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rover_dynamics.rover.rover_file import read_rover
+from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
-from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
 from rover_dynamics.rover.scenarios.slopes import moved_by_lever
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, Lever
+from rover_dynamics.vehicle.vehicle import VehicleMotion
 
 DESIGN = read_rover()
 LEVERS: tuple[Lever, ...] = ("radius", "loaded")
@@ -62,3 +63,12 @@ def test_the_scenario_says_how_far_it_moves_a_load() -> None:
         by_radius, loaded = moved_by_lever(SCENARIOS[f"slope_{name}"], DESIGN)
         assert least < loaded.value - by_radius.value < most
         assert by_radius.value in driven(name, "radius").loads[-1]
+
+
+def test_nothing_is_said_of_tires_without_such_a_lever() -> None:
+    """Flexible tires have a ride of their own, which takes minutes."""
+
+    def refused(scenario: Scenario, design: RoverDesign) -> VehicleMotion:
+        raise AssertionError("must not be driven")
+
+    assert moved_by_lever(replace(SCENARIOS["slope_up"], ride=refused), DESIGN) == ()

@@ -223,6 +223,11 @@ class Scenario:
             rule = "must be finite and >= 0"
             raise InputError(f"settling of scenario {self.name}", f"{self.settles:g} s", rule, "give e.g. 5 s")
 
+    @property
+    def on_brush_tires(self) -> bool:
+        """Whether it drives on ``tire``; ANCF tires have a ride of their own."""
+        return self.ride is _on_brush_tires
+
     def vehicle(self, design: RoverDesign) -> Vehicle:
         """The rover at the scenario's start; raises InputError for a brush tire that sinks in beyond its hub."""
         height = self.height

@@ -101,11 +101,15 @@ def _steepest(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
 def moved_by_lever(scenario: Scenario, design: RoverDesign) -> tuple[Outcome, ...]:
     """How far the lever of the tractive force, of which no source says what it is, moves a wheel's load at the end.
 
-    Nothing where one of the two runs stops.
+    Nothing on tires that have no such lever, and where one of the two runs stops.
     """
     levers: tuple[Lever, ...] = ("radius", "loaded")
-    runs = [run_scenario(replace(scenario, tire=replace(scenario.tire, lever=one)), design) for one in levers]
-    if any(run.stopped for run in runs):
+    try:
+        each = levers if scenario.on_brush_tires else ()
+        runs = [run_scenario(replace(scenario, tire=replace(scenario.tire, lever=one)), design) for one in each]
+    except ConvergenceError:
+        return ()
+    if not runs or any(run.stopped for run in runs):
         return ()
     by_radius, loaded = (run.loads[-1] for run in runs)
     wheel = int(np.abs(loaded - by_radius).argmax())
