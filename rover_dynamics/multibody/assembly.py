@@ -23,6 +23,7 @@ from rover_dynamics.multibody.state import State, moved, start_state
 __all__ = ["ITERATIONS", "POSITION_TOLERANCE", "assembly", "cannot_be_assembled"]
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 
 POSITION_TOLERANCE = 1e-11
 """Largest defect of a position [m, rad, -]; a tenth of what is promised."""
@@ -33,8 +34,8 @@ _RANK = 1e-9
 _RATE_TOLERANCE = 1e-9
 
 
-def assembly(model: MultibodyModel) -> tuple[State, Constraints, tuple[Equation, ...]]:
-    """Start of a motion: assembled state, independent equations, and the redundant ones.
+def assembly(model: MultibodyModel) -> tuple[State, Constraints, IntArray]:
+    """Start of a motion: assembled state, all equations, and which of them (m,) are independent.
 
     Positions and velocities given inconsistently are changed the least (sum of squares of displacements [m] and
     rotations [rad]), positions by the Gauss-Newton method on all equations. Of dependent equations some are left out;
@@ -54,8 +55,8 @@ def assembly(model: MultibodyModel) -> tuple[State, Constraints, tuple[Equation,
     _check_drives(every, values, driven)
     own = np.flatnonzero(~driven)
     left_out = own[redundant_equations(values.jacobian[own])]
-    constraints = every.part(np.setdiff1d(np.arange(len(every.equations)), left_out))
-    return _with_velocities(every, values, state), constraints, tuple(every.equations[k] for k in left_out)
+    kept = np.setdiff1d(np.arange(len(every.equations)), left_out)
+    return _with_velocities(every, values, state), every, kept
 
 
 def _together(every: Constraints, state: State) -> State:

@@ -19,7 +19,8 @@ from scipy.sparse.linalg import splu
 
 from contracts.errors import ConvergenceError
 from rover_dynamics.multibody.assembly import ITERATIONS, POSITION_TOLERANCE, assembly, cannot_be_assembled
-from rover_dynamics.multibody.constraints import ConstraintValues
+from rover_dynamics.multibody.constraints import Constraints, ConstraintValues, Equation
+from rover_dynamics.multibody.independent_rows import IndependentRows
 from rover_dynamics.multibody.model import BodyMotions, MultibodyModel
 from rover_dynamics.multibody.reactions import Reactions, at_joint_frame
 from rover_dynamics.multibody.state import State, moved, rotations
@@ -36,8 +37,7 @@ class AugmentedEquations:
     ----------
     model : as given
     start : assembled positions and velocities
-    constraints : its independent equations
-    redundant : equations that follow from the others; left out
+    rows : its independent equations, chosen anew along the motion where they turn dependent
 
     Raises
     ------
@@ -47,13 +47,24 @@ class AugmentedEquations:
 
     def __init__(self, model: MultibodyModel) -> None:
         self.model = model
-        self.start, self.constraints, self.redundant = assembly(model)
+        self.start, every, kept = assembly(model)
+        self.rows = IndependentRows(every, kept, self.start)
         self._inertias = np.array([body.inertia for body in model.bodies])
         self._masses = np.array([body.mass for body in model.bodies])
 
+    @property
+    def constraints(self) -> Constraints:
+        """Independent equations, as chosen last."""
+        return self.rows.constraints
+
+    @property
+    def redundant(self) -> tuple[Equation, ...]:
+        """Equations that follow from them; left out."""
+        return self.rows.redundant
+
     def accelerations(self, t: float, state: State) -> tuple[FloatArray, FloatArray]:
         """u', (n, 6) [m/s^2, rad/s^2], and the multipliers, (m,) [N, N m]."""
-        return self._solved(self.constraints.at(t, state), t, state)
+        return self._solved(self.rows.at(t, state), t, state)
 
     def _solved(self, values: ConstraintValues, t: float, state: State) -> tuple[FloatArray, FloatArray]:
         J, Q = self.inertias_and_forces(t, state)
@@ -70,7 +81,7 @@ class AugmentedEquations:
 
     def reactions(self, t: float, state: State) -> Reactions:
         """What joints and drives transmit [N, N m]: -C_u^T lambda."""
-        values = self.constraints.at(t, state)
+        values = self.rows.at(t, state)
         _, multipliers = self._solved(values, t, state)
         R = np.concatenate([rotations(state.orientations), np.eye(3)[None]])
         wrenches = {joint.name: np.zeros(6) for joint in self.model.joints}
@@ -90,12 +101,14 @@ class AugmentedEquations:
 
         Raises
         ------
+        SingularPosition
+            Where the mechanism gains a freedom.
         ConvergenceError
             If the positions cannot be brought back.
         """
         history: list[float] = []
         for _ in range(ITERATIONS):
-            values = self.constraints.at(t, state)
+            values = self.rows.at(t, state)
             history.append(float(np.max(np.abs(values.defects), initial=0.0)))
             if history[-1] < POSITION_TOLERANCE:
                 return self._with_velocities(values, state)

@@ -18,7 +18,16 @@ from rover_dynamics.multibody.joint import LOCKED, Joint
 from rover_dynamics.multibody.model import Drive, MultibodyModel
 from rover_dynamics.multibody.state import State, rotations
 
-__all__ = ["ConstraintValues", "Constraints", "Equation", "build_constraints", "redundant_equations", "wrapped"]
+__all__ = [
+    "ConstraintValues",
+    "Constraints",
+    "Equation",
+    "build_constraints",
+    "pivoted",
+    "redundant_equations",
+    "scaled_rows",
+    "wrapped",
+]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -172,12 +181,21 @@ def redundant_equations(jacobian: csr_array) -> IntArray:
 
     Rows are scaled to length one first: translations are of another unit than rotations.
     """
-    dense = jacobian.toarray()
-    if not len(dense):
+    if not jacobian.shape[0]:
         return np.zeros(0, dtype=np.int64)
-    lengths = np.linalg.norm(dense, axis=1, keepdims=True)
-    dense /= np.maximum(lengths, _NOTHING * np.max(lengths))
-    _, triangle, order = qr(dense.T, mode="economic", pivoting=True)
-    pivots = np.abs(np.diag(triangle))
+    pivots, order = pivoted(jacobian)
     rank = int(np.sum(pivots > _RANK * pivots[0]))
     return np.sort(order[rank:])
+
+
+def pivoted(jacobian: csr_array) -> tuple[FloatArray, IntArray]:
+    """Pivots (min(m, n),) [-] and order (m,) of the scaled rows of a Jacobian (m, n), best conditioned first."""
+    _, triangle, order = qr(scaled_rows(jacobian).T, mode="economic", pivoting=True)
+    return np.abs(np.diag(triangle)), order.astype(np.int64)
+
+
+def scaled_rows(jacobian: csr_array) -> FloatArray:
+    """Rows (m, n) of length one; those that are nothing beside the longest stay short."""
+    dense = np.asarray(jacobian.toarray(), dtype=np.float64)
+    lengths = np.linalg.norm(dense, axis=1, keepdims=True)
+    return dense / np.maximum(lengths, _NOTHING * np.max(lengths, initial=0.0))

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from scipy.integrate import DOP853
 
 from contracts.errors import ConvergenceError, InputError
-from rover_dynamics.multibody.formulation import Course, Equations, NoStep, SingularPosition
+from rover_dynamics.multibody.formulation import Course, Equations, NoStep
+from rover_dynamics.multibody.singular_position import SingularPosition
 
 __all__ = ["ExplicitStepper", "StepControl"]
 

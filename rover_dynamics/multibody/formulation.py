@@ -20,7 +20,7 @@ from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.reactions import Reactions
 from rover_dynamics.multibody.state import State
 
-__all__ = ["AbsoluteCoordinates", "Course", "Equations", "Formulation", "NoStep", "SingularPosition", "packed"]
+__all__ = ["AbsoluteCoordinates", "Course", "Equations", "Formulation", "NoStep", "packed"]
 
 FloatArray = NDArray[np.float64]
 Course = Callable[[float], FloatArray]
@@ -58,18 +58,6 @@ class Formulation(Equations, Protocol):
         """What joints and drives transmit [N, N m] at t [s] and y (N,)."""
 
 
-class SingularPosition(Exception):  # noqa: N818  (tells the integrator to step elsewhere)
-    """A loop has one freedom more here than elsewhere, so that the equations have no unique solution.
-
-    time : when [s]
-    margin : see `Formulation.margin`
-    """
-
-    def __init__(self, t: float, margin: float) -> None:
-        self.time, self.margin = t, margin
-        super().__init__(f"singular position at t = {t:g} s")
-
-
 class NoStep(Exception):  # noqa: N818  (the integrator makes it an error, with the motion so far)
     """No further step can be taken; says why."""
 
@@ -101,15 +89,16 @@ class AbsoluteCoordinates:
         return packed(self.equations.corrected(t, self.state(t, y)))
 
     def accepted(self, t: float, y: FloatArray, course: Course | None) -> None:
-        """See `Formulation`; no use is made of it."""
+        """See `Formulation`."""
+        self.equations.rows.accepted(t, self.state(t, y))
 
     def reactions(self, t: float, y: FloatArray) -> Reactions:
         """See `Formulation`."""
         return self.equations.reactions(t, self.state(t, y))
 
     def margin(self, t: float, y: FloatArray) -> float:
-        """See `Formulation`; not known here."""
-        return 1.0
+        """See `Formulation`; of the equations kept, scaled to length one."""
+        return self.equations.rows.margin(t, self.state(t, y))
 
     def state(self, t: float, y: FloatArray) -> State:
         """See `Formulation`."""

@@ -20,9 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError, InputError
-from rover_dynamics.multibody.formulation import Course, Equations, NoStep, SingularPosition
+from rover_dynamics.multibody.formulation import Course, Equations, NoStep
 from rover_dynamics.multibody.generalised_alpha import generalised_alpha, newmark, rescaled_rates, step_frames
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps
+from rover_dynamics.multibody.singular_position import SingularPosition
 from rover_dynamics.multibody.tree_coordinates import TreeCoordinates
 from rover_dynamics.multibody.tree_kernels import advance, coordinate_rates
 

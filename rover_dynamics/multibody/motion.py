@@ -15,9 +15,10 @@ from scipy.optimize import brentq
 
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from rover_dynamics.multibody.explicit_steps import ExplicitStepper, StepControl
-from rover_dynamics.multibody.formulation import Course, Equations, NoStep, SingularPosition
+from rover_dynamics.multibody.formulation import Course, Equations, NoStep
 from rover_dynamics.multibody.implicit_stepper import ImplicitStepper
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps
+from rover_dynamics.multibody.singular_position import SingularPosition
 from rover_dynamics.multibody.state import State
 
 __all__ = ["Event", "EventRecord", "ImplicitSteps", "Motion", "StepControl", "integrate"]

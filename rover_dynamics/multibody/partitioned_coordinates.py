@@ -4,20 +4,22 @@
 
 Equation 2.26 gives all accelerations; only the independent ones are integrated. The dependent positions and velocities
 follow from the constraints at each evaluation, by Newton's method along the dependent directions, so that all levels
-hold. The dependent columns are those that column pivoting of C_u finds best conditioned (Wehage and Haug 1982); they
-are chosen anew when the motion has made others better. Verified by tests/verification/test_multibody_formulations.py
-against `formulation.AbsoluteCoordinates`.
+hold. The dependent columns are those that column pivoting of C_u finds best conditioned (Wehage and Haug 1982), chosen
+anew after each step: the step is of a method without memory, and the state stays as it is. A step that turns them bad
+before its end is tried shorter. Verified by tests/verification/test_multibody_formulations.py against
+`formulation.AbsoluteCoordinates`, and by tests/verification/test_multibody_heavy_top.py.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, lu_factor, lu_solve, qr, svdvals
+from scipy.linalg import lu_factor, lu_solve, qr
 from scipy.sparse import csr_array
 
+from contracts.errors import ConvergenceError
 from rover_dynamics.multibody.assembly import ITERATIONS, POSITION_TOLERANCE, cannot_be_assembled
-from rover_dynamics.multibody.formulation import AbsoluteCoordinates, Course, SingularPosition, packed
+from rover_dynamics.multibody.formulation import AbsoluteCoordinates, Course, packed
 from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.state import State, moved
 
@@ -25,10 +27,8 @@ __all__ = ["PartitionedCoordinates"]
 
 FloatArray = NDArray[np.float64]
 
-_SINGULAR = 1e-6
-"""Of the largest pivot of C_ud: below it a position counts as singular."""
-_WORSE = 5.0
-"""Growth of the largest rate of a dependent velocity with an independent one, above which they are chosen anew."""
+_BAD = 1e-3
+"""Smallest over largest pivot of C_ud below which the dependent velocities count as not determined."""
 
 
 class PartitionedCoordinates(AbsoluteCoordinates):
@@ -49,7 +49,7 @@ class PartitionedCoordinates(AbsoluteCoordinates):
 
     def __init__(self, model: MultibodyModel) -> None:
         super().__init__(model)
-        self._divide(self._jacobian(0.0, self.equations.start))
+        self._divide(0.0, self.equations.start)
 
     @property
     def independent(self) -> NDArray[np.int64]:
@@ -66,13 +66,13 @@ class PartitionedCoordinates(AbsoluteCoordinates):
         Raises
         ------
         SingularPosition
-            Where the dependent ones are hardly determined.
+            Where the mechanism gains a freedom.
         ConvergenceError
-            If no dependent positions are found.
+            If no dependent positions are found, or the independent ones hardly determine them.
         """
         state, history = self.state(t, y), list[float]()
         for _ in range(ITERATIONS):
-            values = self.equations.constraints.at(t, state)
+            values = self.equations.rows.at(t, state)
             history.append(float(np.max(np.abs(values.defects), initial=0.0)))
             missing = values.rates - values.jacobian @ state.velocities.ravel()
             change = self._changes(t, values.jacobian, np.stack([-values.defects, missing], axis=1))
@@ -84,19 +84,9 @@ class PartitionedCoordinates(AbsoluteCoordinates):
         raise cannot_be_assembled(self.equations.constraints, values.defects, t, history)
 
     def accepted(self, t: float, y: FloatArray, course: Course | None) -> None:
-        """See `Formulation`; here the dependent velocities may be chosen anew."""
-        C_u = self._jacobian(t, self.state(t, y))
-        if self._gain(C_u) > _WORSE * self._best_gain:
-            self._divide(C_u)
-
-    def margin(self, t: float, y: FloatArray) -> float:
-        """See `Formulation`."""
-        C_ud = self._jacobian(t, self.state(t, y))[:, self.dependent]
-        sizes = svdvals(C_ud) if C_ud.size else np.ones(1)
-        return float(np.linalg.slogdet(C_ud)[0] * sizes[-1] / sizes[0])
-
-    def _jacobian(self, t: float, state: State) -> FloatArray:
-        return np.asarray(self.equations.constraints.at(t, state).jacobian.toarray())
+        """See `Formulation`; the dependent velocities are chosen anew."""
+        super().accepted(t, y, course)
+        self._divide(t, self.state(t, y))
 
     def _changes(self, t: float, C_u: csr_array, right: FloatArray) -> FloatArray:
         """Changes of the dependent velocities or positions with C_u change = right, (6 n, k)."""
@@ -105,21 +95,12 @@ class PartitionedCoordinates(AbsoluteCoordinates):
             return change
         factors = lu_factor(C_u.toarray()[:, self.dependent], check_finite=False)
         pivots = np.abs(np.diag(factors[0]))
-        if np.min(pivots) < _SINGULAR * np.max(pivots):
-            sign = np.prod(np.sign(np.diag(factors[0]))) * (-1.0) ** np.sum(factors[1] != np.arange(len(pivots)))
-            raise SingularPosition(t, float(sign * np.min(pivots) / np.max(pivots)))
+        if np.min(pivots) < _BAD * np.max(pivots):
+            raise ConvergenceError(f"independent coordinates do not determine the others at t = {t:g} s", [])
         change[self.dependent] = lu_solve(factors, right, check_finite=False)
         return change
 
-    def _divide(self, C_u: FloatArray) -> None:
+    def _divide(self, t: float, state: State) -> None:
+        C_u = self.equations.rows.at(t, state).jacobian.toarray()
         _, _, order = qr(C_u, mode="economic", pivoting=True)
         self.dependent = np.sort(order[: len(C_u)]).astype(np.int64)
-        self._best_gain = self._gain(C_u)
-
-    def _gain(self, C_u: FloatArray) -> float:
-        """Largest entry of C_ud^-1 C_ui; infinite if it is not determined."""
-        try:
-            rates = np.linalg.solve(C_u[:, self.dependent], C_u[:, self.independent])
-        except LinAlgError:
-            return np.inf
-        return float(np.max(np.abs(rates), initial=1.0))

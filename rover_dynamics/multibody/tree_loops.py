@@ -15,7 +15,8 @@ from scipy.sparse import csr_array
 from rover_dynamics.multibody.assembly import ITERATIONS, POSITION_TOLERANCE, cannot_be_assembled
 from rover_dynamics.multibody.constraint_kernels import constraint_rows
 from rover_dynamics.multibody.constraints import Constraints, Equation, redundant_equations
-from rover_dynamics.multibody.formulation import Course, SingularPosition
+from rover_dynamics.multibody.formulation import Course
+from rover_dynamics.multibody.singular_position import SingularPosition
 from rover_dynamics.multibody.tree_jacobians import in_joint_velocities
 from rover_dynamics.multibody.tree_kernels import Tree, TreeMotion, advance, tree_motion
 
