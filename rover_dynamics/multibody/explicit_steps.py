@@ -60,6 +60,8 @@ class StepControl:
 class ExplicitStepper:
     """Steps of one motion; see `motion.Stepper`."""
 
+    summed_error = None
+
     def __init__(self, formulation: Equations, span: tuple[float, float], control: StepControl) -> None:
         self._equations = formulation
         free = control.fixed is None  # with a fixed step any error is allowed, so that none is shortened

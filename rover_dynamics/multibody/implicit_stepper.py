@@ -68,6 +68,7 @@ class ImplicitStepper:
         self._linear: tuple[FloatArray, FloatArray] | None = None
         self._last = 0.0
         self.evaluations, self.length = 0, steps.first
+        self.summed_error: float | None = 0.0 if steps.fixed is None else None
         self.t = self.t_old = span[0]
         self.y = formulation.corrected(self.t, formulation.start())
         self._a = self._accelerations(self.t, self.y)
@@ -84,6 +85,8 @@ class ImplicitStepper:
                 limit = _DETOUR_ERROR * self._steps.tolerance
             self.length = self._steps.after(dt, self.length, error)
             if self._steps.accepts(error * self._steps.tolerance / limit):
+                if self.summed_error is not None:
+                    self.summed_error += error
                 return self._taken(dt, *end)
             if self.length < self._steps.shortest or self._steps.fixed is not None:
                 shortest = self._steps.fixed or self._steps.shortest

@@ -27,7 +27,7 @@ IntArray = NDArray[np.int64]
 _WORSE = 5.0
 """Fall of the smallest singular value of the rows kept at which they are chosen anew."""
 _SINGULAR = 1e-3
-"""Of the smallest singular value at the best of all choices so far: below it a position counts as singular."""
+"""Of the largest `IndependentRows.size` at the end of a step so far: below it a position counts as singular."""
 
 
 class IndependentRows:
@@ -37,6 +37,7 @@ class IndependentRows:
     ----------
     constraints : the equations kept now; drives always are
     redundant : equations that follow from them; left out
+    size : smallest over largest singular value of the rows kept, scaled to length one, at the last state [-]
     """
 
     def __init__(self, every: Constraints, kept: IntArray, start: State) -> None:
@@ -46,7 +47,6 @@ class IndependentRows:
         self._keep(kept)
         self._best = 0.0
         self.accepted(0.0, start)
-        self._chosen = self._best = _size(self._reference[self._rows])
 
     def at(self, t: float, state: State) -> ConstraintValues:
         """The independent equations at t [s] and a state.
@@ -59,19 +59,21 @@ class IndependentRows:
         values = self.constraints.at(t, state)
         if not len(values.defects):
             return values
-        size = _size(scaled_rows(values.jacobian))
-        if self.redundant and size < self._chosen / _WORSE:
+        self.size = _size(scaled_rows(values.jacobian))
+        if self.redundant and self.size < self._chosen / _WORSE:
             self._choose(t, state)
             values = self.constraints.at(t, state)
-            size = self._chosen = _size(scaled_rows(values.jacobian))
-        self._chosen, self._best = max(self._chosen, size), max(self._best, size)
-        if size < _SINGULAR * self._best:
-            raise SingularPosition(t, self._signed(values.jacobian, size))
+            self.size = self._chosen = _size(scaled_rows(values.jacobian))
+        self._chosen = max(self._chosen, self.size)
+        if self.size < _SINGULAR * self._best:
+            raise SingularPosition(t, self._signed(values.jacobian, self.size))
         return values
 
     def accepted(self, t: float, state: State) -> None:
         """Be told that a step ended at t [s] with this state: signs of margins refer to it."""
         self._reference = scaled_rows(self._every.at(t, state).jacobian)
+        self.size = self._chosen = _size(self._reference[self._rows])
+        self._best = max(self._best, self.size)
 
     def margin(self, t: float, state: State) -> float:
         """See `formulation.Formulation`; positive where the last step ended."""

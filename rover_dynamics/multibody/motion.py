@@ -63,6 +63,8 @@ class Motion:
     coordinates : (n, N) float, y of the formulation at each time
     events : in the order of time
     steps, evaluations : accepted steps, and calls of the equations of motion
+    summed_error : of the accepted implicit steps, the estimated errors added up [m, rad]: what the whole motion may
+        err by where neighbouring motions do not part; None for explicit and for fixed steps
     """
 
     times: FloatArray
@@ -71,6 +73,7 @@ class Motion:
     events: tuple[EventRecord, ...]
     steps: int
     evaluations: int
+    summed_error: float | None = None
 
 
 def integrate(
@@ -118,6 +121,7 @@ class Stepper(Protocol):
     y : (N,) float, at t
     length : of the step in hand, for messages [s]
     evaluations : of the equations of motion, so far
+    summed_error : see `Motion`
     """
 
     @property
@@ -130,6 +134,8 @@ class Stepper(Protocol):
     def length(self) -> float: ...
     @property
     def evaluations(self) -> int: ...
+    @property
+    def summed_error(self) -> float | None: ...
 
     def step(self) -> Course:
         """Take a step; y within it as a function of time. Raises NoStep where there is none."""
@@ -205,6 +211,7 @@ class _Run:
             events=tuple(self._found),
             steps=self._steps,
             evaluations=self._stepper.evaluations,
+            summed_error=self._stepper.summed_error,
         )
 
     def _stopped(self, reason: str) -> ConvergenceError:

@@ -28,7 +28,7 @@ __all__ = ["PartitionedCoordinates"]
 FloatArray = NDArray[np.float64]
 
 _BAD = 1e-3
-"""Smallest over largest pivot of C_ud below which the dependent velocities count as not determined."""
+"""Of the smallest singular value of C_u: a smaller pivot of C_ud leaves the dependent velocities undetermined."""
 
 
 class PartitionedCoordinates(AbsoluteCoordinates):
@@ -95,7 +95,7 @@ class PartitionedCoordinates(AbsoluteCoordinates):
             return change
         factors = lu_factor(C_u.toarray()[:, self.dependent], check_finite=False)
         pivots = np.abs(np.diag(factors[0]))
-        if np.min(pivots) < _BAD * np.max(pivots):
+        if np.min(pivots) < _BAD * self.equations.rows.size * np.max(pivots):
             raise ConvergenceError(f"independent coordinates do not determine the others at t = {t:g} s", [])
         change[self.dependent] = lu_solve(factors, right, check_finite=False)
         return change
