@@ -1,9 +1,9 @@
 """Claim: a heavy top moves as Lagrange's closed form says, in coordinates chosen anew as it turns.
 
 Source: `verification/heavy_top.py` (elliptic functions, derived there), and joint coordinates. The fast top is that of
-the literature on Lie group integrators (numbers from memory). Tolerances: 2e-6 m where errors of 1e-9 are asked for in a
-step (the top that precesses turns by 20 rad); a choice of coordinates leaves state and rates as they are, to 1e-9 of the
-largest. Negative controls: with the coordinates of the start kept for good the motion ends or errs; another spin is seen.
+the literature on Lie group integrators (numbers from memory). Tolerances: 2e-6 m where 1e-9 is allowed in a step (the
+top that precesses turns by 20 rad); a choice of coordinates leaves state and rates as they are, to 1e-9 of the largest.
+Negative controls: with the coordinates of the start kept for good the motion ends; another spin is seen.
 """
 
 from __future__ import annotations
