@@ -198,4 +198,4 @@ def scaled_rows(jacobian: csr_array) -> FloatArray:
     """Rows (m, n) of length one; those that are nothing beside the longest stay short."""
     dense = np.asarray(jacobian.toarray(), dtype=np.float64)
     lengths = np.linalg.norm(dense, axis=1, keepdims=True)
-    return dense / np.maximum(lengths, _NOTHING * np.max(lengths, initial=0.0))
+    return np.asarray(dense / np.maximum(lengths, _NOTHING * np.max(lengths, initial=0.0)))

@@ -45,7 +45,7 @@ class IndependentRows:
         drives = np.array([equation.drive is not None for equation in every.equations], dtype=bool)
         self._own, self._drives = np.flatnonzero(~drives), np.flatnonzero(drives)
         self._keep(kept)
-        self._best = 0.0
+        self.size = self._chosen = self._best = 0.0
         self.accepted(0.0, start)
 
     def at(self, t: float, state: State) -> ConstraintValues:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_dynamics.multibody.body import body
+from rover_dynamics.multibody.body import RigidBody, body
 from rover_dynamics.multibody.joint import revolute
 from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.state import State, rotations
@@ -34,11 +34,10 @@ def bricard() -> MultibodyModel:
         body(f"rod {k + 1}", 1.0, tuple(np.where(np.abs(side) > 0.5, _LONG, _ACROSS)), tuple(middle))
         for k, (side, middle) in enumerate(zip(along, middles, strict=True))
     )
+    sides: list[RigidBody | str] = ["ground", *rods, "ground"]
     joints = tuple(
-        revolute(f"hinge {k + 1}", first, second, at=tuple(at), axis=tuple(axis))
-        for k, (first, second, at, axis) in enumerate(
-            zip(("ground", *rods), (*rods, "ground"), _CORNERS, _AXES, strict=True)
-        )
+        revolute(f"hinge {k + 1}", sides[k], sides[k + 1], at=tuple(_CORNERS[k]), axis=tuple(_AXES[k]))
+        for k in range(6)
     )
     return MultibodyModel(bodies=rods, joints=joints, gravity=(0.0, -9.81, 0.0))
 
