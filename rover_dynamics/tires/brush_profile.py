@@ -59,12 +59,12 @@ def profile_distance(
     size = scratch[0, 2]
     x, y = scratch[0, 0], scratch[0, 1]
     if size > 0.0:
-        D, second = _freeing((size * x, size * y), scratch)
-        if second >= 0:
-            share, other = _shares(D, scratch[0], scratch[second])
-            tilt = _sine(
-                share * _tangent(tilt) + other * _tangent(_tilt(piece, knots, section, radius, scratch[second]))
-            )
+        D, first, second = _freeing((size * x, size * y), scratch)
+        if first != 0:
+            own = _tangent(_tilt(piece, knots, section, radius, scratch[first]))
+            other = _tangent(tilt if second == 0 else _tilt(piece, knots, section, radius, scratch[second]))
+            shares = _shares(D, scratch[first], scratch[second])
+            tilt = _sine(shares[0] * own + shares[1] * other)
         size = hypotenuse(D[0], D[1])
         x, y = D[0] / size, D[1] / size
     q, g = math.sqrt(max(1.0 - tilt * tilt, 0.0)), section[2]
@@ -148,29 +148,31 @@ def _bend(z: Graph, f: Vector, g: Vector, slope: float) -> float:
 
 
 @compiled
-def _freeing(D: Pair, scratch: FloatArray) -> tuple[Pair, int]:
-    """Shortest D with D . u_k >= delta_k, and the last row that changed it (-1: none).
+def _freeing(D: Pair, scratch: FloatArray) -> tuple[Pair, int, int]:
+    """Shortest D with D . u_k >= delta_k, and the two rows that hold it; one row twice where it holds D alone.
 
     One constraint after the other (Seidel 1991): where row k is violated, D lies on its line,
-    D = delta_k u_k + t (-u_ky, u_kx), with t as near to zero as the rows before k allow.
+    D = delta_k u_k + t (-u_ky, u_kx), with t as near to zero as the rows before k allow. The row that keeps t from zero
+    is the other one: D is a sum of both directions with shares >= 0.
     """
-    last = -1
+    first, second = 0, 0
     for k in range(1, SAMPLES + 1):
         a, b, deflection = scratch[k, 0], scratch[k, 1], scratch[k, 2]
         if deflection <= 0.0 or D[0] * a + D[1] * b >= deflection - TOLERANCE:
             continue
-        low, high = -1e3, 1e3
+        low, high, below, above = -1e3, 1e3, k, k
         for j in range(k):
             if scratch[j, 2] > 0.0:
                 turn = scratch[j, 1] * a - scratch[j, 0] * b
                 need = scratch[j, 2] - deflection * (scratch[j, 0] * a + scratch[j, 1] * b)
-                if turn > 1e-9:
-                    low = max(low, need / turn)
-                elif turn < -1e-9:
-                    high = min(high, need / turn)
+                if turn > 1e-9 and need / turn > low:
+                    low, below = need / turn, j
+                elif turn < -1e-9 and need / turn < high:
+                    high, above = need / turn, j
         t = max(low, min(high, 0.0)) if low <= high else 0.5 * (low + high)
-        D, last = (deflection * a - t * b, deflection * b + t * a), k
-    return D, last
+        first, second = k, k if low > high or t == 0.0 else below if t == low else above
+        D = deflection * a - t * b, deflection * b + t * a
+    return D, first, second
 
 
 @compiled

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from contracts.height_field import sampled_terrain
 from contracts.terrain import PieceKind, Plane, Terrain, TerrainUnion, inclined_plane
 from contracts.terrain_ridges import Crevasse, HalfRound, Sinusoid, Step
+from contracts.terrain_rocks import RandomRocks
 from rover_dynamics.tires.brush_contact import find_contacts
 from rover_dynamics.tires.brush_edges import convex_distance
 from rover_dynamics.tires.brush_force import brush_scratch
@@ -176,6 +177,15 @@ def test_force_changes_little_by_little_where_places_of_contact_come_and_go() ->
     jump = np.abs(np.diff(force, axis=0)).max()
     assert force[:, 1].max() - force[:, 1].min() > 50.0
     assert jump < 0.0012 * STIFFNESS  # a millimetre of deflection; the step is 0.1 mm
+
+
+def test_force_changes_little_by_little_beside_a_steep_rock() -> None:
+    """Two samples away from the closest point may hold the rim: the camber is theirs, not that of the closest point."""
+    rock = RandomRocks(seed=2, size=(23.0, 16.0), origin=(-1.5, -8.0), abundance=0.06, diameters=(0.1, 0.625))
+    wheels, steps = BrushWheels(rock.terrain(), 1), np.arange(17.29, 17.33, 1e-4)
+    found = np.array([wheels.forces(motion((x, 0.7086, 0.1186)), np.zeros((1, 2))).wrench[0, :3] for x in steps])
+    assert np.abs(np.diff(found, axis=0)).max() < 0.0012 * STIFFNESS  # a millimetre of deflection; it was 50 mm
+    assert np.abs(found[:, 1]).max() > 20.0  # the rock pushes sideways
 
 
 CASES: list[tuple[Terrain, FloatArray, FloatArray]] = [
