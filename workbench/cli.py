@@ -231,6 +231,30 @@ def mission(
 
 
 @app.command()
+def traverse(
+    study: StudyOrBuiltIn = None,
+    tire: Annotated[
+        list[str] | None, typer.Option(help="brush, fe; may be given several times.", show_default="brush")
+    ] = None,
+    distance: Annotated[float, typer.Option(help="Way to drive, in metres.")] = 2000.0,
+    abundance: Annotated[float, typer.Option(help="Share of the ground that rocks cover, up to 0.4.")] = 0.06,
+    seed: Annotated[int, typer.Option(help="Of the random rocks.")] = 1,
+    speed: Annotated[float, typer.Option(help="In metres an hour.")] = 70.0,
+    out: Annotated[Path, typer.Option(help="Folder of the counted cycles.")] = Path("build/traverse"),
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
+) -> None:
+    """Drive the 2 km between two samples over rocks, stretch by stretch; the report reads the record."""
+    from workbench.commands.traverse import run_traverse
+    from workbench.questions.traverse.graph import Asked
+
+    asked = Asked(distance=distance, speed=speed / 3600.0, abundance=abundance, seed=seed)
+    raise typer.Exit(run_traverse(study, tire or (), asked, out, store, computing(workers, ranks, scheduler)))
+
+
+@app.command()
 def rover(
     scenario: Annotated[
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)

@@ -28,6 +28,7 @@ from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.questions.section.question import SECTION
 from workbench.questions.speed.question import SPEED
 from workbench.questions.strength.question import STRENGTH
+from workbench.questions.traverse.question import TRAVERSE
 from workbench.questions.validation.question import VALIDATION
 from workbench.questions.verification.question import VERIFICATION
 from workbench.questions.wheel.question import WHEEL
@@ -57,6 +58,7 @@ QUESTIONS: tuple[Question, ...] = (
     ANCF_DYNAMICS,
     ROVER,
     ROVER_MISSION,
+    TRAVERSE,
     ROVER_ANCF,
     ROVER_CROSSCHECK,
     ROVER_CLOSER,

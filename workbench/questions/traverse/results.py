@@ -1,0 +1,182 @@
+"""The record of `workbench traverse`: written from what its tasks found, and read.
+
+The loads of all stretches of a wheel, one behind the other, are one history for rainflow. Where a stretch ends before
+the rover is there, the drive ends: what lies behind is left out, but counted. Verified by
+tests/unit/test_workbench_traverse.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
+from itertools import chain
+from typing import Any
+
+from workbench.questions.traverse.counting import counted
+from workbench.questions.traverse.graph import TRAVERSE_TIRES, Asked
+
+__all__ = ["WIDTHS", "TireRun", "Traverse", "found_of", "run_of", "traverse_of"]
+
+WIDTHS = {"load": 20.0, "deflection": 2e-3}
+"""Of the ranges that are counted together [N], [m]."""
+CAUSES = {
+    "wheel": "a wheel pressed deeper than its curves go",
+    "computation": "the computation",
+    "heading": "a rover that turned off its way",
+    "stability": "a lean of more than 30 degrees",
+    "clearance": "a body on the ground",
+    "friction": "wheels that turn without taking it there",
+}
+_LISTS = ("loads", "deflections", "airborne", "load_cycles", "deflection_cycles")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TireRun:
+    """The drive on one kind of tire; lists have one entry a wheel.
+
+    Attributes
+    ----------
+    tire : name
+    way, time, energy : up to where it ends [m], [s], [J]
+    stretches, ended : driven, and how many of all would have ended the drive
+    cause, words : of the first that does, None and "" where none does; what its solver said
+    stretch, moment, place : where: its number from 1 on, time in it [s], x and y from its start [m]
+    rocks, avoided, tallest : in the wheels' tracks: driven over, driven around, height of the tallest driven over [m]
+    aside, lean : largest [m], [rad]
+    loads, deflections : largest [N], [m]
+    airborne, over : share of the time without load, and above the first yield of the study's wheel, None without one
+    first_yield : that load [N], or None
+    load_cycles, deflection_cycles : numbers of cycles in ranges of `WIDTHS`, from 0 on
+    """
+
+    tire: str
+    way: float
+    time: float
+    energy: float
+    stretches: int
+    ended: int
+    cause: str | None
+    words: str
+    stretch: int | None
+    moment: float | None
+    place: list[float] | None
+    rocks: int
+    avoided: int
+    tallest: float
+    aside: float
+    lean: float
+    loads: list[float]
+    deflections: list[float]
+    airborne: list[float]
+    over: list[float] | None
+    first_yield: float | None
+    load_cycles: list[list[float]]
+    deflection_cycles: list[list[float]]
+
+    @property
+    def energy_per_metre(self) -> float:
+        """[J/m]"""
+        return self.energy / self.way if self.way > 0.0 else 0.0
+
+    @property
+    def ends(self) -> str:
+        """What ends it, in words; "" where nothing does."""
+        if self.cause is None:
+            return ""
+        where = "before it sets out"
+        if self.place is not None and self.moment is not None:
+            where = f"at {self.moment:.4g} s, {self.place[0]:.2f} m ahead and {self.place[1]:+.2f} m aside of its start"
+        return f"ended after {self.way:.1f} m by {CAUSES[self.cause]}: stretch {self.stretch}, {where}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Traverse:
+    """What was asked, names of the wheels, and the drive on each kind of tire."""
+
+    asked: Asked
+    wheels: list[str]
+    runs: dict[str, TireRun]
+
+
+def run_of(tire: str, results: Sequence[Mapping[str, Any]]) -> TireRun:
+    """The whole drive from its stretches' results, in their order."""
+    broken = [k for k, one in enumerate(results) if one["ended"] is not None]
+    driven = results[: broken[0] + 1] if broken else results
+    moved = [one for one in driven if "time_s" in one]
+    last = driven[-1] if broken else None
+    wheels = range(len(moved[0]["loads_N"])) if moved else range(0)
+    time = sum(one["time_s"] for one in moved)
+
+    def largest(name: str) -> list[float]:
+        return [max(one[name][w] for one in moved) for w in wheels]
+
+    def share(name: str) -> list[float]:
+        return [sum(one[name][w] * one["time_s"] for one in moved) / time for w in wheels]
+
+    def cycles(name: str) -> list[list[float]]:
+        return [counted(chain.from_iterable(one[name][w] for one in moved), WIDTHS[name]) for w in wheels]
+
+    limit = driven[0]["yield_N"]
+    return TireRun(
+        tire=tire,
+        way=sum(one["way_m"] for one in driven),
+        time=time,
+        energy=sum(one["energy_J"] for one in moved),
+        stretches=len(driven),
+        ended=len(broken),
+        cause=None if last is None else last["ended"]["cause"],
+        words="" if last is None else last["ended"]["words"],
+        stretch=None if last is None else len(driven),
+        moment=None if last is None else last.get("time_s"),
+        place=None if last is None else last.get("place_m"),
+        rocks=sum(one["rocks"] for one in driven),
+        avoided=sum(one["avoided"] for one in driven),
+        tallest=max(one["tallest_m"] for one in driven),
+        aside=max((one["aside_m"] for one in moved), default=0.0),
+        lean=max((one["lean_rad"] for one in moved), default=0.0),
+        loads=largest("loads_N"),
+        deflections=largest("deflections_m"),
+        airborne=share("airborne"),
+        over=None if limit is None else share("over"),
+        first_yield=limit,
+        load_cycles=cycles("load"),
+        deflection_cycles=cycles("deflection"),
+    )
+
+
+def found_of(asked: Asked, wheels: Sequence[str], runs: Sequence[TireRun]) -> dict[str, Any]:
+    """The record, JSON values [SI]."""
+    return {"asked": asdict(asked), "wheels": list(wheels), "runs": [_rounded(asdict(one)) for one in runs]}
+
+
+def _rounded(value: Any) -> Any:
+    """Floats to six digits."""
+    if isinstance(value, float):
+        return float(f"{value:.6g}")
+    if isinstance(value, dict):
+        return {name: _rounded(one) for name, one in value.items()}
+    return [_rounded(one) for one in value] if isinstance(value, list) else value
+
+
+def traverse_of(found: Mapping[str, Any]) -> Traverse:
+    """What a record's ``found`` holds.
+
+    Raises
+    ------
+    ValueError, TypeError, LookupError
+        For what no record of ours holds.
+    """
+    from pydantic import TypeAdapter
+
+    if any(set(one) != {each.name for each in fields(TireRun)} for one in found["runs"]):
+        raise ValueError("a run holds what one of ours holds, and nothing else")
+    runs = TypeAdapter(list[TireRun]).validate_python(found["runs"])
+    asked, wheels = TypeAdapter(Asked).validate_python(found["asked"]), [str(name) for name in found["wheels"]]
+    tires = [one.tire for one in runs]
+    if not tires or len(set(tires)) != len(tires) or not set(tires) <= set(TRAVERSE_TIRES):
+        raise ValueError("runs are those of its kinds of tire, each once")
+    for one in runs:
+        lists = [getattr(one, name) for name in _LISTS] + ([] if one.over is None else [one.over])
+        if any(len(values) not in (0, len(wheels)) for values in lists) or one.cause not in (None, *CAUSES):
+            raise ValueError("every list has one entry a wheel, and the cause is one of ours")
+    return Traverse(asked=asked, wheels=wheels, runs=dict(zip(tires, runs, strict=True)))
