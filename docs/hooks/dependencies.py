@@ -37,6 +37,7 @@ PURPOSES = {
     "pyarrow": "tables of parameter studies (Parquet)",
     "pydantic": "checks of study files",
     "pyvista": "pictures and scenes, with VTK",
+    "rainflow": "cycles of the wheels' loads, counted (`workbench traverse`)",
     "rasterio": "terrain from GeoTIFF, with GDAL",
     "rich": "tables and progress on the terminal",
     "scipy": "sparse matrices, splines, statistics",

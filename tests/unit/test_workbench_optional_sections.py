@@ -40,7 +40,7 @@ ADDED = {
     "input_uncertainty": {"input_uncertainty"},
     "verification": {"multibody", "verification", "speed"},
     "environment": {"environment"},
-    "rover": {"rover", "rover_ancf", "rover_mission"},
+    "rover": {"rover", "rover_ancf", "rover_mission", "traverse"},
     "full": set(),
     "reference": {"ancf_wheels", "validation"},
     "tolerances": set(),
