@@ -1,8 +1,9 @@
 """The brush tire on a plane, written anew from the manual's formulas (docs/theory/brush_tire.md) for another code.
 
 Plain Python on floats that imports nothing of this project. It was written with our tire's code read before: slips of
-the pen in either are seen, an error of thought that both have is not. The ground is z = 0. Of the manual this leaves out what level ground does not ask for: edges, profiles, several contacts,
-the fading beyond 72 degrees of camber, Fiala's law and the carcass.
+the pen in either are seen, an error of thought that both have is not. The ground is z = 0. Of the manual this leaves
+out what level ground does not ask for: edges, profiles, several contacts, the fading beyond 72 degrees of camber,
+Fiala's law and the carcass.
 """
 
 from __future__ import annotations
