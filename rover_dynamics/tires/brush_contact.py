@@ -29,14 +29,14 @@ from numpy.typing import NDArray
 
 from contracts.terrain import PieceKind, TerrainPieces
 from rover_dynamics.tires.brush_compiled import Vector, along, compiled, ramp
-from rover_dynamics.tires.brush_edges import convex_distance
+from rover_dynamics.tires.brush_edges import Facing, convex_distance
 from rover_dynamics.tires.brush_profile import profile_distance
 
 __all__ = ["CONTACT_SIZE", "fading", "find_contacts"]
 
 FloatArray = NDArray[np.float64]
-CONTACT_SIZE = 12
-"""Numbers of a contact: lambda, n (3), place from the hub centre (3), u (3), q, delta."""
+CONTACT_SIZE = 13
+"""Numbers of a contact: lambda, n (3), place from the hub centre (3), u (3), q, delta, and how u turns [rad/m]."""
 SINUSOID = int(PieceKind.SINUSOID)
 STEEPEST, FADED = 0.1, 0.2
 SWEEPS, TOLERANCE = 200, 1e-13
@@ -46,7 +46,7 @@ SWEEPS, TOLERANCE = 200, 1e-13
 def find_contacts(
     p: Vector, e: Vector, size: tuple[float, float], terrain: TerrainPieces, contacts: FloatArray, scratch: FloatArray
 ) -> None:
-    """Fill the contacts (n_pieces, 12) of one wheel.
+    """Fill the contacts (n_pieces, 13) of one wheel.
 
     Parameters
     ----------
@@ -60,18 +60,19 @@ def find_contacts(
     for k in range(terrain.rows.shape[0]):
         piece = terrain.rows[k]
         if int(piece[0]) >= SINUSOID:
-            phi, n, tilt = profile_distance(piece, terrain.knots, p, e, size[0], scratch)
+            found = profile_distance(piece, terrain.knots, p, e, size[0], scratch)
         else:
-            phi, n, tilt = convex_distance(piece, p, e)
-        touched += _place(phi, n, tilt, e, size, contacts[k])
+            found = convex_distance(piece, p, e)
+        touched += _place(found, e, size, contacts[k])
     if touched > 1:
         _share(contacts)
 
 
 @compiled
-def _place(phi: float, n: Vector, tilt: float, e: Vector, size: tuple[float, float], row: FloatArray) -> int:
+def _place(found: Facing, e: Vector, size: tuple[float, float], row: FloatArray) -> int:
     """One contact's numbers; 1 if it touches."""
-    row[0], row[11] = 0.0, 0.0
+    phi, n, tilt, turning = found
+    row[0], row[11], row[12] = 0.0, 0.0, turning
     q = math.sqrt(max(1.0 - tilt * tilt, 0.0))
     if q <= STEEPEST:
         return 0

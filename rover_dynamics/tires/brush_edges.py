@@ -28,14 +28,17 @@ from rover_dynamics.tires.brush_compiled import Vector, compiled, dot
 __all__ = ["Facing", "convex_distance", "facing"]
 
 FloatArray = NDArray[np.float64]
-type Facing = tuple[float, Vector, float]
+type Facing = tuple[float, Vector, float, float]
 PLANE, CORNER = int(PieceKind.PLANE), int(PieceKind.CORNER)
 ITERATIONS, TOLERANCE, FLATTEST = 20, 1e-12, 1e-6
 
 
 @compiled
 def convex_distance(piece: FloatArray, p: Vector, e: Vector) -> Facing:
-    """Distance phi [m] in the wheel's plane, unit normal n of the piece at the closest point, and n . e.
+    """Distance phi [m] in the wheel's plane, unit normal n of the piece at the closest point, n . e, and how n turns.
+
+    The last is the angle by which the contact turns about the hub as that moves along the ground [rad/m]: none over a
+    plane, one over the distance from the axis of an edge or rock.
 
     Parameters
     ----------
@@ -45,24 +48,27 @@ def convex_distance(piece: FloatArray, p: Vector, e: Vector) -> Facing:
     """
     if int(piece[0]) == PLANE:
         n = piece[1], piece[2], piece[3]
-        return facing(dot(n, p) - piece[4], n, e)
+        return facing(dot(n, p) - piece[4], n, e, 0.0)
     c, s, r = piece[1], piece[2], piece[5]
     a, b, tilt = c * p[0] + s * p[1] - piece[3], p[2] - piece[4], (c * e[0] + s * e[1], e[2])
     first = 0.0
     if int(piece[0]) == CORNER:
         a, b, first = a - r, b + r, 0.5 * math.pi
-    psi = _best_angle(a, b, r, tilt)
+    psi, turning = _best_angle(a, b, r, tilt), 1.0
     if not first <= psi <= math.pi:
         psi = math.pi if _distance(math.pi, a, b, r, tilt) > _distance(first, a, b, r, tilt) else first
+        turning = 0.0
     n = c * math.cos(psi), s * math.cos(psi), math.sin(psi)
-    return facing(a * math.cos(psi) + b * math.sin(psi) - r, n, e)
+    reach = a * math.cos(psi) + b * math.sin(psi)
+    return facing(reach - r, n, e, turning / max(reach, FLATTEST))
 
 
 @compiled
-def facing(gap: float, n: Vector, e: Vector) -> Facing:
-    """From the gap [m] along a unit normal n to the distance [m] in the wheel's plane; with n, and n . e [-]."""
+def facing(gap: float, n: Vector, e: Vector, turning: float) -> Facing:
+    """From gap [m] and turning [rad/m] along a unit normal n to those in the wheel's plane; with n, and n . e [-]."""
     tilt = dot(n, e)
-    return gap / max(math.sqrt(max(1.0 - tilt * tilt, 0.0)), FLATTEST), n, tilt
+    q = max(math.sqrt(max(1.0 - tilt * tilt, 0.0)), FLATTEST)
+    return gap / q, n, tilt, turning * q
 
 
 @compiled

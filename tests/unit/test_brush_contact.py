@@ -67,7 +67,7 @@ def test_distance_from_edges_is_that_of_brute_force(terrain: Terrain, kind: Piec
             continue  # inside the block
         if kind is PieceKind.HALF_ROUND and np.hypot(s, p[2]) < 0.08:
             continue
-        phi, n, tilt = convex_distance(piece, tuple(p), tuple(e))
+        phi, n, tilt, _ = convex_distance(piece, tuple(p), tuple(e))
         assert phi == pytest.approx(nearest(points, yaw, p, e), abs=2e-6)
         assert np.linalg.norm(n) == pytest.approx(1.0, abs=1e-12)
         assert tilt == pytest.approx(np.dot(n, e), abs=1e-14)
@@ -83,7 +83,7 @@ def test_distance_from_waves_is_that_of_brute_force() -> None:
         e = turned(*draw.uniform(-0.3, 0.3, 2))[:, 1]
         p = np.array([draw.uniform(-0.2, 0.2), draw.uniform(-0.2, 0.2), 0.0])
         p[2] = waves.height(p[0], p[1]) + 0.125
-        phi, n, _ = profile_distance(piece, np.empty((0, 0)), tuple(p), tuple(e), RADIUS, scratch)
+        phi, n, _, _ = profile_distance(piece, np.empty((0, 0)), tuple(p), tuple(e), RADIUS, scratch)
         assert phi == pytest.approx(nearest(points, 0.25, p, e), abs=1e-6)
         c = p - (np.array(n) - np.dot(n, e) * e) / np.sqrt(1 - np.dot(n, e) ** 2) * phi
         assert c[2] == pytest.approx(float(waves.height(c[0], c[1])), abs=1e-6)

@@ -13,6 +13,7 @@ from scipy.integrate import solve_ivp
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.terrain import Plane
+from contracts.terrain_ridges import HalfRound
 from rover_dynamics.tires.brush_force import DEEP
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH
@@ -180,6 +181,34 @@ def test_a_spinning_wheel_bounces_with_the_energy_it_came_with(forgets: bool) ->
     assert rebound.shape[1]
     lost = abs(energy(rebound[:, -1]) - energy(start)) / (mass * gravity * 20e-3)
     assert lost > 1e-2 if forgets else lost < 1e-4
+
+
+@pytest.mark.parametrize("forgets", [False, True])
+def test_on_a_rock_the_way_around_it_is_paid_for(forgets: bool) -> None:
+    """A spinning wheel bounces off the side of a half-round; the control forgets the force across the contact."""
+    wheels = BrushWheels(HalfRound(radius=0.02), 1, LOSSLESS, BrushSettings(potential=WHEEL))
+    mass, inertia, gravity = 20.0, 0.05, 3.711
+
+    def rate(_: float, y: Array) -> Array:
+        x, z, v_x, v_z, angle, spin = y
+        hub = motion((x, 0.0, z), spun(angle), (v_x, 0.0, v_z), (0.0, spin, 0.0))
+        wrench = wheels.forces(hub, np.zeros((1, wheels.n_state))).wrench[0]
+        force = np.array([wrench[0], wrench[2]])
+        if forgets:
+            away = np.array([x, z]) / math.hypot(x, z)
+            force = (force @ away) * away
+        return np.array([v_x, v_z, force[0] / mass, force[1] / mass - gravity, spin, wrench[4] / inertia])
+
+    def energy(y: Array) -> float:
+        return float(mass * gravity * y[1] + 0.5 * mass * (y[2] ** 2 + y[3] ** 2) + 0.5 * inertia * y[5] ** 2)
+
+    start = np.array([0.01, RADIUS + 0.04, 0.0, 0.0, 0.2, 5.0])
+    found = solve_ivp(rate, (0.0, 0.4), start, "DOP853", rtol=1e-9, atol=1e-11, max_step=2e-3)
+    free = found.y[:, np.hypot(found.y[0], found.y[1]) > RADIUS + 0.02 + 4e-3]
+    rebound = free[:, free[3] > 0.01]
+    assert rebound.shape[1]
+    lost = abs(energy(rebound[:, -1]) - energy(start)) / (mass * gravity * 20e-3)
+    assert lost > 3e-3 if forgets else lost < 1e-4
 
 
 def test_the_mean_stiffness_is_that_of_the_formula() -> None:
