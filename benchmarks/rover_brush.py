@@ -1,9 +1,12 @@
-"""Speed of the rover on brush tires: 40 s on a straight path, 30 s over random rocks, and EXUDYN beside it.
+"""Speed of the rover on brush tires and on a wheel by its curves: straight path, random rocks, and EXUDYN beside it.
 
 ``make bench NAME=rover_brush`` prints the table and writes ``build/bench/rover_brush.json``; with ``ARGS=--record`` the
 run is kept for the report. Processor time of one thread, the shortest of three runs, compilation left out; ten outputs
 a second. Errors are against a run with a hundred times smaller error a step and a fifth of the longest step: place of
 any body, and the root mean square of the wheel loads' differences (impacts on a rock's edge shift by milliseconds).
+
+The wheel by its curves is made up, a tenth stiffer every third of a turn, 24 curves of 15 points as a study's have;
+what it costs does not depend on them. Its carcass is as stiff as the built-in wheel.
 
 EXUDYN (`peer_codes/rover_exudyn.py`) gets the same bodies, hinges, masses, speed law and radial law on the plane, and a
 slip law equal to ours at the driven speed; our tire leaves rolling resistance and the fall of friction with slip out
@@ -18,6 +21,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -28,14 +32,17 @@ sys.path.insert(0, str(ROOT))
 
 from benchmarks.output.run import Run, add_option  # noqa: E402
 from benchmarks.peer_codes.rover_exudyn import SAMPLED, PeerRun, alike, run_exudyn  # noqa: E402
+from contracts.curves import StiffnessCurve  # noqa: E402
 from contracts.terrain import Plane, Terrain  # noqa: E402
 from contracts.terrain_rocks import RandomRocks  # noqa: E402
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps  # noqa: E402
 from rover_dynamics.multibody.motion_law import SpeedTrapezoid  # noqa: E402
 from rover_dynamics.rover.rover import Actuators, build_rover  # noqa: E402
 from rover_dynamics.rover.rover_file import read_rover  # noqa: E402
+from rover_dynamics.tires.brush_settings import Carcass, yielding  # noqa: E402
+from rover_dynamics.tires.wheel_potential import Tips, wheel_potential  # noqa: E402
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle  # noqa: E402
-from workbench.questions.speed.aims import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME  # noqa: E402
+from workbench.questions.speed.aims import BESIDE_EXUDYN, FASTER, PATHS, PEER_TIME, on_its_curves  # noqa: E402
 
 FloatArray = NDArray[np.float64]
 DESIGN = read_rover()
@@ -50,6 +57,8 @@ STEPS = ImplicitSteps()
 FINE = ImplicitSteps(tolerance=0.01 * STEPS.tolerance, longest=0.2 * STEPS.longest)
 WINDOW = 4.0
 """Time over which both codes' errors along the path are compared [s]."""
+CARCASS = Carcass(forward=2800.0, sideways=12000.0)
+"""Forwards and sideways [N/m], near the built-in wheel's."""
 PEER_STEP, PEER_FINE = 0.02, 5e-4
 """Steps of EXUDYN's run from which ours is chosen, and of its fine run [s]."""
 
@@ -58,6 +67,22 @@ def rover(law: SpeedTrapezoid, terrain: Terrain) -> Vehicle:
     """All six wheels driven by one law."""
     laws = {f"drive_{leg.name}": law for leg in DESIGN.legs}
     return build_rover(DESIGN, terrain=terrain, actuators=Actuators(laws=laws), height=-0.024)
+
+
+def on_curves(vehicle: Vehicle) -> Vehicle:
+    """The same rover on wheels that carry as curves all around say."""
+    deflection, tips = np.linspace(0.0, 0.055, 15), Tips(radius=0.1425, height=3e-3, number=12.0, phase=0.0, half=3e-3)
+    curves = [
+        StiffnessCurve(
+            model="fe",
+            orientation_deg=5.0 * k,
+            deflection=deflection,
+            load=(8000.0 + 800.0 * np.cos(np.radians(15.0 * k))) * deflection,
+        )
+        for k in range(24)
+    ]
+    settings = replace(vehicle.settings, potential=wheel_potential(curves, np.radians(120.0), tips))
+    return replace(vehicle, settings=yielding(settings, vehicle.tire, CARCASS))
 
 
 def timed(vehicle: Vehicle, times: FloatArray) -> tuple[VehicleMotion, float]:
@@ -134,6 +159,8 @@ def main() -> None:
     options, run = parser.parse_args(), Run("rover_brush")
     straight, rocks = rover(STRAIGHT, Plane()), rover(ON, ROCKS.terrain())
     rows = [r for (case, end), v in zip(PATHS.items(), (straight, rocks), strict=True) for r in own_rows(case, v, end)]
+    for (case, end), v in zip(PATHS.items(), (straight, rocks), strict=True):
+        rows += own_rows(on_its_curves(case), on_curves(v), end)
     rows += peer_rows(alike(straight))
     for r in rows:
         peer = "" if r["peer"] is None else f"{r['peer']:>12.3g}"

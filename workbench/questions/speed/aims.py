@@ -28,6 +28,7 @@ __all__ = [
     "Aim",
     "ancf_aims",
     "flexible_aims",
+    "on_its_curves",
     "rover_aims",
     "wheel_case",
 ]
@@ -88,7 +89,14 @@ def ancf_aims(record: BenchmarkRecord) -> list[Aim]:
 
 PATHS = {"straight path, 40 s": 40.0, "random rocks, 30 s": 30.0}
 """Cases, and how long each lasts [s]."""
+CURVES_FASTER = dict(zip(PATHS, (100.0, 20.0), strict=True))
+"""Aims of the wheel by its curves, over real time."""
 BESIDE_EXUDYN, PEER_TIME = "straight path, 40 s, beside EXUDYN", "processor time at equal error"
+
+
+def on_its_curves(case: str) -> str:
+    """The case in which the rover stands on a wheel by its curves."""
+    return f"wheel by its curves, {case}"
 
 
 def rover_aims(record: BenchmarkRecord) -> list[Aim]:
@@ -97,6 +105,11 @@ def rover_aims(record: BenchmarkRecord) -> list[Aim]:
         Aim(title=f"Rover on brush tires: {case}, {FASTER}", found=record.row(case, FASTER).ours, limit=20.0)
         for case in PATHS
     ]
+    driven = record.cases(FASTER)
+    for case, limit in CURVES_FASTER.items():
+        if (own := on_its_curves(case)) in driven:
+            title = f"Rover on wheels by their curves: {case}, {FASTER}"
+            aims.append(Aim(title=title, found=record.row(own, FASTER).ours, limit=limit))
     for case in record.cases(PEER_TIME):
         title = "Rover on brush tires: faster than EXUDYN at equal error of the place, same model"
         aims.append(Aim(title=title, found=record.row(case, PEER_TIME).ratio or 0.0, limit=2.0))
