@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from pydantic_core import PydanticCustomError
-from scipy.stats import qmc
 
 from contracts.errors import InputError, StudyError
 from workbench.study.full import steps_around
@@ -95,6 +94,8 @@ def latin_hypercube(section: SweepSection) -> NDArray[np.float64]:
     """Places of the points of a hypercube, (samples, parameters) in [0, 1), by the section's seed."""
     assert section.samples is not None
     generator = np.random.default_rng(section.seed)
+    from scipy.stats import qmc  # a second of every command's start
+
     return qmc.LatinHypercube(d=len(section.parameters), rng=generator).random(section.samples)
 
 
