@@ -14,7 +14,7 @@ import pytest
 
 from contracts.errors import InputError
 from workbench.execution.task import Task
-from workbench.questions.kept import Kept, keep, kept, keys_of, require_place
+from workbench.questions.kept import Kept, keep, kept, keys_of, replaced, require_place
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
@@ -159,3 +159,15 @@ def test_a_folder_that_cannot_be_written_is_told_before_anything_runs(
     monkeypatch.setattr(os, "access", lambda place, mode: False)
     with pytest.raises(InputError, match=r"folder of kept records = .*: cannot be written"):
         require_place(study, "sample")
+
+
+def test_before_a_record_of_another_command_is_replaced_that_is_said(study: Study) -> None:
+    """Not where there is none, for the same command on a changed study, and for the same tasks by other words."""
+    other = TASKS[:1]
+    assert replaced(study, "sample", "make sample", TASKS) == []
+    path = keep(study, "sample", "make sample", TASKS, 1.0, {})
+    assert replaced(study, "sample", "make sample", other) == []
+    assert replaced(study, "sample", "workbench sample own.toml", TASKS) == []
+    (said,) = replaced(study, "sample", "workbench sample --few", other)
+    assert "`make sample`" in said
+    assert str(path) in said

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 from dataclasses import replace
@@ -11,8 +12,10 @@ from typing import Any
 import pytest
 
 from contracts.errors import InputError
+from workbench.commands import traverse as command
 from workbench.execution.result_files import read_result
 from workbench.execution.task import task_keys
+from workbench.execution.terminal import Terminal
 from workbench.questions.kept import Kept
 from workbench.questions.traverse.graph import Asked, stretch_name, traverse_tasks
 from workbench.questions.traverse.question import TRAVERSE, HeldTraverse
@@ -164,6 +167,12 @@ def test_what_is_no_record_is_refused() -> None:
         {"runs": [dict(run, loads=[1.0])]},
         {"runs": [dict(run, way="far")]},
         {"runs": [dict(run, more=1)]},
+        {"runs": [dict(run, cause="friction", stretch=1, moment=3.0, place=[1.0])]},
+        {"runs": [dict(run, over=[0.1, 0.2])]},
+        {"runs": [dict(run, first_yield=200.0)]},
+        {"runs": [dict(run, time=-1.0)]},
+        {"runs": [dict(run, load_cycles=[[-1.0], [1.0]])]},
+        {"wheels": "lr"},
         {"asked": {"distance": -1.0}},
     ):
         with pytest.raises((ValueError, InputError)):
@@ -180,3 +189,14 @@ def test_the_evidence_tells_both_tires_and_draws_the_cycles() -> None:
         assert words in text, words
     assert "left, fe" in figures["traverse_cycles"]
     assert replace(results, state="stale").state == "stale"
+
+
+def test_what_is_printed_fits_a_narrow_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    narrow = Terminal(width=80, file=io.StringIO())
+    monkeypatch.setattr(command, "console", narrow)
+    on_wheel = run_of("fe", [stretch(yield_N=280.0, over=[0.02, 0.0])])
+    command._print([run_of("brush", [stretch()]), on_wheel], Asked(distance=20.0))
+    text = narrow.file.getvalue()
+    for words in ("largest load of a wheel", "300 N", "20.0 J/m", "2.000 %", "rocks driven around"):
+        assert words in text, words
+    assert "…" not in text

@@ -17,7 +17,7 @@ from workbench.execution.result_files import early_ends, read_result
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.terminal import empty_table
-from workbench.questions.kept import keep, require_place
+from workbench.questions.kept import keep, replaced, require_place
 from workbench.questions.model_curves import CURVE
 from workbench.questions.models.wheel_curves import curves_around, largest_between
 from workbench.questions.models.wheel_tasks import Between, between_steps, rock_name, solved_tire, where_it_moves
@@ -43,6 +43,7 @@ def run_mission(study_path: Path | None, tires: Sequence[str], store: Path, comp
     with naming(path):
         tasks = mission_tasks(study, driven)
         require_place(study, RECORD)
+        warn(path, replaced(study, RECORD, _again(study_path, driven), tasks))
         with RunDisplay(console, tasks) as display:
             entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
     folders = {name: entry.path for name, entry in entries.items()}

@@ -13,13 +13,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rover_dynamics.rover.rover_file import read_rover
-from workbench.commands.computing import console, naming, read_and_warn, tell_kept
+from workbench.commands.computing import console, naming, read_and_warn, tell_kept, warn
 from workbench.execution.progress import RunDisplay
 from workbench.execution.result_files import read_result
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.terminal import empty_table
-from workbench.questions.kept import keep, require_place
+from workbench.questions.kept import keep, replaced, require_place
 from workbench.questions.traverse.graph import TRAVERSE_TIRES, Asked, stretch_name, traverse_tasks
 from workbench.questions.traverse.question import RECORD, TIRE_WORDS
 from workbench.questions.traverse.results import WIDTHS, TireRun, found_of, run_of
@@ -43,6 +43,7 @@ def run_traverse(
         require_place(study, RECORD)
         check_folder(out)
         check_targets(out, [_file(tire) for tire in driven])
+        warn(path, replaced(study, RECORD, again := _again(study_path, driven, asked), tasks))
         with RunDisplay(console, tasks) as display:
             entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
     results = {
@@ -51,7 +52,7 @@ def run_traverse(
     runs = [run_of(tire, results[tire]) for tire in driven]
     wheels = [leg.name for leg in read_rover().legs]
     seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
-    record = keep(study, RECORD, _again(study_path, driven, asked), tasks, seconds, found_of(asked, wheels, runs))
+    record = keep(study, RECORD, again, tasks, seconds, found_of(asked, wheels, runs))
     _print(runs, asked)
     tell_kept(put_files(out, {_file(run.tire): _cycles(run, wheels) for run in runs}, "traverse"))
     console.print(f"counted cycles: {out}", soft_wrap=True)
@@ -93,25 +94,39 @@ def _cycles(run: TireRun, wheels: Sequence[str]) -> bytes:
 
 
 def _print(runs: Sequence[TireRun], asked: Asked) -> None:
-    columns = ("tire", "way", "time", "energy", "largest load", "largest deflection", "airborne", "over yield", "rocks")
     title = f"{asked.distance:g} m at {3600.0 * asked.speed:g} m/h, abundance {asked.abundance:g}, seed {asked.seed}"
-    table = empty_table(title, columns, texts=columns[:1], folded=columns[:1])
-    for run in runs:
-        table.add_row(TIRE_WORDS[run.tire], *_row(run))
+    table = empty_table(title, ["", *(TIRE_WORDS[run.tire] for run in runs)], texts=[""])
+    for row in zip(_ROWS, *map(_column, runs), strict=True):
+        table.add_row(*row)
     console.print(table)
     for run in runs:
         if run.ends:
             console.print(f"{TIRE_WORDS[run.tire]}: {run.ends}")
 
 
-def _row(run: TireRun) -> tuple[str, ...]:
+_ROWS = (
+    "way",
+    "time",
+    "energy",
+    "largest load of a wheel",
+    "largest deflection",
+    "time without load",
+    "time above first yield",
+    "rocks driven over",
+    "rocks driven around",
+)
+
+
+def _column(run: TireRun) -> tuple[str, ...]:
+    """What `_ROWS` says of one kind of tire; shares of the time are those of the wheel that has most."""
     return (
         f"{run.way:.1f} m",
-        f"{run.time / 3600.0:.2f} h",
+        f"{run.time / 3600.0:.3g} h",
         f"{run.energy_per_metre:.1f} J/m",
         f"{max(run.loads, default=0.0):.0f} N",
         f"{1e3 * max(run.deflections, default=0.0):.1f} mm",
         f"{100.0 * max(run.airborne, default=0.0):.3f} %",
         "" if run.over is None else f"{100.0 * max(run.over, default=0.0):.3f} %",
-        f"{run.rocks}, {run.avoided} around",
+        f"{run.rocks}",
+        f"{run.avoided}",
     )

@@ -23,7 +23,7 @@ from workbench.execution.fingerprint import canonical_json, text_sha256
 from workbench.execution.task import Task, task_keys
 from workbench.study.model import Study
 
-__all__ = ["Kept", "State", "keep", "kept", "keys_of", "require_place"]
+__all__ = ["Kept", "State", "keep", "kept", "keys_of", "replaced", "require_place"]
 
 State = Literal["current", "older sources", "stale"]
 _DIGITS, _WORDS, _MOST = 16, 200, 50_000_000
@@ -126,6 +126,15 @@ def require_place(study: Study, name: str) -> Path:
     if not os.access(folder, os.W_OK | os.X_OK):
         raise InputError("folder of kept records", folder, "cannot be written", "copy the study into one of yours")
     return study.kept / f"{name}.json"
+
+
+def replaced(study: Study, name: str, command: str, tasks: Sequence[Task]) -> list[str]:
+    """What is to be said before a record of another command and of other tasks is replaced: nothing or a sentence."""
+    old = kept(study, name)
+    if old is None or old.command == command or old.state(tasks) != "stale":
+        return []
+    where = f"{study.kept}/{name}.json"
+    return [f"this will replace the kept record of `{old.command}`, {where}; to keep that, run on a copy of the study"]
 
 
 def keep(study: Study, name: str, command: str, tasks: Sequence[Task], wall_s: float, found: Mapping[str, Any]) -> Path:

@@ -171,12 +171,25 @@ def traverse_of(found: Mapping[str, Any]) -> Traverse:
     if any(set(one) != {each.name for each in fields(TireRun)} for one in found["runs"]):
         raise ValueError("a run holds what one of ours holds, and nothing else")
     runs = TypeAdapter(list[TireRun]).validate_python(found["runs"])
-    asked, wheels = TypeAdapter(Asked).validate_python(found["asked"]), [str(name) for name in found["wheels"]]
+    asked = TypeAdapter(Asked).validate_python(found["asked"])
+    wheels = TypeAdapter(list[str]).validate_python(found["wheels"])
     tires = [one.tire for one in runs]
     if not tires or len(set(tires)) != len(tires) or not set(tires) <= set(TRAVERSE_TIRES):
         raise ValueError("runs are those of its kinds of tire, each once")
     for one in runs:
-        lists = [getattr(one, name) for name in _LISTS] + ([] if one.over is None else [one.over])
-        if any(len(values) not in (0, len(wheels)) for values in lists) or one.cause not in (None, *CAUSES):
-            raise ValueError("every list has one entry a wheel, and the cause is one of ours")
+        _require_ours(one, len(wheels))
     return Traverse(asked=asked, wheels=wheels, runs=dict(zip(tires, runs, strict=True)))
+
+
+def _require_ours(run: TireRun, wheels: int) -> None:
+    """Raise ValueError for a run whose values do not go together."""
+    lists = [getattr(run, name) for name in _LISTS] + ([] if run.over is None else [run.over])
+    if any(len(values) not in (0, wheels) for values in lists) or run.cause not in (None, *CAUSES):
+        raise ValueError("every list has one entry a wheel, and the cause is one of ours")
+    if run.place is not None and len(run.place) != 2:
+        raise ValueError("a place has x and y")
+    if (run.over is None) != (run.first_yield is None):
+        raise ValueError("a share above first yield goes with its load")
+    flat = [one for values in lists for one in chain.from_iterable([v] if isinstance(v, float) else v for v in values)]
+    if min((run.time, run.energy, run.tallest, *flat)) < 0.0:
+        raise ValueError("times, energies, rocks, loads and counts are not negative")
