@@ -1,6 +1,6 @@
 """``workbench stiffness --travel``: the hub of the pressed wheel moved over the ground.
 
-Verified by tests/end_to_end/test_travel.py.
+Verified by tests/end_to_end/test_travel.py and tests/unit/test_workbench_travel_files.py.
 """
 
 from __future__ import annotations
@@ -67,12 +67,20 @@ def run_travel(
     asked = tuple(dict.fromkeys(orientations)) or tuple(degrees(o) for o in study.fe.orientations)
     with naming(study_path):
         curves = travel_curves(model, ways, asked, folders)
-    tell_kept(publish(out, f"stiffness {model} travel", _texts(curves)))
+    tell_kept(_published(out, model, ways, curves))
     _print(curves)
     if curves:
         console.print(f"curves: {out / 'travels'}", soft_wrap=True)
     complain_of_early_ends(study_path, early_ends(folders))
     return 0
+
+
+def _published(out: Path, model: str, ways: Sequence[Way], curves: Sequence[TravelCurve]) -> list[str]:
+    """Write the curves of each way as a set of its own: those of other ways in the folder stay."""
+    told = []
+    for way in ways:
+        told += publish(out, f"stiffness {model} travel {way}", _texts([one for one in curves if one.way is way]))
+    return told
 
 
 def _texts(curves: Sequence[TravelCurve]) -> dict[str, str]:
