@@ -77,7 +77,7 @@ def run_travel(
 
 def _published(out: Path, model: str, ways: Sequence[Way], curves: Sequence[TravelCurve]) -> list[str]:
     """Write the curves of each way as a set of its own: those of other ways in the folder stay."""
-    told = []
+    told = list[str]()
     for way in ways:
         told += publish(out, f"stiffness {model} travel {way}", _texts([one for one in curves if one.way is way]))
     return told
