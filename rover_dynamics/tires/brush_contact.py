@@ -35,8 +35,9 @@ from rover_dynamics.tires.brush_profile import profile_distance
 __all__ = ["CONTACT_SIZE", "fading", "find_contacts"]
 
 FloatArray = NDArray[np.float64]
-CONTACT_SIZE = 13
-"""Numbers of a contact: lambda, n (3), place from the hub centre (3), u (3), q, delta, and how u turns [rad/m]."""
+CONTACT_SIZE = 18
+"""Numbers of a contact: lambda, n (3), place from the hub centre (3), u (3), q, delta, and how u turns with n about the
+axle, over the hub's way (3) [rad/m] and rotation (3) [-]."""
 SINUSOID = int(PieceKind.SINUSOID)
 STEEPEST, FADED = 0.1, 0.2
 SWEEPS, TOLERANCE = 200, 1e-13
@@ -46,7 +47,7 @@ SWEEPS, TOLERANCE = 200, 1e-13
 def find_contacts(
     p: Vector, e: Vector, size: tuple[float, float], terrain: TerrainPieces, contacts: FloatArray, scratch: FloatArray
 ) -> None:
-    """Fill the contacts (n_pieces, 13) of one wheel.
+    """Fill the contacts (n_pieces, 18) of one wheel.
 
     Parameters
     ----------
@@ -72,7 +73,7 @@ def find_contacts(
 def _place(found: Facing, e: Vector, size: tuple[float, float], row: FloatArray) -> int:
     """One contact's numbers; 1 if it touches."""
     phi, n, tilt, turning = found
-    row[0], row[11], row[12] = 0.0, 0.0, turning
+    row[0], row[11] = 0.0, 0.0
     q = math.sqrt(max(1.0 - tilt * tilt, 0.0))
     if q <= STEEPEST:
         return 0
@@ -86,6 +87,7 @@ def _place(found: Facing, e: Vector, size: tuple[float, float], row: FloatArray)
     row[0], row[10], row[11] = delta, q, delta
     for m in range(3):
         row[1 + m], row[4 + m], row[7 + m] = n[m], y * e[m] - reach * u[m], u[m]
+        row[12 + m], row[15 + m] = turning[0][m], turning[1][m]
     return 1
 
 

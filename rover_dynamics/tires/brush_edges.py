@@ -12,7 +12,14 @@ in closed form for a wheel that drives at right angles to the edge, else by Newt
 adjoining planes: the face and the top of a step, the two sides of a half-round. Faces may be upright, edges higher than
 the axle, and phi < 0 within the body.
 
-Verified by tests/unit/test_brush_contact.py.
+On the rounding psi moves with the hub and with the axle. There the residual R = dphi/dpsi q^3 stays zero, so that
+
+    dpsi = -(R_a da + R_b db + R_e . de) / R_psi,
+
+and the contact turns in the wheel's plane, about the axle, by e . (d x z) / q^2 dpsi: not at all as the hub goes along
+the edge.
+
+Verified by tests/unit/test_brush_contact.py and tests/unit/test_wheel_potential.py.
 """
 
 from __future__ import annotations
@@ -23,22 +30,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.terrain import PieceKind
-from rover_dynamics.tires.brush_compiled import Vector, compiled, dot
+from rover_dynamics.tires.brush_compiled import Vector, along, compiled, cross, dot
 
-__all__ = ["Facing", "convex_distance", "facing"]
+__all__ = ["STILL", "Facing", "convex_distance", "facing"]
 
 FloatArray = NDArray[np.float64]
-type Facing = tuple[float, Vector, float, float]
+type Facing = tuple[float, Vector, float, tuple[Vector, Vector]]
 PLANE, CORNER = int(PieceKind.PLANE), int(PieceKind.CORNER)
 ITERATIONS, TOLERANCE, FLATTEST = 20, 1e-12, 1e-6
+STILL = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+"""Of a contact whose normal stays: that of a plane."""
 
 
 @compiled
 def convex_distance(piece: FloatArray, p: Vector, e: Vector) -> Facing:
     """Distance phi [m] in the wheel's plane, unit normal n of the piece at the closest point, n . e, and how n turns.
 
-    The last is the angle by which the contact turns about the hub as that moves along the ground [rad/m]: none over a
-    plane, one over the distance from the axis of an edge or rock.
+    The last are the gradients of the angle by which the contact turns about the axle because its normal does: over the
+    hub's way [rad/m] and over its rotation [-]. They are zero over a plane.
 
     Parameters
     ----------
@@ -48,27 +57,51 @@ def convex_distance(piece: FloatArray, p: Vector, e: Vector) -> Facing:
     """
     if int(piece[0]) == PLANE:
         n = piece[1], piece[2], piece[3]
-        return facing(dot(n, p) - piece[4], n, e, 0.0)
+        return facing(dot(n, p) - piece[4], n, e, STILL)
     c, s, r = piece[1], piece[2], piece[5]
     a, b, tilt = c * p[0] + s * p[1] - piece[3], p[2] - piece[4], (c * e[0] + s * e[1], e[2])
     first = 0.0
     if int(piece[0]) == CORNER:
         a, b, first = a - r, b + r, 0.5 * math.pi
-    psi, turning = _best_angle(a, b, r, tilt), 1.0
-    if not first <= psi <= math.pi:
+    psi, turning = _best_angle(a, b, r, tilt), STILL
+    if first <= psi <= math.pi:
+        turning = _turning(psi, (a, b, r), (c, s), e)
+    else:
         psi = math.pi if _distance(math.pi, a, b, r, tilt) > _distance(first, a, b, r, tilt) else first
-        turning = 0.0
     n = c * math.cos(psi), s * math.cos(psi), math.sin(psi)
-    reach = a * math.cos(psi) + b * math.sin(psi)
-    return facing(reach - r, n, e, turning / max(reach, FLATTEST))
+    return facing(a * math.cos(psi) + b * math.sin(psi) - r, n, e, turning)
 
 
 @compiled
-def facing(gap: float, n: Vector, e: Vector, turning: float) -> Facing:
-    """From gap [m] and turning [rad/m] along a unit normal n to those in the wheel's plane; with n, and n . e [-]."""
+def facing(gap: float, n: Vector, e: Vector, turning: tuple[Vector, Vector]) -> Facing:
+    """From the gap [m] along a unit normal n to that in the wheel's plane; with n, n . e [-] and how it turns."""
     tilt = dot(n, e)
     q = max(math.sqrt(max(1.0 - tilt * tilt, 0.0)), FLATTEST)
-    return gap / q, n, tilt, turning * q
+    return gap / q, n, tilt, turning
+
+
+@compiled
+def _turning(psi: float, at: tuple[float, float, float], d: tuple[float, float], e: Vector) -> tuple[Vector, Vector]:
+    """Gradients of the contact's turn about the axle over the hub's way [rad/m] and its rotation [-].
+
+    Parameters
+    ----------
+    psi : angle of the normal [rad]
+    at : a, b and the edge's radius r [m]
+    d : horizontal direction across the edge
+    e : unit vector of the axle
+    """
+    cosine, sine = math.cos(psi), math.sin(psi)
+    n, across = (d[0] * cosine, d[1] * cosine, sine), (-d[0] * sine, -d[1] * sine, cosine)
+    w, turn = dot(n, e), dot(across, e)
+    rest = max(1.0 - w * w, FLATTEST)
+    D, slope = at[0] * cosine + at[1] * sine - at[2], at[1] * cosine - at[0] * sine
+    tangent = -(D + at[2]) * rest - slope * w * turn + D * (turn * turn - w * w)
+    by_psi = (e[0] * d[1] - e[1] * d[0]) / rest / min(tangent, -FLATTEST)
+    over_a, over_b = -sine * rest + cosine * w * turn, cosine * rest + sine * w * turn
+    way = (-by_psi * over_a * d[0], -by_psi * over_a * d[1], -by_psi * over_b)
+    over_e = along((0.0, 0.0, 0.0), D * turn - 2.0 * w * slope, n)
+    return way, along((0.0, 0.0, 0.0), -by_psi, cross(e, along(over_e, D * w, across)))
 
 
 @compiled

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_dynamics.tires.brush_compiled import Vector, along, compiled, cross, dot, hypotenuse, over_length
-from rover_dynamics.tires.brush_edges import Facing
+from rover_dynamics.tires.brush_edges import STILL, Facing
 from rover_dynamics.tires.brush_graph import Graph, graph, graph_height
 
 __all__ = ["SAMPLES", "profile_distance"]
@@ -40,7 +40,7 @@ ITERATIONS, LEVEL, UPRIGHT, TOLERANCE, SLACK = 8, 0.1, 1e-9, 1e-11, 1e-3
 def profile_distance(
     piece: FloatArray, knots: FloatArray, p: Vector, e: Vector, radius: float, scratch: FloatArray
 ) -> Facing:
-    """Distance phi = R - |D| [m], unit normal n of the ground in the contact, n . e, and 0: it is taken as a plane.
+    """Distance phi = R - |D| [m], unit normal n of the ground in the contact, n . e, `STILL`: it is taken as a plane.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def profile_distance(
     """
     level = hypotenuse(e[0], e[1])
     if level < LEVEL:  # the wheel lies on its side
-        return 2.0 * radius, (0.0, 0.0, 1.0), e[2], 0.0
+        return 2.0 * radius, (0.0, 0.0, 1.0), e[2], STILL
     f = e[1] / level, -e[0] / level, 0.0
     section = p, f, cross(f, e), e
     best = _sample(piece, knots, section, radius, scratch)
@@ -69,7 +69,7 @@ def profile_distance(
         x, y = D[0] / size, D[1] / size
     q, g = math.sqrt(max(1.0 - tilt * tilt, 0.0)), section[2]
     n = q * (x * f[0] + y * g[0]), q * (x * f[1] + y * g[1]), q * y * g[2]
-    return radius - size, along(n, tilt, e), tilt, 0.0
+    return radius - size, along(n, tilt, e), tilt, STILL
 
 
 @compiled

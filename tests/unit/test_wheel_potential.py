@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from contracts.terrain import Plane
+from contracts.terrain import Plane, Terrain
 from contracts.terrain_ridges import HalfRound
 from rover_dynamics.tires.brush_force import DEEP
 from rover_dynamics.tires.brush_settings import BrushSettings
@@ -27,7 +27,7 @@ from rover_dynamics.tires.wheel_potential import (
     raise_and_slope,
     wheel_potential,
 )
-from tests.brush_rig import RADIUS, motion
+from tests.brush_rig import RADIUS, motion, turned
 from tests.unit.test_brush_derivatives import differences
 
 Array = NDArray[np.float64]
@@ -209,6 +209,44 @@ def test_on_a_rock_the_way_around_it_is_paid_for(forgets: bool) -> None:
     assert rebound.shape[1]
     lost = abs(energy(rebound[:, -1]) - energy(start)) / (mass * gravity * 20e-3)
     assert lost > 3e-3 if forgets else lost < 1e-4
+
+
+@pytest.mark.parametrize("forgets", ["nothing", "force along the axle", "moment across the axle"])
+@pytest.mark.parametrize("terrain", [Plane(), HalfRound(radius=0.05)], ids=["plane", "rock"])
+def test_no_way_of_a_wheel_that_leans_and_is_steered_gains_energy(terrain: Terrain, forgets: str) -> None:
+    """The hub goes around a loop in all its six freedoms, and the work of the wrench is none; of a wheel without width,
+    as across the width the load is that of its middle.
+    """
+    wheels = BrushWheels(terrain, 1, LOSSLESS, BrushSettings(potential=SMOOTH_WHEEL, wheel_width=1e-6))
+    s = np.linspace(0.0, 2.0 * np.pi, 1000, endpoint=False)
+    top = RADIUS + (0.05 if isinstance(terrain, HalfRound) else 0.0)
+    places = np.stack([0.03 * np.cos(s), 0.02 * np.sin(2.0 * s), top - 0.02 + 6e-3 * np.cos(s + 0.5)], axis=1)
+    lean, steer, spin = 0.12 + 0.1 * np.sin(s + 1.0), 0.5 + 0.3 * np.cos(2.0 * s), 0.3 + 0.4 * np.sin(s)
+    hubs = np.array([turned(a, b) @ spun(c) for a, b, c in zip(lean, steer, spin, strict=True)])
+    wrenches = []
+    for place, R in zip(places, hubs, strict=True):
+        wrench, e = wheels.forces(motion(place, R), np.zeros((1, wheels.n_state))).wrench[0].copy(), R[:, 1]
+        if forgets == "force along the axle":
+            wrench[:3] -= (wrench[:3] @ e) * e
+        elif forgets == "moment across the axle":
+            wrench[3:] = (wrench[3:] @ e) * e
+        wrenches.append(wrench)
+    ways, turns = np.roll(places, -1, axis=0) - np.roll(places, 1, axis=0), np.roll(hubs, -1, axis=0)
+    turns = (turns - np.roll(hubs, 1, axis=0)) @ hubs.swapaxes(1, 2)
+    twists = np.concatenate([ways, turns[:, (2, 0, 1), (1, 2, 0)]], axis=1)
+    work = np.sum(np.array(wrenches) * twists, axis=1)
+    gained = abs(work.sum()) / np.abs(work).sum()
+    assert gained < 1e-5 if forgets == "nothing" else gained > 1e-2
+
+
+def test_a_contact_without_friction_pushes_neither_along_a_rock_nor_about_the_planes_normal() -> None:
+    leaning = turned(0.2, 0.5) @ spun(0.1)
+    of_rock = BrushWheels(HalfRound(radius=0.05), 1, LOSSLESS, BrushSettings(potential=SMOOTH_WHEEL))
+    wrench = of_rock.forces(motion((0.02, 0.0, RADIUS + 0.02), leaning), np.zeros((1, of_rock.n_state))).wrench[0]
+    assert abs(wrench[1]) < 1e-5 < 1.0 < abs(wrench[0])
+    of_plane = BrushWheels(Plane(), 1, LOSSLESS, BrushSettings(potential=SMOOTH_WHEEL))
+    wrench = of_plane.forces(motion((0.0, 0.0, RADIUS - 0.03), leaning), np.zeros((1, 2))).wrench[0]
+    assert abs(wrench[5]) < 1e-5 < 1.0 < abs(wrench[4])
 
 
 def test_the_mean_stiffness_is_that_of_the_formula() -> None:
