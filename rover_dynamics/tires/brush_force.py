@@ -6,7 +6,7 @@ velocity v_c of the wheel at the contact, and the deflection lambda of `brush_co
     N = max(0, S + c lambda_dot w) / q,    w = ramp(lambda / d_0), or 1 for the damper as printed,
     S = k lambda, or dU/dlambda of a wheel's own potential (`wheel_potential`) with the moment
     -dU/dbeta (e - (n . e) n) / q^2 and, where n turns (on an edge or rock), a force and a moment: dU/dbeta times the
-    gradients of `brush_edges`,
+    gradients of `brush_edges`; of these no larger a share than of S is left where the damper lets go,
     v = -(v_r . t, v_c . l),    V = omega R = t . (r_r x omega) (brush) or t . v_hub (Fiala),
     force on the hub  N n + F_y l  at the contact r,  F_x t  at r_r, or at r with the loaded radius as its lever,
     moment            M_z n  and against the spin  -f N |r| tanh(omega R / v_0) e,
@@ -221,7 +221,7 @@ def _add_contact(
     resistance = numbers.rolling_resistance * load * arm * math.tanh(rolling / numbers.standstill_speed)
     M = along(along(cross(r, F), M_z, n), -resistance, e)
     M = along(M, numbers.lever_to_rim * to_rim * F_x, cross(u_hub, t))
-    slope, tilt = spring[2] * fading(q), dot(n, e)
+    slope, tilt = spring[2] * min(fading(q), load * q / max(spring[1], 1e-300)), dot(n, e)
     M = along(along(M, -slope / (q * q), along(e, -tilt, n)), slope, (contact[15], contact[16], contact[17]))
     F = along(F, slope, (contact[12], contact[13], contact[14]))
     for m in range(3):

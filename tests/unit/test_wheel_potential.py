@@ -249,6 +249,16 @@ def test_a_contact_without_friction_pushes_neither_along_a_rock_nor_about_the_pl
     assert abs(wrench[5]) < 1e-5 < 1.0 < abs(wrench[4])
 
 
+def test_ground_that_carries_nothing_turns_nothing() -> None:
+    """A wheel that leaves faster than the damper lets its spring follow is free of the moment too."""
+    wheels = BrushWheels(Plane(), 1, settings=BrushSettings(potential=WHEEL))
+    low, state = (0.0, 0.0, RADIUS - 0.02), np.zeros((1, 2))
+    standing = wheels.forces(motion(low, spun(0.3)), state).wrench[0]
+    leaving = wheels.forces(motion(low, spun(0.3), (0.0, 0.0, 0.1)), state).wrench[0]
+    assert abs(standing[4]) > 0.5
+    assert leaving == pytest.approx(np.zeros(6), abs=1e-12)
+
+
 def test_the_mean_stiffness_is_that_of_the_formula() -> None:
     half = 0.5 * SMOOTH_WHEEL.last
     assert mean_stiffness(SMOOTH_WHEEL) == pytest.approx(8000.0 * (1.0 + 10.0 * half), rel=1e-3)

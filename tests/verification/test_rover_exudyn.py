@@ -1,6 +1,6 @@
 """Claim: the rover rests, drops, drives and pulls as the same rover does in another code, EXUDYN.
 
-Source: EXUDYN 1.13 on a model written from the rover's file and the manual's tire formulas alone
+Source: EXUDYN 1.13 on a model written from the rover's file and the manual's tire formulas
 (`benchmarks/peer_codes/rover_of_file.py`, `plain_tire.py`): other reading of the file, other coordinates, other
 constraints, other integrator, other tire code. Limits are what an earlier model in EXUDYN, written apart from this one
 too, differed by: 0.001 N for wheel loads at rest, 0.016 N on the way, 4.5e-6 m in a drop from 10 mm. Reached: 0.0004 N
