@@ -106,6 +106,18 @@ CASES = {
         since=0.0,
         limits={"place": DROP},
     ),
+    **{
+        f"drop_{name}": Case(
+            words=f"drop of 10 mm, braked, on 25 degrees {name}, 1 s",
+            scenario=replace(_braked(name), height=0.01, lasts=1.0, every=0.01),
+            downhill=DOWNHILL[name],
+            steps=((0.05, 5e-3), (0.3, 2.5e-4), (1.0, 2.5e-3)),
+            drives="held",
+            since=0.0,
+            limits={"place": DROP},
+        )
+        for name in ("up", "across")
+    },
     "straight": Case(
         words="straight path at 70 m/h, 15 s",
         scenario=replace(SCENARIOS["straight"], settles=0.0, lasts=15.0),
