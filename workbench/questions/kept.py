@@ -23,8 +23,10 @@ from workbench.execution.fingerprint import canonical_json, text_sha256
 from workbench.execution.task import Task, task_keys
 from workbench.study.model import Study
 
-__all__ = ["Kept", "State", "keep", "kept", "keys_of", "replaced", "require_place"]
+__all__ = ["OF_ANOTHER", "Kept", "State", "keep", "kept", "keys_of", "replaced", "require_place", "rounded"]
 
+OF_ANOTHER = "the kept record is of another study"
+"""Why nothing follows from the numbers of a stale record."""
 State = Literal["current", "older sources", "stale"]
 _DIGITS, _WORDS, _MOST = 16, 200, 50_000_000
 
@@ -126,6 +128,15 @@ def require_place(study: Study, name: str) -> Path:
     if not os.access(folder, os.W_OK | os.X_OK):
         raise InputError("folder of kept records", folder, "cannot be written", "copy the study into one of yours")
     return study.kept / f"{name}.json"
+
+
+def rounded(value: Any) -> Any:
+    """JSON values with floats to six digits, in any depth."""
+    if isinstance(value, float):
+        return float(f"{value:.6g}")
+    if isinstance(value, dict):
+        return {name: rounded(one) for name, one in value.items()}
+    return [rounded(one) for one in value] if isinstance(value, list) else value
 
 
 def replaced(study: Study, name: str, command: str, tasks: Sequence[Task]) -> list[str]:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from contracts.errors import InputError
 from contracts.records import Check, Role, Status
 from workbench.verdict.number_format import PERCENT_QUANTITIES, displayed
 from workbench.verdict.statements import statement_of
 
-__all__ = ["SURE", "Claim", "Doubt", "at_least", "at_most", "near", "stated", "within"]
+__all__ = ["SURE", "Claim", "Doubt", "at_least", "at_most", "near", "stated", "undecided", "within"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,6 +68,11 @@ def at_least(claim: Claim, number: Number, limit: float) -> Check:
     return _check(
         claim, value, limit, f"at least {_shown(limit, claim)}", math.nan if value is None else limit - value, SURE
     )
+
+
+def undecided(check: Check, why: str) -> Check:
+    """The same number, from which nothing follows."""
+    return replace(check, tolerance=f"{check.tolerance}; {why}", status="undecided")
 
 
 def _evaluate(number: Number) -> float | None:

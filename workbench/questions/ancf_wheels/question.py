@@ -7,17 +7,17 @@ Verified by tests/unit/test_workbench_ancf_wheels.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache, partial
 from pathlib import Path
 
 from contracts.records import Check
 from workbench.questions.ancf_wheels.cases import ComparedWheel, compared_wheels, wheel_tasks
 from workbench.questions.ancf_wheels.results import Agreement, agreement
-from workbench.questions.kept import Kept, State, kept
+from workbench.questions.kept import OF_ANOTHER, Kept, State, kept
 from workbench.questions.question import Question
 from workbench.study.model import Study
-from workbench.verdict.rules import Claim, at_most
+from workbench.verdict.rules import Claim, at_most, undecided
 
 __all__ = ["ANCF_WHEELS", "HeldWheel"]
 
@@ -107,10 +107,10 @@ def _travel_check(found: HeldWheel) -> Check:
 
 def _decided(found: HeldWheel, check: Check) -> Check:
     """Undecided where the record is about another study of that wheel, or a run of it ended early."""
-    why = "the kept record is of another study" if found.state == "stale" else "a run ended early"
+    why = OF_ANOTHER if found.state == "stale" else "a run ended early"
     if found.state != "stale" and not found.agreement.partial:
         return check
-    return replace(check, tolerance=f"{check.tolerance}; {why}", status="undecided")
+    return undecided(check, why)
 
 
 ANCF_WHEELS = Question(

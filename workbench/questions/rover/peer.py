@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any
 
 from contracts.records import Check
@@ -18,7 +18,7 @@ from workbench.execution.fingerprint import file_sha256
 from workbench.execution.task import Task
 from workbench.questions.kept import Kept, State, kept
 from workbench.study.model import Study
-from workbench.verdict.rules import Claim, at_most
+from workbench.verdict.rules import Claim, at_most, undecided
 
 __all__ = ["COMMAND", "RECORD", "PeerRow", "RoverPeer", "peer_checks", "peer_tasks", "rover_peer", "rows_of"]
 
@@ -90,8 +90,7 @@ def peer_checks(peer: RoverPeer | None) -> Sequence[Check]:
     checks = [_check(peer, row) for row in peer.rows]
     if peer.state != "stale":
         return checks
-    why = "the kept record is of another rover file"
-    return [replace(check, tolerance=f"{check.tolerance}; {why}", status="undecided") for check in checks]
+    return [undecided(check, "the kept record is of another rover file") for check in checks]
 
 
 def _check(peer: RoverPeer, row: PeerRow) -> Check:

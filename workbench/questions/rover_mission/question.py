@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contracts.records import Check
-from workbench.questions.kept import Kept, State, kept
+from workbench.questions.kept import OF_ANOTHER, Kept, State, kept
 from workbench.questions.models.wheel_tasks import ROCK_RADIUS, Between
 from workbench.questions.question import Question
 from workbench.questions.rover_mission.graph import mission_tasks
 from workbench.questions.rover_mission.requirements import MISSION, MISSION_SOURCE, TITLES
 from workbench.questions.rover_mission.results import Mission, mission_of
 from workbench.study.model import Study
-from workbench.verdict.rules import Claim, at_least, at_most
+from workbench.verdict.rules import Claim, at_least, at_most, undecided
 
 __all__ = ["RECORD", "ROVER_MISSION", "TIRE_WORDS", "HeldMission"]
 
@@ -74,36 +74,29 @@ def _checks(study: Study, results: HeldMission) -> Sequence[Check]:
         )
         tried = mission.tried
         checks.append(at_least(claim, lambda: sum(bool(one.confirmed) for one in tried) / len(tried), 1.0))
-    checks += [_between(tire, one) for tire, one in mission.between.items()]
-    checks += [] if mission.rock is None else [_on_rock(mission.rock)]
+    for tire, one in mission.between.items():
+        what = "load half way between the orientations it goes through"
+        checks.append(_apart(f"between_{tire}", tire, one, (what, "the same model solved there"), _BETWEEN))
+    if mission.rock is not None:
+        what = f"load on a half-round of {1e3 * ROCK_RADIUS:g} mm by its tangent plane"
+        checks.append(_apart("rock", "fe", mission.rock, (what, "the same model solved on the half-round"), _ROCK))
     if results.state != "stale":
         return checks
-    why = "the kept record is of another study"
-    return [replace(check, tolerance=f"{check.tolerance}; {why}", status="undecided") for check in checks]
+    return [undecided(check, OF_ANOTHER) for check in checks]
 
 
-def _between(tire: str, found: Between) -> Check:
+def _apart(name: str, tire: str, found: Between, words: tuple[str, str], limit: float) -> Check:
+    """What a tire's load differs by; ``words`` say of what, and by whom it is known."""
+    what, source = words
     claim = Claim(
-        id=f"rover_mission.between_{tire}",
-        title=f"Tire of {TIRE_WORDS[tire]}: load half way between the orientations it goes through",
+        id=f"rover_mission.{name}",
+        title=f"Tire of {TIRE_WORDS[tire]}: {what}",
         quantity="difference",
         unit="-",
         role="finding",
-        source="the same model solved there",
+        source=source,
     )
-    return at_most(claim, lambda: abs(found.difference), _BETWEEN)
-
-
-def _on_rock(found: Between) -> Check:
-    claim = Claim(
-        id="rover_mission.rock",
-        title=f"Tire of {TIRE_WORDS['fe']}: load on a half-round of {1e3 * ROCK_RADIUS:g} mm by its tangent plane",
-        quantity="difference",
-        unit="-",
-        role="finding",
-        source="the same model solved on the half-round",
-    )
-    return at_most(claim, lambda: abs(found.difference), _ROCK)
+    return at_most(claim, lambda: abs(found.difference), limit)
 
 
 def _of_tire(mission: Mission, tire: str) -> Check:

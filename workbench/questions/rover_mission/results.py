@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from contracts.curves import StiffnessCurve
 from rover_dynamics.rover.scenarios.outcome import LEAST_FRICTION, Outcome
+from workbench.questions.kept import rounded
 from workbench.questions.models.wheel_tasks import Between
 from workbench.questions.rover_mission.graph import MISSION_TIRES
 from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
@@ -144,17 +145,8 @@ def found_of(
         None if wheel is None else {"load_N": wheel.load, "orientation_deg": wheel.orientation_deg, "part": wheel.part}
     )
     steps = {tire: list(one) for tire, one in between.items()}
-    apart = {"between": _rounded(steps), "rock": None if rock is None else _rounded(list(rock))}
-    return {"wheel": strength, **apart, "runs": [_rounded(dict(one)) for one in results]}
-
-
-def _rounded(value: Any) -> Any:
-    """Floats to six digits."""
-    if isinstance(value, float):
-        return float(f"{value:.6g}")
-    if isinstance(value, dict):
-        return {name: _rounded(one) for name, one in value.items()}
-    return [_rounded(one) for one in value] if isinstance(value, list) else value
+    apart = {"between": rounded(steps), "rock": None if rock is None else rounded(list(rock))}
+    return {"wheel": strength, **apart, "runs": [rounded(dict(one)) for one in results]}
 
 
 def mission_of(found: Mapping[str, Any]) -> Mission:

@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contracts.records import Check
-from workbench.questions.kept import Kept, State, kept
+from workbench.questions.kept import OF_ANOTHER, Kept, State, kept
 from workbench.questions.question import Question
 from workbench.questions.traverse.figures import traverse_figures
 from workbench.questions.traverse.graph import traverse_tasks
 from workbench.questions.traverse.results import WIDTHS, TireRun, Traverse, traverse_of
 from workbench.study.model import Study
-from workbench.verdict.rules import Claim, at_least, at_most
+from workbench.verdict.rules import Claim, at_least, at_most, undecided
 
 __all__ = ["RECORD", "TIRE_WORDS", "TRAVERSE", "HeldTraverse"]
 
@@ -68,8 +68,7 @@ def _checks(study: Study, results: HeldTraverse) -> Sequence[Check]:
             checks.append(_strength(run, run.first_yield))
     if results.state != "stale":
         return checks
-    why = "the kept record is of another study"
-    return [replace(check, tolerance=f"{check.tolerance}; {why}", status="undecided") for check in checks]
+    return [undecided(check, OF_ANOTHER) for check in checks]
 
 
 def _distance(run: TireRun, asked: float) -> Check:

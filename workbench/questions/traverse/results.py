@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass, fields
 from itertools import chain
 from typing import Any
 
+from workbench.questions.kept import rounded
 from workbench.questions.traverse.counting import counted
 from workbench.questions.traverse.graph import TRAVERSE_TIRES, Asked
 
@@ -146,16 +147,7 @@ def run_of(tire: str, results: Sequence[Mapping[str, Any]]) -> TireRun:
 
 def found_of(asked: Asked, wheels: Sequence[str], runs: Sequence[TireRun]) -> dict[str, Any]:
     """The record, JSON values [SI]."""
-    return {"asked": asdict(asked), "wheels": list(wheels), "runs": [_rounded(asdict(one)) for one in runs]}
-
-
-def _rounded(value: Any) -> Any:
-    """Floats to six digits."""
-    if isinstance(value, float):
-        return float(f"{value:.6g}")
-    if isinstance(value, dict):
-        return {name: _rounded(one) for name, one in value.items()}
-    return [_rounded(one) for one in value] if isinstance(value, list) else value
+    return {"asked": asdict(asked), "wheels": list(wheels), "runs": [rounded(asdict(one)) for one in runs]}
 
 
 def traverse_of(found: Mapping[str, Any]) -> Traverse:

@@ -7,18 +7,18 @@ Verified by tests/unit/test_workbench_validation.py.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 from contracts.records import Check
-from workbench.questions.kept import Kept, State, kept
+from workbench.questions.kept import OF_ANOTHER, Kept, State, kept
 from workbench.questions.question import Question
 from workbench.questions.validation.cases import NAME, PublishedWheel, published_wheels, wheel_tasks
 from workbench.questions.validation.uncertainty import Comparison, InputEffect, comparisons, input_effects
 from workbench.study.model import Study
 from workbench.study.reading import read_study
-from workbench.verdict.rules import Claim, at_most
+from workbench.verdict.rules import Claim, at_most, undecided
 
 __all__ = ["VALIDATION", "ValidatedWheel", "Validation"]
 
@@ -111,7 +111,7 @@ def _check(found: ValidatedWheel) -> Check:
     check = at_most(claim, lambda: found.worst.ratio, 2.0)
     if found.state != "stale":
         return check
-    return replace(check, tolerance=f"{check.tolerance}; the kept record is of another study", status="undecided")
+    return undecided(check, OF_ANOTHER)
 
 
 VALIDATION = Question(
