@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.readings import energy_of_drives
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario
 from rover_dynamics.rover.scenarios.stretch import cause_of, stretch
-from rover_dynamics.rover.scenarios.way import Way, avoided, crossed, rocks
+from rover_dynamics.rover.scenarios.way import Way, _in_tracks, avoided, crossed, rocks
 
 DESIGN = read_rover()
 WAY = Way(length=20.0, speed=70.0 / 3600.0, abundance=0.1, seed=4)
@@ -124,3 +125,14 @@ def test_a_wheel_that_cannot_grip_is_stuck_before_a_rock() -> None:
     run = run_scenario(slippery, DESIGN)
     assert cause_of(run, way) == "friction"
     assert run.place[-1, 0] - run.place[0, 0] < way.length
+
+
+def test_a_rock_is_met_as_far_beside_a_track_as_wheel_and_rock_are_wide() -> None:
+    leg, reach = max(DESIGN.legs, key=lambda leg: leg.drive[1]), 0.5 * (DESIGN.wheel_width + 0.2)
+
+    class Two:
+        def rocks(self) -> NDArray[np.float64]:
+            beside = leg.drive[1] + reach + np.array([-1e-3, 1e-3])
+            return np.column_stack([np.full(2, leg.drive[0] + 0.5), beside, np.full(2, 0.2)])
+
+    assert _in_tracks(Two(), WAY, DESIGN).tolist() == [0.2]  # type: ignore[arg-type]
