@@ -77,11 +77,11 @@ def _distance(run: TireRun, asked: float) -> Check:
         id=f"traverse.{run.tire}",
         title=f"Way between two samples over rocks on {TIRE_WORDS[run.tire]}",
         quantity="way",
-        unit="m",
+        unit="km",
         role="finding",
         source=SOURCE,
     )
-    check = at_least(claim, lambda: run.way, REQUIRED)
+    check = at_least(claim, lambda: 1e-3 * run.way, 1e-3 * REQUIRED)
     unknown = run.cause in ("computation", "wheel") or (run.cause is None and asked < REQUIRED)
     return replace(check, status="undecided") if unknown else check
 
