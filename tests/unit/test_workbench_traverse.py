@@ -40,6 +40,7 @@ def stretch(**values: Any) -> dict[str, Any]:
         "way_m": 20.0,
         "place_m": [20.0, 0.3],
         "energy_J": 400.0,
+        "work_J": 300.0,
         "aside_m": 0.3,
         "lean_rad": 0.05,
         "loads_N": [300.0, 250.0],
@@ -102,6 +103,7 @@ def test_a_stretch_gets_there_and_tells_what_its_wheels_carried(tmp_path: Path) 
     assert found["ended"] is None
     assert found["way_m"] == pytest.approx(1.0, abs=0.003)
     assert found["rocks"] > 0
+    assert 0.0 < found["work_J"] < found["energy_J"]
     assert len(found["load"]) == len(found["deflection"]) == 6
     for largest, points in zip(found["loads_N"], found["load"], strict=True):
         assert 190.0 < max(points) <= largest
@@ -112,7 +114,7 @@ def test_a_stretch_gets_there_and_tells_what_its_wheels_carried(tmp_path: Path) 
 def test_the_drive_is_the_sum_of_its_stretches_and_its_loads_are_one_history() -> None:
     run = run_of("brush", [stretch(), stretch(time_s=3000.0, loads_N=[310.0, 200.0], airborne=[0.05, 0.0])])
     assert (run.way, run.time, run.energy, run.stretches, run.ended) == (40.0, 4000.0, 800.0, 2, 0)
-    assert run.energy_per_metre == 20.0
+    assert (run.energy_per_metre, run.work_per_metre) == (20.0, 15.0)
     assert (run.rocks, run.avoided, run.loads) == (6, 2, [310.0, 250.0])
     assert run.airborne == pytest.approx([0.04, 0.0])
     # 200 300 100 200 | 200 300 100 200: half cycles of 100, 200, 200, 200 and 100; apart each 100, 200, 100 twice
@@ -185,7 +187,7 @@ def test_the_evidence_tells_both_tires_and_draws_the_cycles() -> None:
     results = held(ends, on_wheel, state="older sources")
     figures = TRAVERSE.figures(STUDY, results)
     text = page_environment().get_template("traverse/evidence.html.j2").render(results=results, figures=figures)
-    for words in ("20.0 J/m", "300 N", "2.000 %", "of 280 N", "lean of more than 30 degrees", "older sources"):
+    for words in ("20.0 J/m", "15.0 J/m", "300 N", "2.000 %", "of 280 N", "lean of more than 30 degrees", "older sources"):
         assert words in text, words
     assert "left, fe" in figures["traverse_cycles"]
     assert replace(results, state="stale").state == "stale"
@@ -197,6 +199,6 @@ def test_what_is_printed_fits_a_narrow_terminal(monkeypatch: pytest.MonkeyPatch)
     on_wheel = run_of("fe", [stretch(yield_N=280.0, over=[0.02, 0.0])])
     command._print([run_of("brush", [stretch()]), on_wheel], Asked(distance=20.0))
     text = narrow.file.getvalue()
-    for words in ("largest load of a wheel", "300 N", "20.0 J/m", "2.000 %", "rocks driven around"):
+    for words in ("largest load of a wheel", "300 N", "20.0 J/m", "15.0 J/m", "2.000 %", "rocks driven around"):
         assert words in text, words
     assert "…" not in text

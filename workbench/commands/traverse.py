@@ -107,7 +107,8 @@ def _print(runs: Sequence[TireRun], asked: Asked) -> None:
 _ROWS = (
     "way",
     "time",
-    "energy",
+    "energy drives give",
+    "less what they get back",
     "largest load of a wheel",
     "largest deflection",
     "time without load",
@@ -123,6 +124,7 @@ def _column(run: TireRun) -> tuple[str, ...]:
         f"{run.way:.1f} m",
         f"{run.time / 3600.0:.3g} h",
         f"{run.energy_per_metre:.1f} J/m",
+        f"{run.work_per_metre:.1f} J/m",
         f"{max(run.loads, default=0.0):.0f} N",
         f"{1e3 * max(run.deflections, default=0.0):.1f} mm",
         f"{100.0 * max(run.airborne, default=0.0):.3f} %",

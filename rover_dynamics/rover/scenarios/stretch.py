@@ -2,8 +2,8 @@
 
 A stretch starts at rest, straight ahead, on rocks of its own (`rover_dynamics.rover.scenarios.way`). Nothing steers
 within it. The drive ends at the first sample at which the rover is there; leans more than `ALLOWED_LEAN`; has the
-centre of a body but the wheels' on the ground; or has left the rocks sideways. Samples are 2 mm of the way apart,
-which at 70 m/h is about the longest step.
+centre of a body but the wheels' on the ground; or has left the rocks sideways. Samples are 1 mm of the way apart, at
+70 m/h a quarter of a wheel's swing of 5 Hz.
 
 Verified by tests/unit/test_rover_stretch.py.
 """
@@ -32,7 +32,7 @@ from rover_dynamics.vehicle.vehicle import VehicleMotion, drive_vehicle
 __all__ = ["Cause", "cause_of", "stretch"]
 
 Cause = Literal["wheel", "computation", "heading", "stability", "clearance", "friction"]
-SAMPLED, LONGEST, RAMP = 0.002, 0.1, 5.0
+SAMPLED, LONGEST, RAMP = 0.001, 0.1, 5.0
 """Way between samples [m]; longest step, and time to reach the speed [s]."""
 
 

@@ -2,7 +2,7 @@
 
 Rocks of a stretch are those of its number and the way's seed (`contracts.terrain_rocks.RandomRocks`). Rocks taller than
 the rover is required to cross (0.25 m, thesis, section 1) are driven around: they are left out, and those that would
-have reached into a wheel's track counted. Rocks of less than 0.1 m diameter are left out.
+have reached into a wheel's track counted. Rocks of less than 50 mm diameter are left out.
 
 Verified by tests/unit/test_rover_stretch.py.
 """
@@ -24,7 +24,7 @@ __all__ = ["ASIDE", "LONGER", "Way", "avoided", "crossed", "rocks"]
 FloatArray = NDArray[np.float64]
 TALLEST = 0.25
 """Obstacle the rover is required to cross [m]."""
-SMALLEST, HEIGHT, LARGEST = 0.1, 0.4, 3.0
+SMALLEST, HEIGHT, LARGEST = 0.05, 0.4, 3.0
 """Of the rocks: smallest diameter [m], height over diameter [-], largest diameter counted as driven around [m]."""
 MARGIN, ASIDE = 0.5, 0.25
 """Ground beyond the wheels' places [m], and beside them more by this share of the way, for a rover that turns."""
@@ -93,8 +93,9 @@ def _field(way: Way, number: int, design: RoverDesign, diameters: tuple[float, f
     aside = ASIDE * way.length + MARGIN
     size = (float(high[0] - low[0]) + LONGER * way.length, float(high[1] - low[1]) + 2.0 * aside)
     origin = (float(low[0]), float(low[1]) - aside)
+    shape = {"height_ratio": HEIGHT, "spacing": 0.25 * SMALLEST}
     return RandomRocks(
-        seed=seed, size=size, origin=origin, abundance=way.abundance, diameters=diameters, height_ratio=HEIGHT
+        seed=seed, size=size, origin=origin, abundance=way.abundance, diameters=diameters, **shape
     )
 
 

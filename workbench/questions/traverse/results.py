@@ -38,7 +38,8 @@ class TireRun:
     Attributes
     ----------
     tire : name
-    way, time, energy : up to where it ends [m], [s], [J]
+    way, time : up to where it ends [m], [s]
+    energy, work : what drives give, and that less what they are given back [J]
     stretches, ended : driven, and how many of all would have ended the drive
     cause, words : of the first that does, None and "" where none does; what its solver said
     stretch, moment, place : where: its number from 1 on, time in it [s], x and y from its start [m]
@@ -54,6 +55,7 @@ class TireRun:
     way: float
     time: float
     energy: float
+    work: float
     stretches: int
     ended: int
     cause: str | None
@@ -78,6 +80,11 @@ class TireRun:
     def energy_per_metre(self) -> float:
         """[J/m]"""
         return self.energy / self.way if self.way > 0.0 else 0.0
+
+    @property
+    def work_per_metre(self) -> float:
+        """[J/m]"""
+        return self.work / self.way if self.way > 0.0 else 0.0
 
     @property
     def ends(self) -> str:
@@ -123,6 +130,7 @@ def run_of(tire: str, results: Sequence[Mapping[str, Any]]) -> TireRun:
         way=sum(one["way_m"] for one in driven),
         time=time,
         energy=sum(one["energy_J"] for one in moved),
+        work=sum(one["work_J"] for one in moved),
         stretches=len(driven),
         ended=len(broken),
         cause=None if last is None else last["ended"]["cause"],

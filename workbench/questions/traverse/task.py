@@ -97,6 +97,7 @@ def _read(run: ScenarioRun, limit: float | None) -> dict[str, Any]:
         "way_m": float(ahead[-1]),
         "place_m": run.place[-1, :2].tolist(),
         "energy_J": energy_of_drives(run),
+        "work_J": float(np.trapezoid((run.torques("drive") * run.drive_speeds).sum(axis=1), times)),
         "aside_m": float(np.abs(run.place[:, 1]).max()),
         "lean_rad": float(run.lean.max()),
         "loads_N": run.loads.max(axis=0).tolist(),
