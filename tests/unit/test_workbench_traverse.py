@@ -187,7 +187,8 @@ def test_the_evidence_tells_both_tires_and_draws_the_cycles() -> None:
     results = held(ends, on_wheel, state="older sources")
     figures = TRAVERSE.figures(STUDY, results)
     text = page_environment().get_template("traverse/evidence.html.j2").render(results=results, figures=figures)
-    for words in ("20.0 J/m", "15.0 J/m", "300 N", "2.000 %", "of 280 N", "lean of more than 30 degrees", "older sources"):
+    told = ("20.0 J/m", "15.0 J/m", "300 N", "2.000 %", "of 280 N", "lean of more than 30 degrees", "older sources")
+    for words in told:
         assert words in text, words
     assert "left, fe" in figures["traverse_cycles"]
     assert replace(results, state="stale").state == "stale"
