@@ -1,10 +1,10 @@
-"""Our wheel in another code: loads of the solid model beside CalculiX' on our own mesh, ground and springs in contact.
+"""Our wheel in another code: forces of the solid model beside CalculiX' on our own mesh, ground and springs in contact.
 
 ``make bench NAME=crosscheck``; needs ``ccx`` (Debian, Ubuntu: the package calculix-ccx). Five of the study's
-orientations, a quarter, half and three quarters of its largest deflection, both sides from first touch. Ours are the
-curves of the report, from the store; CalculiX solves the same hexahedra with the 20 of their 27 nodes that its element
-has (C3D20R). Writes ``build/bench/crosscheck.json`` and the record that the report reads, ``crosscheck.json`` in the
-folder beside the study.
+orientations, a quarter, half and three quarters of its largest deflection, both sides from first touch; at the first
+one the hub is pressed with friction too and moved forwards. Ours are the curves of the report, from the store; CalculiX
+solves the same hexahedra with the 20 of their 27 nodes that its element has (C3D20R). Writes
+``build/bench/crosscheck.json`` and the record that the report reads, ``crosscheck.json`` beside the study.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +31,7 @@ from benchmarks.peer_codes.calculix_wheel import CalculixRun, WheelDeck  # noqa:
 from contracts.curves import StiffnessCurve, read_curve  # noqa: E402
 from contracts.errors import InputError  # noqa: E402
 from contracts.frames import ground_direction_h  # noqa: E402
+from contracts.hub_travel import Way  # noqa: E402
 from contracts.mesh import TaggedMesh  # noqa: E402
 from geometry.inp import TWENTY_NODES  # noqa: E402
 from reference_fe.contact.inner_pairs import wheel_contact_pairs  # noqa: E402
@@ -37,10 +39,13 @@ from reference_fe.contact.patch import contact_faces, facet_samples  # noqa: E40
 from reference_fe.wheel.problem import CONTACT_FACES  # noqa: E402
 from workbench.commands.computing import computed  # noqa: E402
 from workbench.commands.options import DEFAULT_STORE, computing  # noqa: E402
+from workbench.execution.task import Task  # noqa: E402
 from workbench.questions.crosscheck.results import COMMAND, NAME, crosscheck_tasks, points_of  # noqa: E402
 from workbench.questions.fe.graph import INNER_STIFFNESS  # noqa: E402
 from workbench.questions.kept import keep  # noqa: E402
 from workbench.questions.model_curves import CURVE  # noqa: E402
+from workbench.questions.travel_start import approach  # noqa: E402
+from workbench.questions.travels import travel_curves, travel_name  # noqa: E402
 from workbench.questions.wheel.mesh_file import MESH, read_mesh  # noqa: E402
 from workbench.study.model import Study  # noqa: E402
 from workbench.study.orientation import orientation_name  # noqa: E402
@@ -100,6 +105,22 @@ def compared(
         return list(pool.map(one, wanted))
 
 
+def moved(study: Study, tasks: Sequence[Task], folders: Mapping[str, Path], orientation: float) -> dict[str, object]:
+    """The record's entry of the travel forwards at an orientation [deg]: forces of both behind each travel."""
+    name = travel_name("fe", Way.FORE_AFT, orientation)
+    (friction,) = (task.inputs["travel"]["friction"] for task in tasks if task.name == name)
+    (ours,) = travel_curves("fe", (Way.FORE_AFT,), (orientation,), folders)
+    mesh = read_mesh(folders["mesh"] / MESH)
+    deck = replace(deck_of(study, mesh, orientation, approach(ours.deflection)), friction=friction)
+    with tempfile.TemporaryDirectory() as folder:
+        peer = calculix_wheel.solve(replace(deck, travels=tuple(ours.travel[1:].tolist())), Path(folder), 1, LIMIT_S)
+    forces = ours.columns["force_forward_N"].tolist()
+    for gone, mine, other in zip(ours.travel, forces, peer.forwards, strict=True):
+        print(f"{orientation:4g} deg, moved {1e3 * gone:g} mm: ours {mine:8.3f} N, CalculiX {other:8.3f} N", flush=True)
+    found = {"orientation_deg": orientation, "deflection_m": ours.deflection, "friction": friction}
+    return found | {"travel_m": ours.travel.tolist(), "ours_N": forces, "peer_N": list(peer.forwards)}
+
+
 def _curve(folders: Mapping[str, Path], orientation: float) -> StiffnessCurve:
     name = orientation_name("fe", orientation)
     return read_curve(folders[name] / CURVE, model="fe", orientation_deg=orientation)
@@ -148,13 +169,14 @@ def main() -> None:
     folders = {name: entry.path for name, entry in entries.items()}
     try:
         runs = compared(study, folders, wanted, chosen.at_once)
+        travel = moved(study, tasks, folders, wanted[0])
     except (RuntimeError, subprocess.SubprocessError) as error:
         sys.exit(f"crosscheck: {error}")
     written = run.write(_rows(runs, deflections), keep=False)
     if not chosen.only:
         unknowns = 3 * len(np.unique(read_mesh(folders["mesh"] / MESH).cells[:, TWENTY_NODES]))
         found = {"peer": f"CalculiX {calculix.version()}", "peer_unknowns": unknowns}
-        found |= {"deflections_m": list(deflections), "runs": runs}
+        found |= {"deflections_m": list(deflections), "runs": runs, "travel": travel}
         written.append(keep(study, NAME, COMMAND, tasks, time.perf_counter() - started, found))
     for path in written:
         print(f"written: {path}")

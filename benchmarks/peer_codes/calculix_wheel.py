@@ -1,10 +1,12 @@
-"""The wheel on the ground as a CalculiX deck: our mesh with 20-node hexahedra, a raised rigid block, springs on rim.
+"""The wheel on the ground as a CalculiX deck: our mesh with 20-node hexahedra, the hub lowered, springs on rim.
 
 Nodes and elements are those of `geometry.inp`. The block is one 8-node hexahedron whose upper face is the plane at
-first touch; every node of it is moved along the plane's normal, one step a deflection. Contact is CalculiX's face to
-face penalty (CalculiX CrunchiX user's manual 2.20, *CONTACT PAIR and *SURFACE BEHAVIOR): K times the overlap at the
-integration points of the slave faces, which is our law but for its ramp around touch. Verified by
-tests/unit/test_calculix_wheel.py and tests/verification/test_calculix_same_wheel.py.
+first touch. The hub is lowered on it along the plane's normal, one step a deflection, and may then be moved forwards
+over it, one step a travel: it is not the block that moves, for then iterations begin with contact along the whole way,
+and with friction none converged. Contact is CalculiX's face to face
+penalty (CalculiX CrunchiX user's manual 2.20, *CONTACT PAIR, *SURFACE BEHAVIOR, *FRICTION): K times the overlap at the
+integration points of the slave faces, which is our law but for its ramp around touch, and K times the elastic slip.
+Verified by tests/unit/test_calculix_wheel.py and tests/verification/test_calculix_same_wheel.py.
 """
 
 from __future__ import annotations
@@ -45,8 +47,10 @@ class WheelDeck:
     pairs : slave and master face groups of the wheel's own parts
     normal : unit normal of the plane, to the wheel, (3,) [-]
     distance_at_touch : of the plane from the wheel's centre at first touch [m]
-    deflections : rises of the plane, ascending [m]
+    deflections : of the hub to the plane, ascending [m]
     stiffness : penalty [N/m^3]
+    friction : Coulomb coefficient on the ground [-]
+    travels : of the hub forwards at the last deflection, ascending [m]
     """
 
     mesh: TaggedMesh
@@ -58,13 +62,19 @@ class WheelDeck:
     distance_at_touch: float
     deflections: tuple[float, ...]
     stiffness: float
+    friction: float = 0.0
+    travels: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CalculixRun:
-    """Loads of the whole wheel [N] at the deflections, iterations and wall time [s] of the run."""
+    """Of the ground on the whole wheel [N]: loads at deflections; forces forwards from the last on, one a travel.
+
+    With the iterations and wall time [s] of the run.
+    """
 
     loads: tuple[float, ...]
+    forwards: tuple[float, ...]
     iterations: int
     wall_s: float
 
@@ -89,10 +99,17 @@ def write_deck(deck: WheelDeck, folder: Path) -> None:
     middle = np.setdiff1d(_nodes(mesh, "symmetry"), held)
     write_inp(mesh, folder / "mesh.inp", node_sets={"held": held, "middle": middle})
     lines = ["*INCLUDE, INPUT=mesh.inp", *_block(deck, int(used[-1]) + 2, len(mesh.cells) + 1), *_sections(deck)]
-    lines += [*_contact(deck), "*BOUNDARY", "HELD, 1, 3", "MIDDLE, 2, 2"]
-    for rise in deck.deflections:
-        lines += _step(deck, rise)
+    lines += [*_contact(deck), "*BOUNDARY", "GROUND, 1, 3", "HELD, 2, 2", "MIDDLE, 2, 2"]
+    forward = _forward(deck)
+    for deflection in deck.deflections:
+        lines += _step(-deflection * deck.normal)
+    for travel in deck.travels:
+        lines += _step(travel * forward - deck.deflections[-1] * deck.normal)
     (folder / "case.inp").write_text("\n".join(lines) + "\n")
+
+
+def _forward(deck: WheelDeck) -> Array:
+    return np.cross([0.0, 1.0, 0.0], deck.normal)
 
 
 def _nodes(mesh: TaggedMesh, group: str) -> NDArray[np.int64]:
@@ -134,10 +151,11 @@ def _contact(deck: WheelDeck) -> list[str]:
     lines = ["*SURFACE, NAME=TREAD"]
     for group in deck.ground_faces:
         lines += [f"{cell + 1}, S{face}" for cell, face in face_labels(mesh, group)]
-    lines += ["*SURFACE INTERACTION, NAME=PENALTY", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"]
-    lines += [f"{deck.stiffness!r}"]
+    penalty = ["*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{deck.stiffness!r}"]
+    rough = ["*FRICTION", f"{deck.friction!r}, {deck.stiffness!r}"] if deck.friction > 0.0 else []
+    lines += ["*SURFACE INTERACTION, NAME=GROUNDED", *penalty, *rough, "*SURFACE INTERACTION, NAME=PENALTY", *penalty]
+    lines += ["*CONTACT PAIR, INTERACTION=GROUNDED, TYPE=SURFACE TO SURFACE", "TREAD, PLANE"]
     pair = "*CONTACT PAIR, INTERACTION=PENALTY, TYPE=SURFACE TO SURFACE"
-    lines += [pair, "TREAD, PLANE"]
     for number, (slave, master) in enumerate(deck.pairs):
         shared = np.intersect1d(_nodes(mesh, slave), _nodes(mesh, master))
         for side, group, without in (("S", slave, shared), ("M", master, None)):
@@ -147,10 +165,10 @@ def _contact(deck: WheelDeck) -> list[str]:
     return lines
 
 
-def _step(deck: WheelDeck, rise: float) -> list[str]:
-    """Raise the block to a deflection, CalculiX cuts increments as it needs; print the force on it at the end."""
+def _step(place: Array) -> list[str]:
+    """Move the hub to a place, CalculiX cuts increments as it needs; print the force on the block at the end."""
     lines = ["*STEP, NLGEOM, INC=400", "*STATIC, SOLVER=SPOOLES", "0.2, 1., 1e-6, 1.", "*BOUNDARY"]
-    lines += [f"GROUND, {axis + 1}, {axis + 1}, {rise * deck.normal[axis]:.12e}" for axis in range(3)]
+    lines += [f"HELD, {axis + 1}, {axis + 1}, {place[axis]:.12e}" for axis in (0, 2)]
     lines += ["*NODE PRINT, NSET=GROUND, TOTALS=ONLY, FREQUENCY=10000", "RF", "*END STEP"]
     return lines
 
@@ -161,7 +179,7 @@ def solve(deck: WheelDeck, folder: Path, threads: int, limit_s: float) -> Calcul
     Raises
     ------
     RuntimeError
-        If it did not reach the last deflection.
+        If it did not reach the last step.
     subprocess.SubprocessError
         If it failed or took more than ``limit_s`` of processor time.
     """
@@ -170,7 +188,14 @@ def solve(deck: WheelDeck, folder: Path, threads: int, limit_s: float) -> Calcul
     run = measured([PROGRAM, "-i", "case"], folder, threads, limit_s)
     rows = [line.split() for line in (folder / "case.sta").read_text().splitlines()[2:]]
     found = re.findall(r"total force .*\n\n\s*(\S+)\s+(\S+)\s+(\S+)", (folder / "case.dat").read_text())
-    if len(found) != len(deck.deflections):
-        raise RuntimeError(f"CalculiX ended in step {len(found) + 1} of {len(deck.deflections)}")
-    loads = tuple(2.0 * float(np.array(force, dtype=np.float64) @ deck.normal) for force in found)
-    return CalculixRun(loads=loads, iterations=sum(int(row[3]) for row in rows), wall_s=run.wall_s)
+    pressed, steps = len(deck.deflections), len(deck.deflections) + len(deck.travels)
+    if len(found) != steps:
+        raise RuntimeError(f"CalculiX ended in step {len(found) + 1} of {steps}")
+    forces = 2.0 * np.array(found, dtype=np.float64)
+    loads, forwards = (forces @ deck.normal)[:pressed], (forces @ _forward(deck))[pressed - 1 :]
+    return CalculixRun(
+        loads=tuple(loads.tolist()),
+        forwards=tuple(forwards.tolist()),
+        iterations=sum(int(row[3]) for row in rows),
+        wall_s=run.wall_s,
+    )

@@ -83,7 +83,9 @@ def _strays(lines: list[str], *allowed: Path) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("name", ["compare", "stiffness", "mesh", "rover", "sweep"])
+@pytest.mark.parametrize(
+    "name", ["compare", *(pytest.param(one, marks=pytest.mark.long) for one in ("stiffness", "mesh", "rover", "sweep"))]
+)
 def test_commands_stay_at_home(tmp_path: Path, name: str) -> None:
     """Folders with a blank and letters of other alphabets, as users have them."""
     home = tmp_path / "Räder und Reifen 火星"

@@ -76,6 +76,7 @@ def test_no_scheduler_is_one_message(tmp_path: Path) -> None:
         run_tasks([_sum(tmp_path, "a", 1.0)], Store(tmp_path), Recorder(), Computing(scheduler="nowhere"))
 
 
+@pytest.mark.long
 def test_a_stiffness_curve_over_the_cluster_has_the_same_bytes(
     scheduler: str, workspace: Path, first_report: object, tmp_path: Path
 ) -> None:

@@ -109,6 +109,7 @@ def _small_disk(folder: Path, size: str, arguments: list[str], **more: str) -> s
     return subprocess.run(whole, env=environment() | more, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.long
 def test_each_full_disk_is_named(tmp_path: Path) -> None:
     """The store's, while a worker writes its result or the log; the output's; never said to be a want of memory."""
     study = ROOT / "studies" / "first.toml"
@@ -126,6 +127,7 @@ def test_each_full_disk_is_named(tmp_path: Path) -> None:
     assert "0 tasks computed" in again.stdout  # everything was kept
 
 
+@pytest.mark.long
 def test_full_temporary_files_and_caches(tmp_path: Path) -> None:
     """A C compiler that can write neither its temporary files nor what it makes: the disk is named, or not needed."""
     study = tmp_path / "study.toml"

@@ -241,6 +241,7 @@ def test_negative_control_a_defect_a_hang_and_two_lines_are_caught(
         outcome(arguments, capsys, "damaged")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["study", "rover", "curve"])
 def test_the_same_as_a_process_of_its_own(tmp_path: Path, kind: str) -> None:
     """A few of the worst, from outside: nothing but the message may reach the terminal."""

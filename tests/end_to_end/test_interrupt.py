@@ -15,6 +15,8 @@ import subprocess
 import time
 from pathlib import Path
 
+import pytest
+
 from contracts.curves import read_curve
 from tests.end_to_end.small_study import command, environment, run, small_study_text
 from workbench.execution.integrity import examined
@@ -56,6 +58,7 @@ def _interrupted(folder: Path, at: int) -> tuple[int, str]:
     return process.returncode, message
 
 
+@pytest.mark.long
 def test_at_any_moment_of_a_run(tmp_path: Path) -> None:
     """While libraries are loaded, in the store's one rename and in the last ones, which put the curves in place."""
     (tmp_path / "sitecustomize.py").write_text(HOOK, encoding="utf-8")

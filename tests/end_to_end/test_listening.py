@@ -24,7 +24,8 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.parametrize("ranks", [1, pytest.param(2, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("ranks", [1, 2])
 def test_finite_elements_listen_nowhere_else(tmp_path: Path, ranks: int) -> None:
     (tmp_path / "study.toml").write_text(small_study_text(), encoding="utf-8")
     arguments = ("stiffness", "study.toml", "--model", "fe", "--out", "out", "--store", "store", "--ranks", str(ranks))

@@ -94,6 +94,7 @@ def test_a_task_that_the_kernel_kills_for_memory(group: Path, tmp_path: Path) ->
     assert (tmp_path / "log.txt").read_text(encoding="utf-8").split().count("big") == 2
 
 
+@pytest.mark.long
 def test_an_allocation_that_fails(tmp_path: Path) -> None:
     message, *events = _said(tmp_path, "", 4_000_000_000)
     assert message.startswith("RunError task big failed twice, the second time alone: no memory left")

@@ -105,6 +105,7 @@ def _read_only(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str
     return subprocess.run(whole, cwd=folder, env=environment(), capture_output=True, text=True, check=False)
 
 
+@pytest.mark.long
 def test_a_store_that_cannot_be_written_is_read(folder: Path) -> None:
     """What is in it is used; what is not, is asked for with another store; nothing can be removed from it."""
     assert run(*BRUSH, folder=folder).returncode == 0

@@ -23,6 +23,7 @@ from workbench.execution.store import Store
 from workbench.execution.task import Task
 
 
+@pytest.mark.long
 def test_two_ranks_yield_the_curve_of_one(
     workspace: Path, first_report: subprocess.CompletedProcess[str], tmp_path: Path
 ) -> None:

@@ -55,6 +55,7 @@ def killed(study: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_it_goes_on_behind_its_last_increment(study: Path, killed: Path, tmp_path: Path) -> None:
     (checkpoint,) = _kept(killed)
     kept = read_kept(checkpoint)

@@ -65,6 +65,7 @@ def test_every_point_is_judged_and_the_best_run_again(searched: tuple[Path, str]
     assert float(ranked[0]["largest_miss"]) < float(ranked[-1]["largest_miss"])
 
 
+@pytest.mark.long
 def test_the_same_search_computes_nothing_again_and_a_longer_one_goes_on(searched: tuple[Path, str]) -> None:
     folder, _ = searched
     stored = {path: path.stat().st_mtime_ns for path in folder.glob("store/??/*/manifest.json")}

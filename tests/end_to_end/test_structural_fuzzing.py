@@ -335,6 +335,7 @@ def test_arguments(tmp_path: Path, capsys: pytest.CaptureFixture[str], hostile: 
     assert statuses[2] > len(seeds) // 5
 
 
+@pytest.mark.long
 def test_a_few_as_processes_of_their_own(tmp_path: Path, hostile: dict[str, str]) -> None:
     """From outside: exit status, one line each on stderr, nothing left behind."""
     for seed in range(3):

@@ -73,6 +73,7 @@ def _wait_for(condition: object) -> None:
         time.sleep(0.02)
 
 
+@pytest.mark.long
 def test_a_sweep_ends_with_every_point_though_a_worker_is_killed(
     cluster: tuple[str, list[subprocess.Popen[bytes]]], tmp_path: Path
 ) -> None:

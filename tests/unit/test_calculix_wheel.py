@@ -85,8 +85,25 @@ def test_deck_has_sets_surfaces_and_a_step_for_each_deflection(tmp_path: Path) -
     assert (lines_of(case, "*SURFACE, NAME=S0"), lines_of(case, "*SURFACE, NAME=M0")) == (["1, S2"], ["2, S1"])
     pairs = [lines for head, lines in blocks(case) if head.startswith("*CONTACT PAIR")]
     assert pairs == [["TREAD, PLANE"], ["S0, M0"]]
-    assert len(re.findall(r"^\*STEP, NLGEOM", case, re.MULTILINE)) == 2
-    assert [float(v) for v in re.findall(r"^GROUND, 3, 3, (\S+)", case, re.MULTILINE)] == [0.01, 0.02]
+    assert "*FRICTION" not in case
+    assert places(case) == [(0.0, -0.01), (0.0, -0.02)]
+
+
+def places(case: str) -> list[tuple[float, float]]:
+    """Of the hub, x and z, at the end of each step."""
+    found = re.findall(r"^HELD, 1, 1, (\S+)\nHELD, 3, 3, (\S+)", case, re.MULTILINE)
+    assert len(found) == len(re.findall(r"^\*STEP, NLGEOM", case, re.MULTILINE))
+    return [(float(x), float(z)) for x, z in found]
+
+
+def test_a_hub_that_is_moved_goes_forwards_at_its_last_deflection_on_ground_with_friction(tmp_path: Path) -> None:
+    """Forwards is x where the ground lies below; the springs' contact stays without friction."""
+    write_deck(replace(deck(), friction=0.6, travels=(0.003,)), tmp_path)
+    case = (tmp_path / "case.inp").read_text()
+    assert places(case) == [(0.0, -0.01), (0.0, -0.02), (0.003, -0.02)]
+    assert lines_of(case, "*FRICTION") == ["0.6, 100000000000.0"]
+    kinds = [head for head, _ in blocks(case) if head.startswith(("*SURFACE INTERACTION", "*FRICTION"))]
+    assert kinds == ["*SURFACE INTERACTION, NAME=GROUNDED", "*FRICTION", "*SURFACE INTERACTION, NAME=PENALTY"]
 
 
 def test_the_block_lies_below_the_plane_and_faces_the_wheel(tmp_path: Path) -> None:

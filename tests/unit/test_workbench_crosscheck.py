@@ -23,7 +23,15 @@ RUNS = [
     {"orientation_deg": 0.0, "ours_N": [80.0, 150.0], "peer_N": [80.4, 150.3], "iterations": 40, "wall_s": 50.0},
     {"orientation_deg": 15.0, "ours_N": [90.0, 160.0], "peer_N": [90.0, 158.0], "iterations": 60, "wall_s": 50.0},
 ]
-FOUND = {"peer": "Peer 1", "peer_unknowns": 99, "deflections_m": [0.01, 0.02], "runs": RUNS}
+MOVED = {
+    "orientation_deg": 0.0,
+    "deflection_m": 0.025,
+    "friction": 0.6,
+    "travel_m": [0.0, 0.001, 0.002],
+    "ours_N": [-1.0, -4.0, -7.0],
+    "peer_N": [-1.1, -4.13, -7.07],
+}
+FOUND = {"peer": "Peer 1", "peer_unknowns": 99, "deflections_m": [0.01, 0.02], "runs": RUNS, "travel": MOVED}
 
 
 @pytest.fixture
@@ -66,15 +74,16 @@ def test_ours_are_the_curves_of_this_report(study: Study, record: Kept) -> None:
     results = peer_check(study, record, {0.0: curve(0.0, (100.0, 150.0)), 15.0: curve(15.0, (90.0,))})
     assert results.state == "current"
     assert [row.ours for row in results.rows] == [100.0, 150.0, 90.0, 160.0]
-    first, second = CROSSCHECK.checks(study, results)
+    first, second, along = CROSSCHECK.checks(study, results)
     assert (first.id, first.status, first.value) == ("crosscheck.load_10mm", "fail", pytest.approx(0.196))
     assert (second.id, second.status, second.value) == ("crosscheck.load_20mm", "fail", pytest.approx(0.0125))
+    assert (along.id, along.status, along.value) == ("crosscheck.fore_aft", "pass", pytest.approx(0.01))
 
 
 def test_loads_within_one_percent_pass(study: Study, record: Kept) -> None:
     results = peer_check(study, record, {0.0: curve(0.0, (80.0, 150.0)), 15.0: curve(15.0, (90.0, 158.5))})
-    assert [check.status for check in CROSSCHECK.checks(study, results)] == ["pass", "pass"]
-    assert [check.role for check in CROSSCHECK.checks(study, results)] == ["finding", "finding"]
+    assert [check.status for check in CROSSCHECK.checks(study, results)] == ["pass"] * 3
+    assert [check.role for check in CROSSCHECK.checks(study, results)] == ["finding"] * 3
 
 
 def test_a_record_of_another_mesh_decides_nothing(study: Study, record: Kept) -> None:
@@ -96,7 +105,8 @@ def test_a_record_of_older_sources_still_judges(study: Study, record: Kept) -> N
 
 def test_the_page_shows_both_loads_and_where_they_come_from(study: Study, record: Kept) -> None:
     text = page(study, peer_check(study, record, {}))
-    for words in ("Peer 1", "80.40", "+0.50 %", "40 to 60 iterations", "is current", "code to code", record.date[:10]):
+    told = ("Peer 1", "80.40", "+0.50 %", "40 to 60 iterations", "is current", "code to code", record.date[:10])
+    for words in (*told, "3.030", "+1.00 %"):
         assert words in text, words
 
 
@@ -127,6 +137,11 @@ def test_the_record_of_the_built_in_study_is_whole() -> None:
         {"runs": [RUNS[0] | {"peer_N": [80.0, 1e308]}]},
         {"runs": [RUNS[0] | {"peer_N": [80.0, "a"]}]},
         {"runs": [RUNS[0] | {"orientation_deg": "x"}]},
+        {"travel": None},
+        {"travel": MOVED | {"ours_N": [-1.0]}},
+        {"travel": MOVED | {"travel_m": [0.1, 0.2, 0.3]}},
+        {"travel": MOVED | {"peer_N": [-1.0, -1.0, 1e10]}},
+        {"travel": {k: v for k, v in MOVED.items() if k != "friction"}},
         {"runs": [{k: v for k, v in RUNS[0].items() if k != "iterations"}]},
     ],
 )

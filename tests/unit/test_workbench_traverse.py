@@ -113,7 +113,7 @@ def test_a_stretch_gets_there_and_tells_what_its_wheels_carried(tmp_path: Path) 
 
 def test_the_drive_is_the_sum_of_its_stretches_and_its_loads_are_one_history() -> None:
     run = run_of("brush", [stretch(), stretch(time_s=3000.0, loads_N=[310.0, 200.0], airborne=[0.05, 0.0])])
-    assert (run.way, run.time, run.energy, run.stretches, run.ended) == (40.0, 4000.0, 800.0, 2, 0)
+    assert (run.reached, run.way, run.time, run.energy, run.stretches, run.ended) == (40.0, 40.0, 4000.0, 800.0, 2, 0)
     assert (run.energy_per_metre, run.work_per_metre) == (20.0, 15.0)
     assert (run.rocks, run.avoided, run.loads) == (6, 2, [310.0, 250.0])
     assert run.airborne == pytest.approx([0.04, 0.0])
@@ -122,13 +122,13 @@ def test_the_drive_is_the_sum_of_its_stretches_and_its_loads_are_one_history() -
     assert run.ends == ""
 
 
-def test_the_first_stretch_that_ends_it_ends_the_drive() -> None:
+def test_the_first_stretch_that_ends_it_ends_the_drive_and_the_others_are_counted() -> None:
     stops = stretch(ended={"cause": "friction", "words": ""}, way_m=5.0, time_s=1500.0, place_m=[5.0, -0.2])
     run = run_of("brush", [stretch(), stops, stretch(loads_N=[900.0, 900.0]), stops])
-    assert (run.way, run.stretches, run.ended, max(run.loads)) == (25.0, 2, 2, 300.0)
+    assert (run.reached, run.way, run.stretches, run.ended, max(run.loads)) == (25.0, 50.0, 4, 2, 900.0)
     assert run.ends == (
         "ended after 25.0 m by wheels that turn without taking it there: stretch 2, at 1500 s, "
-        "5.00 m ahead and -0.20 m aside of its start"
+        "5.00 m ahead and -0.20 m aside of its start; 2 of 4 stretches end early"
     )
     broken = {k: v for k, v in stretch().items() if k in ("rocks", "tallest_m", "avoided", "yield_N")}
     run = run_of("brush", [broken | {"ended": {"cause": "computation", "words": "no step"}, "way_m": 0.0}])

@@ -105,7 +105,8 @@ def _print(runs: Sequence[TireRun], asked: Asked) -> None:
 
 
 _ROWS = (
-    "way",
+    "way up to where it first ends",
+    "way of all stretches",
     "time",
     "energy drives give",
     "less what they get back",
@@ -121,6 +122,7 @@ _ROWS = (
 def _column(run: TireRun) -> tuple[str, ...]:
     """What `_ROWS` says of one kind of tire; shares of the time are those of the wheel that has most."""
     return (
+        f"{run.reached:.1f} m",
         f"{run.way:.1f} m",
         f"{run.time / 3600.0:.3g} h",
         f"{run.energy_per_metre:.1f} J/m",

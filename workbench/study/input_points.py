@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtr, ndtri
 
 from contracts.errors import StudyError
 from workbench.study.input_uncertainty import CUT, InputUncertaintySection, UncertainInput
@@ -115,6 +114,8 @@ def normal_places(u: NDArray[np.float64]) -> NDArray[np.float64]:
 
     With Phi the distribution function and c = `CUT`: (c + Phi^-1(Phi(-c) + u (Phi(c) - Phi(-c)))) / 2c.
     """
+    from scipy.special import ndtr, ndtri  # a second of every command's start
+
     at_cut = ndtr(-CUT)
     found = (CUT + ndtri(at_cut + u * (1.0 - 2.0 * at_cut))) / (2.0 * CUT)
     return np.clip(found, 0.0, np.nextafter(1.0, 0.0))

@@ -93,8 +93,15 @@ def _field(way: Way, number: int, design: RoverDesign, diameters: tuple[float, f
     aside = ASIDE * way.length + MARGIN
     size = (float(high[0] - low[0]) + LONGER * way.length, float(high[1] - low[1]) + 2.0 * aside)
     origin = (float(low[0]), float(low[1]) - aside)
-    shape = {"height_ratio": HEIGHT, "spacing": 0.25 * SMALLEST}
-    return RandomRocks(seed=seed, size=size, origin=origin, abundance=way.abundance, diameters=diameters, **shape)
+    return RandomRocks(
+        seed=seed,
+        size=size,
+        origin=origin,
+        abundance=way.abundance,
+        diameters=diameters,
+        height_ratio=HEIGHT,
+        spacing=0.25 * SMALLEST,
+    )
 
 
 def _in_tracks(field: RandomRocks, way: Way, design: RoverDesign) -> FloatArray:

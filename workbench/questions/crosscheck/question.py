@@ -6,25 +6,24 @@ Verified by tests/unit/test_workbench_crosscheck.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.crosscheck.results import COMMAND, NAME, PeerCheck, peer_check, whole
-from workbench.questions.kept import kept
+from workbench.questions.kept import OF_ANOTHER, kept
 from workbench.questions.model_curves import model_curves
 from workbench.questions.question import Question
 from workbench.study.full import around
 from workbench.study.model import Study
-from workbench.verdict.rules import Claim, at_most
+from workbench.verdict.rules import Claim, at_most, undecided
 
 __all__ = ["CROSSCHECK", "LIMIT"]
 
 LIMIT = 0.01
-"""Largest difference of a load that counts as agreement [-]."""
+"""Largest difference of a force that counts as agreement [-]."""
 
 
 def _read(study: Study, folders: Mapping[str, Path]) -> PeerCheck:
@@ -35,25 +34,27 @@ def _read(study: Study, folders: Mapping[str, Path]) -> PeerCheck:
 
 
 def _checks(study: Study, results: PeerCheck) -> Sequence[Check]:
-    return [_check(results, deflection) for deflection in results.deflections]
+    peer, found = results.record.found["peer"], []
+    for deflection in results.deflections:
+        where, largest = f"{1e3 * deflection:g} mm", partial(results.largest, deflection)
+        title = f"FE against {peer}, {where}: largest difference of the load at any orientation"
+        found.append(_check(results, f"load_{where.replace(' ', '')}", title, largest))
+    title = f"FE against {peer}, hub moved forwards with friction: largest difference of the stiffness"
+    return [*found, _check(results, "fore_aft", title, results.largest_travelled)]
 
 
-def _check(results: PeerCheck, deflection: float) -> Check:
+def _check(results: PeerCheck, name: str, title: str, measure: Callable[[], float]) -> Check:
     """Undecided where the record is about another wheel: its numbers say nothing of this one."""
-    where = f"{1e3 * deflection:g} mm"
     claim = Claim(
-        id=f"crosscheck.load_{where.replace(' ', '')}",
-        title=f"FE against {results.record.found['peer']}, {where}: largest difference of the load at any orientation",
+        id=f"crosscheck.{name}",
+        title=title,
         quantity="difference",
         unit="-",
         role="finding",
         source=f"{results.record.found['peer']} on the same mesh, {results.record.date[:10]}; the limit is ours",
     )
-    check = at_most(claim, partial(results.largest, deflection), LIMIT)
-    if results.state != "stale":
-        return check
-    words = f"{check.tolerance}; the kept record is of another wheel, mesh or load case"
-    return replace(check, tolerance=words, status="undecided")
+    check = at_most(claim, measure, LIMIT)
+    return check if results.state != "stale" else undecided(check, OF_ANOTHER)
 
 
 CROSSCHECK = Question(

@@ -1,6 +1,6 @@
-"""Loads of the solid model beside those that another code found on the same mesh, and whether they belong together.
+"""Forces of the solid model beside those that another code found on the same mesh, and whether they belong together.
 
-The other code's loads are kept by ``make bench NAME=crosscheck`` (`workbench.questions.kept`); ours are this report's
+The other code's are kept by ``make bench NAME=crosscheck`` (`workbench.questions.kept`); ours are this report's
 wherever its wheel is that of the record. Verified by tests/unit/test_workbench_crosscheck.py.
 """
 
@@ -8,19 +8,31 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from contracts.curves import StiffnessCurve
+from contracts.hub_travel import Way
 from workbench.execution.task import Task
 from workbench.questions.fe.graph import fe_curve_tasks
 from workbench.questions.kept import Kept, State
+from workbench.questions.travels import WORKING_LOAD, travel_tasks
 from workbench.questions.wheel.graph import wheel_meshes
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
 
-__all__ = ["COMMAND", "NAME", "LoadRow", "PeerCheck", "crosscheck_tasks", "peer_check", "points_of", "whole"]
+__all__ = [
+    "COMMAND",
+    "NAME",
+    "LoadRow",
+    "PeerCheck",
+    "TravelRow",
+    "crosscheck_tasks",
+    "peer_check",
+    "points_of",
+    "whole",
+]
 
 NAME, COMMAND = "crosscheck", "make bench NAME=crosscheck"
 _ORIENTATIONS = 5
@@ -39,8 +51,10 @@ def points_of(study: Study) -> tuple[tuple[float, ...], tuple[float, ...]]:
 
 
 def crosscheck_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Task]:
-    """Mesh and curves that a record is about."""
-    return [wheel_meshes(study)[0], *fe_curve_tasks(study, orientations_deg)]
+    """Mesh and curves that a record is about, and the travel forwards at the first orientation."""
+    tasks = [wheel_meshes(study)[0], *fe_curve_tasks(study, orientations_deg)]
+    moved = travel_tasks(study, "fe", (Way.FORE_AFT,), WORKING_LOAD, orientations_deg[:1])
+    return list({task.name: task for task in (*moved, *tasks)}.values())
 
 
 def whole(found: Mapping[str, Any]) -> None:
@@ -52,7 +66,12 @@ def whole(found: Mapping[str, Any]) -> None:
     positive = (loads > 0.0) & (loads < _LARGEST_LOAD)
     if not (positive.all() and (deflections > 0.0).all() and (deflections < 1.0).all()):
         raise ValueError(f"loads lie between 0 and {_LARGEST_LOAD:g} N, deflections between 0 and 1 m")
+    moved, names = found["travel"], ("travel_m", "ours_N", "peer_N")
+    columns = np.array([moved[name] for name in names], dtype=np.float64)
+    if columns.ndim != 2 or columns.shape[1] < 2 or not (np.abs(columns) < _LARGEST_LOAD).all() or columns[0, 0] != 0.0:
+        raise ValueError("a travel begins at 0 and has as many finite forces of both")
     numbers = [value for run in found["runs"] for value in (run["orientation_deg"], run["iterations"])]
+    numbers += [moved[name] for name in ("orientation_deg", "deflection_m", "friction")]
     if not (np.isfinite(np.array(numbers, dtype=np.float64)).all() and isinstance(found["peer"], str)):
         raise ValueError("a run has an orientation and iterations, the record the name of the other code")
 
@@ -72,13 +91,21 @@ class LoadRow:
         return self.peer / self.ours - 1.0
 
 
+class TravelRow(NamedTuple):
+    """Force of the ground on the whole wheel, forwards [N], behind a travel [m], ours and the other code's."""
+
+    travel: float
+    ours: float
+    peer: float
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PeerCheck:
     """A record, whether it is about this study, and its rows.
 
     Attributes
     ----------
-    record : as kept; ``found`` holds ``peer``, ``peer_unknowns``, ``deflections_m`` and ``runs``
+    record : as kept; ``found`` holds ``peer``, ``peer_unknowns``, ``deflections_m``, ``runs`` and ``travel``
     state : "current", "older sources" or "stale"
     rows : ours are this report's unless the record is stale or the report has no curve there: then the record's
     """
@@ -102,6 +129,23 @@ class PeerCheck:
         """Fewest and most iterations of the other code at an orientation."""
         counts = [int(run["iterations"]) for run in self.record.found["runs"]]
         return min(counts), max(counts)
+
+    @property
+    def travelled(self) -> list[TravelRow]:
+        """Of the record, from where the hub begins to move."""
+        moved = self.record.found["travel"]
+        rows = zip(moved["travel_m"], moved["ours_N"], moved["peer_N"], strict=True)
+        return [TravelRow(*map(float, row)) for row in rows]
+
+    @property
+    def stiffnesses(self) -> list[tuple[float, float]]:
+        """What the force grew by since the hub began to move, over each travel, ours and the other code's [N/m]."""
+        begin, *rows = self.travelled
+        return [((begin.ours - one.ours) / one.travel, (begin.peer - one.peer) / one.travel) for one in rows]
+
+    def largest_travelled(self) -> float:
+        """Largest size of the relative difference of these [-]."""
+        return max(abs(peer / ours - 1.0) for ours, peer in self.stiffnesses)
 
     def largest(self, deflection: float) -> float:
         """Largest size of the difference at a deflection, of any orientation [-]."""

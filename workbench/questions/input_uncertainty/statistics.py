@@ -9,7 +9,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import beta, spearmanr, t
 
 __all__ = ["FEWEST_RANKS", "LEVEL", "at_most_of_all", "percentiles", "rank_correlations", "told_apart"]
 
@@ -46,6 +45,8 @@ def rank_correlations(inputs: Array, output: Array) -> Array:
 
 
 def _spearman(x: Array, y: Array) -> float:
+    from scipy.stats import spearmanr  # a second of every command's start
+
     return math.nan if np.ptp(x) == 0.0 else float(spearmanr(x, y).statistic)
 
 
@@ -54,6 +55,8 @@ def told_apart(count: int, level: float = LEVEL) -> float:
 
     By Student's t with n - 2 degrees of freedom, the usual approximation: r = t / sqrt(n - 2 + t^2).
     """
+    from scipy.stats import t
+
     if count < FEWEST_RANKS:
         return math.nan
     quantile = float(t.ppf(1.0 - 0.5 * level, count - 2))
@@ -62,4 +65,6 @@ def told_apart(count: int, level: float = LEVEL) -> float:
 
 def at_most_of_all(found: int, count: int, level: float = LEVEL) -> float:
     """Share of all that are so at most, where ``found`` of ``count`` samples are, at a level [-] (Clopper, Pearson)."""
+    from scipy.stats import beta
+
     return 1.0 if found >= count else float(beta.ppf(1.0 - level, found + 1, count - found))

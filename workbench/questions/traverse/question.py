@@ -81,7 +81,7 @@ def _distance(run: TireRun, asked: float) -> Check:
         role="finding",
         source=SOURCE,
     )
-    check = at_least(claim, lambda: 1e-3 * run.way, 1e-3 * REQUIRED)
+    check = at_least(claim, lambda: 1e-3 * run.reached, 1e-3 * REQUIRED)
     unknown = run.cause in ("computation", "wheel") or (run.cause is None and asked < REQUIRED)
     return replace(check, status="undecided") if unknown else check
 

@@ -1,7 +1,7 @@
 """The record of `workbench traverse`: written from what its tasks found, and read.
 
 The loads of all stretches of a wheel, one behind the other, are one history for rainflow. Where a stretch ends before
-the rover is there, the drive ends: what lies behind is left out, but counted. Verified by
+the rover is there, the drive ends; the stretches behind, each from rest, count in all else. Verified by
 tests/unit/test_workbench_traverse.py.
 """
 
@@ -38,9 +38,10 @@ class TireRun:
     Attributes
     ----------
     tire : name
-    way, time : up to where it ends [m], [s]
+    reached : way up to where it first ends [m]
+    way, time : of all stretches [m], [s]
     energy, work : what drives give, and that less what they are given back [J]
-    stretches, ended : driven, and how many of all would have ended the drive
+    stretches, ended : how many there are, and how many end before the rover is there
     cause, words : of the first that does, None and "" where none does; what its solver said
     stretch, moment, place : where: its number from 1 on, time in it [s], x and y from its start [m]
     rocks, avoided, tallest : in the wheels' tracks: driven over, driven around, height of the tallest driven over [m]
@@ -52,6 +53,7 @@ class TireRun:
     """
 
     tire: str
+    reached: float
     way: float
     time: float
     energy: float
@@ -94,7 +96,8 @@ class TireRun:
         where = "before it sets out"
         if self.place is not None and self.moment is not None:
             where = f"at {self.moment:.4g} s, {self.place[0]:.2f} m ahead and {self.place[1]:+.2f} m aside of its start"
-        return f"ended after {self.way:.1f} m by {CAUSES[self.cause]}: stretch {self.stretch}, {where}"
+        first = f"ended after {self.reached:.1f} m by {CAUSES[self.cause]}: stretch {self.stretch}, {where}"
+        return f"{first}; {self.ended} of {self.stretches} stretches end early"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,9 +112,8 @@ class Traverse:
 def run_of(tire: str, results: Sequence[Mapping[str, Any]]) -> TireRun:
     """The whole drive from its stretches' results, in their order."""
     broken = [k for k, one in enumerate(results) if one["ended"] is not None]
-    driven = results[: broken[0] + 1] if broken else results
-    moved = [one for one in driven if "time_s" in one]
-    last = driven[-1] if broken else None
+    moved = [one for one in results if "time_s" in one]
+    last = results[broken[0]] if broken else None
     wheels = range(len(moved[0]["loads_N"])) if moved else range(0)
     time = sum(one["time_s"] for one in moved)
 
@@ -124,23 +126,24 @@ def run_of(tire: str, results: Sequence[Mapping[str, Any]]) -> TireRun:
     def cycles(name: str) -> list[list[float]]:
         return [counted(chain.from_iterable(one[name][w] for one in moved), WIDTHS[name]) for w in wheels]
 
-    limit = driven[0]["yield_N"]
+    limit = results[0]["yield_N"]
     return TireRun(
         tire=tire,
-        way=sum(one["way_m"] for one in driven),
+        reached=sum(one["way_m"] for one in results[: broken[0] + 1 if broken else None]),
+        way=sum(one["way_m"] for one in results),
         time=time,
         energy=sum(one["energy_J"] for one in moved),
         work=sum(one["work_J"] for one in moved),
-        stretches=len(driven),
+        stretches=len(results),
         ended=len(broken),
         cause=None if last is None else last["ended"]["cause"],
         words="" if last is None else last["ended"]["words"],
-        stretch=None if last is None else len(driven),
+        stretch=broken[0] + 1 if broken else None,
         moment=None if last is None else last.get("time_s"),
         place=None if last is None else last.get("place_m"),
-        rocks=sum(one["rocks"] for one in driven),
-        avoided=sum(one["avoided"] for one in driven),
-        tallest=max(one["tallest_m"] for one in driven),
+        rocks=sum(one["rocks"] for one in results),
+        avoided=sum(one["avoided"] for one in results),
+        tallest=max(one["tallest_m"] for one in results),
         aside=max((one["aside_m"] for one in moved), default=0.0),
         lean=max((one["lean_rad"] for one in moved), default=0.0),
         loads=largest("loads_N"),
