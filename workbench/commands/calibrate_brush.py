@@ -6,6 +6,7 @@ Verified by tests/end_to_end/test_calibrate_brush.py.
 from __future__ import annotations
 
 import math
+import shlex
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -60,7 +61,9 @@ def run_calibrate_brush(
         found = wheel_brush(curves, travels, load, given, around(study))
     lines = lines_beside_table_two(found)
     seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
-    again = f"workbench calibrate brush {path} --model {name}" + ("" if load == WORKING_LOAD else f" --load {load:g}")
+    given_as = [] if study_path is None else [shlex.quote(str(study_path))]
+    at = [] if load == WORKING_LOAD else ["--load", f"{load:g}"]
+    again = " ".join(["workbench calibrate brush", *given_as, "--model", name, *at])
     record = keep(study, RECORD, again, tasks, seconds, _record(found, name, asked))
     tell_kept(publish(out, "calibrate brush", {TABLE: _csv(lines)}))
     _print(found, lines)
