@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import shutil
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +15,12 @@ import pytest
 
 from contracts.errors import InputError
 from workbench.execution.task import Task
+from workbench.questions.crosscheck.results import crosscheck_tasks
 from workbench.questions.kept import Kept, keep, kept, keys_of, replaced, require_place
+from workbench.questions.rover_mission.graph import mission_tasks
+from workbench.questions.rover_mission.question import ROVER_MISSION
+from workbench.questions.traverse.graph import Asked, traverse_tasks
+from workbench.questions.traverse.question import TRAVERSE
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
@@ -52,6 +58,45 @@ def test_it_is_current_for_the_same_tasks_in_any_order_only(study: Study) -> Non
     other = replace(TASKS[1], inputs={"x": 2.1})
     assert found.state([TASKS[0], other]) == found.state(TASKS[:1]) == "stale"
     assert replace(found, sources="0").state(TASKS) == "older sources"
+
+
+def test_it_is_stale_where_the_study_has_no_such_tasks_any_more(study: Study) -> None:
+    def none() -> list[Task]:
+        raise InputError("load", "200 N", "must lie below 150 N", "change it")
+
+    keep(study, "sample", "make sample", TASKS, 1.0, {})
+    assert record(study).state_of(none) == "stale"
+    assert record(study).state_of(lambda: TASKS) == "current"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('max_load = "320 N"', 'max_load = "150 N"'),
+        ('obstacle = { shape = "plane" }', 'obstacle = { shape = "half_round_rock", radius = "20 mm" }'),
+    ],
+)
+def test_the_records_of_a_study_changed_so_that_none_could_be_made_are_stale(
+    tmp_path: Path, old: str, new: str
+) -> None:
+    """A report had ended in an error after all was computed."""
+    built_in, path = read_study(built_in_study()), tmp_path / "exomars.toml"
+    shutil.copytree(built_in_study().with_suffix(".kept"), tmp_path / "exomars.kept")
+    text = built_in_study().read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    other = read_study(path)
+    for name, tasks in (
+        ("mission", lambda study: mission_tasks(study, ("rigid", "fe"))),
+        ("traverse", lambda study: traverse_tasks(study, ("fe",), Asked())),
+        ("crosscheck", lambda study: crosscheck_tasks(study, [0.0])),
+    ):
+        found = kept(built_in, name)
+        assert found is not None
+        with pytest.raises(InputError):
+            tasks(other)
+    for question in (ROVER_MISSION, TRAVERSE):
+        assert question.read(other, {}).state == "stale"
 
 
 def test_names_and_costs_are_no_part_of_the_key() -> None:

@@ -58,6 +58,14 @@ class Kept:
             return "stale"
         return "current" if self.sources == sources else "older sources"
 
+    def state_of(self, plan: Callable[[], Sequence[Task]]) -> State:
+        """The same of tasks that a changed study may not have any more: stale where they cannot be planned."""
+        try:
+            tasks = plan()
+        except InputError:
+            return "stale"
+        return self.state(tasks)
+
 
 def keys_of(tasks: Sequence[Task]) -> tuple[str, str]:
     """Key of the functions and inputs of tasks, in any order, and key of these with all sources and libraries."""

@@ -155,7 +155,7 @@ class PeerCheck:
 def peer_check(study: Study, record: Kept, curves: Mapping[float, StiffnessCurve]) -> PeerCheck:
     """The record beside the curves of this report, by orientation [deg]."""
     orientations = [float(run["orientation_deg"]) for run in record.found["runs"]]
-    state = record.state(crosscheck_tasks(study, orientations))
+    state = record.state_of(lambda: crosscheck_tasks(study, orientations))
     rows = []
     for run in record.found["runs"]:
         orientation = float(run["orientation_deg"])

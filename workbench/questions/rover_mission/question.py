@@ -52,7 +52,8 @@ def _read(study: Study, folders: Mapping[str, Path]) -> HeldMission:
     record = kept(study, RECORD, mission_of)
     assert record is not None  # else it is not asked
     mission = mission_of(record.found)
-    return HeldMission(record=record, state=record.state(mission_tasks(study, mission.tires)), mission=mission)
+    state = record.state_of(lambda: mission_tasks(study, mission.tires))
+    return HeldMission(record=record, state=state, mission=mission)
 
 
 def _asked(study: Study) -> bool:

@@ -50,9 +50,8 @@ def _read(study: Study, folders: Mapping[str, Path]) -> HeldTraverse:
     record = kept(study, RECORD, traverse_of)
     assert record is not None  # else it is not asked
     found = traverse_of(record.found)
-    return HeldTraverse(
-        record=record, state=record.state(traverse_tasks(study, tuple(found.runs), found.asked)), traverse=found
-    )
+    state = record.state_of(lambda: traverse_tasks(study, tuple(found.runs), found.asked))
+    return HeldTraverse(record=record, state=state, traverse=found)
 
 
 def _asked(study: Study) -> bool:
