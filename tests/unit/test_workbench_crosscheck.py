@@ -100,6 +100,7 @@ def test_a_record_of_older_sources_still_judges(study: Study, record: Kept) -> N
     results = peer_check(study, older, {0.0: curve(0.0, (80.0, 150.0)), 15.0: curve(15.0, (70.0, 158.0))})
     assert results.state == "older sources"
     assert CROSSCHECK.checks(study, results)[0].status == "fail"
+    assert CROSSCHECK.checks(study, results)[-1].status == "undecided"  # both of its sides are as they were kept
     assert "older sources" in page(study, results)
 
 

@@ -117,6 +117,8 @@ def test_the_drive_is_the_sum_of_its_stretches_and_its_loads_are_one_history() -
     assert (run.energy_per_metre, run.work_per_metre) == (20.0, 15.0)
     assert (run.rocks, run.avoided, run.loads) == (6, 2, [310.0, 250.0])
     assert run.airborne == pytest.approx([0.04, 0.0])
+    assert run.typical == pytest.approx([305.0, 309.5])
+    assert (run.over, run.overloaded) == (None, None)
     # 200 300 100 200 | 200 300 100 200: half cycles of 100, 200, 200, 200 and 100; apart each 100, 200, 100 twice
     assert run.load_cycles == [[0.0] * 5 + [1.0] + [0.0] * 4 + [1.5], []]
     assert run.ends == ""
@@ -172,6 +174,8 @@ def test_what_is_no_record_is_refused() -> None:
         {"runs": [dict(run, cause="friction", stretch=1, moment=3.0, place=[1.0])]},
         {"runs": [dict(run, over=[0.1, 0.2])]},
         {"runs": [dict(run, first_yield=200.0)]},
+        {"runs": [dict(run, overloaded=1)]},
+        {"runs": [dict(run, typical=[1.0])]},
         {"runs": [dict(run, time=-1.0)]},
         {"runs": [dict(run, load_cycles=[[-1.0], [1.0]])]},
         {"wheels": "lr"},
@@ -187,7 +191,15 @@ def test_the_evidence_tells_both_tires_and_draws_the_cycles() -> None:
     results = held(ends, on_wheel, state="older sources")
     figures = TRAVERSE.figures(STUDY, results)
     text = page_environment().get_template("traverse/evidence.html.j2").render(results=results, figures=figures)
-    told = ("20.0 J/m", "15.0 J/m", "300 N", "2.000 %", "of 280 N", "lean of more than 30 degrees", "older sources")
+    told = (
+        "20.0 J/m",
+        "15.0 J/m",
+        "300 N",
+        "1 of 1, 2.000 %",
+        "of 280 N",
+        "lean of more than 30 degrees",
+        "older sources",
+    )
     for words in told:
         assert words in text, words
     assert "left, fe" in figures["traverse_cycles"]
@@ -200,6 +212,14 @@ def test_what_is_printed_fits_a_narrow_terminal(monkeypatch: pytest.MonkeyPatch)
     on_wheel = run_of("fe", [stretch(yield_N=280.0, over=[0.02, 0.0])])
     command._print([run_of("brush", [stretch()]), on_wheel], Asked(distance=20.0))
     text = narrow.file.getvalue()
-    for words in ("largest load of a wheel", "300 N", "20.0 J/m", "15.0 J/m", "2.000 %", "rocks driven around"):
+    for words in (
+        "largest load of a wheel",
+        "300 N",
+        "20.0 J/m",
+        "15.0 J/m",
+        "2.000 %",
+        "1 of 1",
+        "rocks driven around",
+    ):
         assert words in text, words
     assert "…" not in text

@@ -114,7 +114,8 @@ _ROWS = (
     "largest deflection",
     "time without load",
     "time above first yield",
-    "rocks driven over",
+    "stretches with a wheel above it",
+    "rocks in the wheels' tracks",
     "rocks driven around",
 )
 
@@ -131,6 +132,7 @@ def _column(run: TireRun) -> tuple[str, ...]:
         f"{1e3 * max(run.deflections, default=0.0):.1f} mm",
         f"{100.0 * max(run.airborne, default=0.0):.3f} %",
         "" if run.over is None else f"{100.0 * max(run.over, default=0.0):.3f} %",
+        "" if run.overloaded is None else f"{run.overloaded} of {run.stretches}",
         f"{run.rocks}",
         f"{run.avoided}",
     )

@@ -1,7 +1,8 @@
 """Forces of the solid model beside those that another code found on the same mesh, and whether they belong together.
 
 The other code's are kept by ``make bench NAME=crosscheck`` (`workbench.questions.kept`); ours are this report's
-wherever its wheel is that of the record. Verified by tests/unit/test_workbench_crosscheck.py.
+wherever its wheel is that of the record. Of the travel both sides are the record's, which decides where it is current.
+Verified by tests/unit/test_workbench_crosscheck.py.
 """
 
 from __future__ import annotations

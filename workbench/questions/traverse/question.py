@@ -71,7 +71,7 @@ def _checks(study: Study, results: HeldTraverse) -> Sequence[Check]:
 
 
 def _distance(run: TireRun, asked: float) -> Check:
-    """Undecided where less was asked and nothing ended it, or the computation did."""
+    """Undecided where less was asked and nothing ended it; where the computation did, or a wheel beyond its curves."""
     claim = Claim(
         id=f"traverse.{run.tire}",
         title=f"Way between two samples over rocks on {TIRE_WORDS[run.tire]}",

@@ -12,6 +12,8 @@ from dataclasses import asdict, dataclass, fields
 from itertools import chain
 from typing import Any
 
+import numpy as np
+
 from workbench.questions.kept import rounded
 from workbench.questions.traverse.counting import counted
 from workbench.questions.traverse.graph import TRAVERSE_TIRES, Asked
@@ -44,10 +46,13 @@ class TireRun:
     stretches, ended : how many there are, and how many end before the rover is there
     cause, words : of the first that does, None and "" where none does; what its solver said
     stretch, moment, place : where: its number from 1 on, time in it [s], x and y from its start [m]
-    rocks, avoided, tallest : in the wheels' tracks: driven over, driven around, height of the tallest driven over [m]
+    rocks, avoided, tallest : in straight tracks of the wheels: to be driven over, driven around, height of the tallest
+        of the former [m]
     aside, lean : largest [m], [rad]
     loads, deflections : largest [N], [m]
+    typical : of the stretches' largest loads the median and the 95th percentile [N]
     airborne, over : share of the time without load, and above the first yield of the study's wheel, None without one
+    overloaded : stretches in which a wheel carries more than that, None without one
     first_yield : that load [N], or None
     load_cycles, deflection_cycles : numbers of cycles in ranges of `WIDTHS`, from 0 on
     """
@@ -72,8 +77,10 @@ class TireRun:
     lean: float
     loads: list[float]
     deflections: list[float]
+    typical: list[float]
     airborne: list[float]
     over: list[float] | None
+    overloaded: int | None
     first_yield: float | None
     load_cycles: list[list[float]]
     deflection_cycles: list[list[float]]
@@ -126,7 +133,7 @@ def run_of(tire: str, results: Sequence[Mapping[str, Any]]) -> TireRun:
     def cycles(name: str) -> list[list[float]]:
         return [counted(chain.from_iterable(one[name][w] for one in moved), WIDTHS[name]) for w in wheels]
 
-    limit = results[0]["yield_N"]
+    limit, heaviest = results[0]["yield_N"], [max(one["loads_N"]) for one in moved]
     return TireRun(
         tire=tire,
         reached=sum(one["way_m"] for one in results[: broken[0] + 1 if broken else None]),
@@ -148,8 +155,10 @@ def run_of(tire: str, results: Sequence[Mapping[str, Any]]) -> TireRun:
         lean=max((one["lean_rad"] for one in moved), default=0.0),
         loads=largest("loads_N"),
         deflections=largest("deflections_m"),
+        typical=np.percentile(heaviest, (50.0, 95.0)).tolist() if heaviest else [],
         airborne=share("airborne"),
         over=None if limit is None else share("over"),
+        overloaded=None if limit is None else sum(load > limit for load in heaviest),
         first_yield=limit,
         load_cycles=cycles("load"),
         deflection_cycles=cycles("deflection"),
@@ -191,8 +200,10 @@ def _require_ours(run: TireRun, wheels: int) -> None:
         raise ValueError("every list has one entry a wheel, and the cause is one of ours")
     if run.place is not None and len(run.place) != 2:
         raise ValueError("a place has x and y")
-    if (run.over is None) != (run.first_yield is None):
-        raise ValueError("a share above first yield goes with its load")
+    if len({run.over is None, run.overloaded is None, run.first_yield is None}) > 1:
+        raise ValueError("a share and stretches above first yield go with its load")
+    if len(run.typical) != (2 if run.loads else 0):
+        raise ValueError("largest loads have a median and a 95th percentile")
     flat = [one for values in lists for one in chain.from_iterable([v] if isinstance(v, float) else v for v in values)]
-    if min((run.time, run.energy, run.tallest, *flat)) < 0.0:
+    if min((run.time, run.energy, run.tallest, *run.typical, run.overloaded or 0, *flat)) < 0.0:
         raise ValueError("times, energies, rocks, loads and counts are not negative")
