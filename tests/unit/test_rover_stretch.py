@@ -120,7 +120,7 @@ def test_a_drive_ends_for_what_its_last_sample_shows(level: ScenarioRun) -> None
 
 
 def test_a_wheel_that_cannot_grip_is_stuck_before_a_rock() -> None:
-    way = replace(WAY, length=2.0, abundance=0.3, seed=7)
+    way = replace(WAY, length=1.0, abundance=0.3, seed=7)
     slippery = replace(stretch(way, 0, DESIGN, 1.5), friction=0.02)
     run = run_scenario(slippery, DESIGN)
     assert cause_of(run, way) == "friction"
