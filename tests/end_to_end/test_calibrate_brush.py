@@ -94,6 +94,16 @@ def test_numbers_of_another_wheel_are_not_driven_on(calibrated: Calibrated, tmp_
         assert "of another wheel than the study's is now; run workbench calibrate brush" in ended.stderr
 
 
+def test_what_lies_in_the_records_place_is_told_before_anything_is_computed(tmp_path: Path) -> None:
+    (tmp_path / "study.toml").write_text(tiny_study() + COARSE)
+    (tmp_path / "study.kept").mkdir()
+    (tmp_path / "study.kept" / "brush.json").write_text("my notes")
+    ended = said(*COMMAND, "--store", "s", folder=tmp_path)
+    assert ended.returncode == 2
+    assert "brush.json: cannot be read" in ended.stderr
+    assert not (tmp_path / "s").exists()
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -81,11 +81,28 @@ def test_a_record_of_another_wheel_is_refused_and_one_of_the_fine_study_is_not(s
     kept_numbers(study)
     assert driving_brush(full_study(study)).carcass == CARCASS
     thinner = study.wheel.model_copy(update={"tire": study.wheel.tire.model_copy(update={"thickness": 0.9e-3})})
-    with pytest.raises(InputError, match=r"of another wheel than the study's is now; run make numbers"):
+    with pytest.raises(InputError, match=r"of another wheel than the study's is now; run workbench calibrate brush "):
         driving_brush(study.model_copy(update={"wheel": thinner}))
+    light = study.model_copy(update={"fe": study.fe.model_copy(update={"max_load": 150.0})})
+    with pytest.raises(InputError, match=r"of another wheel than the study's is now; run workbench calibrate brush "):
+        driving_brush(light)
 
 
-@pytest.mark.parametrize("damage", [{"radial_N_per_m": 0.0}, {"forward_N_per_m": None}, {"load_N": -1.0}])
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"radial_N_per_m": 0.0},
+        {"radial_N_per_m": 1e300},
+        {"radial_N_per_m": True},
+        {"forward_N_per_m": None},
+        {"forward_N_per_m": "nan"},
+        {"load_N": -1.0},
+        {"load_N": 10**400},
+        {"model": "wood"},
+        {"orientations_deg": 5},
+        {"orientations_deg": ["x"]},
+    ],
+)
 def test_a_record_that_makes_no_tire_is_told(study: Study, damage: dict[str, Any]) -> None:
     path = kept_numbers(study)
     record = json.loads(path.read_text(encoding="utf-8"))

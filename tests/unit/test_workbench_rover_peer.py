@@ -13,6 +13,7 @@ from benchmarks.peer_codes.rover_cases import CASES
 from contracts.errors import InputError
 from workbench.questions.kept import keep
 from workbench.questions.rover.peer import COMMAND, RECORD, RoverPeer, peer_checks, peer_tasks, rover_peer
+from workbench.questions.rover.question import ROVER
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
@@ -59,11 +60,22 @@ def test_a_record_of_another_rover_file_decides_nothing_and_one_of_older_sources
 
 
 @pytest.mark.parametrize(
-    "rows", [[], [{**ROW, "limit": 0.0}], [{**ROW, "ours": "198"}], [{**ROW, "more": 1}], [ROW, ROW], [{"key": "a"}]]
+    "rows",
+    [
+        [],
+        [{**ROW, "limit": 0.0}],
+        [{**ROW, "ours": "198"}],
+        [{**ROW, "more": 1}],
+        [ROW, ROW],
+        [{"key": "a"}],
+        [{**ROW, "key": " "}],
+    ],
 )
 def test_what_no_run_writes_is_refused(study: Study, rows: list[dict[str, Any]]) -> None:
     with pytest.raises(InputError, match="kept record"):
         kept_peer(study, {"peer": "Peer 1", "rows": rows})
+    with pytest.raises(InputError, match="kept record"):
+        ROVER.applies(study)  # before anything is computed
 
 
 def test_the_record_of_the_built_in_study_is_whole() -> None:

@@ -76,9 +76,11 @@ def test_the_way_is_cut_into_equal_stretches_of_their_own() -> None:
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
-        ({"distance": -1.0}, r"distance = -1 m: must lie in \(0, 20000\] m"),
+        ({"distance": -1.0}, r"distance = -1 m: must lie in \[0.1, 20000\] m"),
         ({"distance": math.nan}, "distance"),
+        ({"distance": 1e-8}, "distance = 1e-08 m"),
         ({"abundance": 0.0}, "abundance = 0"),
+        ({"abundance": 5e-324}, "abundance = 4.94066e-324: must be 0.001 or more"),
         ({"abundance": 0.5}, "abundance = 0.5"),
         ({"seed": -2}, "seed = -2"),
         ({"speed": 1.0}, "speed = 3600 m/h"),
@@ -175,6 +177,10 @@ def test_what_is_no_record_is_refused() -> None:
         {"runs": [dict(run, over=[0.1, 0.2])]},
         {"runs": [dict(run, first_yield=200.0)]},
         {"runs": [dict(run, overloaded=1)]},
+        {"runs": [dict(run, time="nan")]},
+        {"runs": [dict(run, lean=math.inf)]},
+        {"runs": [dict(run, stretches=-7)]},
+        {"runs": [dict(run, reached=1e30)]},
         {"runs": [dict(run, typical=[1.0])]},
         {"runs": [dict(run, time=-1.0)]},
         {"runs": [dict(run, load_cycles=[[-1.0], [1.0]])]},

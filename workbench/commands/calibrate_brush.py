@@ -14,11 +14,11 @@ from typing import Any
 
 from contracts.curves import read_curve
 from contracts.hub_travel import Way
-from workbench.commands.computing import computed, console, naming, read_and_warn, tell_kept, warn
+from workbench.commands.computing import computed, console, naming, read_and_warn, shortest, tell_kept, warn
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
-from workbench.questions.kept import keep
+from workbench.questions.kept import keep, replaced, require_place
 from workbench.questions.model_curves import CURVE
 from workbench.questions.models.driving_brush import RECORD, calibration_tasks
 from workbench.questions.models.wheel_brush import Line, WheelBrush, lines_beside_table_two, wheel_brush
@@ -52,6 +52,11 @@ def run_calibrate_brush(
     asked = [degrees(o) for o in study.fe.orientations]
     with naming(path):
         given, tasks = rover_brush(study), calibration_tasks(study, name, load, asked)
+        require_place(study, RECORD)
+    given_as = [] if study_path is None else [shlex.quote(str(study_path))]
+    at = [] if load == WORKING_LOAD else ["--load", shortest(load)]
+    again = " ".join(["workbench calibrate brush", *given_as, "--model", name, *at])
+    warn(path, replaced(study, RECORD, again, tasks))
     entries = computed(path, tasks, store, computing)
     folders = {task: entry.path for task, entry in entries.items()}
     warn(path, [f"{task} ends early: {why}" for task, why in early_ends(folders).items()])
@@ -61,12 +66,9 @@ def run_calibrate_brush(
         found = wheel_brush(curves, travels, load, given, around(study))
     lines = lines_beside_table_two(found)
     seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
-    given_as = [] if study_path is None else [shlex.quote(str(study_path))]
-    at = [] if load == WORKING_LOAD else ["--load", f"{load:g}"]
-    again = " ".join(["workbench calibrate brush", *given_as, "--model", name, *at])
+    _print(found, lines)
     record = keep(study, RECORD, again, tasks, seconds, _record(found, name, asked))
     tell_kept(publish(out, "calibrate brush", {TABLE: _csv(lines)}))
-    _print(found, lines)
     console.print(f"table: {out / TABLE}", soft_wrap=True)
     console.print(f"kept beside the study: {record}", soft_wrap=True)
     if study.rover is None or study.rover.brush == "study":

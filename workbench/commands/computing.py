@@ -22,7 +22,7 @@ from workbench.study.magnitudes import of_the_file
 from workbench.study.model import Study
 from workbench.study.reading import read_study
 
-__all__ = ["complain_of_early_ends", "computed", "console", "naming", "read_and_warn", "tell_kept", "warn"]
+__all__ = ["complain_of_early_ends", "computed", "console", "naming", "read_and_warn", "shortest", "tell_kept", "warn"]
 
 
 def read_and_warn(path: Path) -> Study:
@@ -30,6 +30,11 @@ def read_and_warn(path: Path) -> Study:
     study = read_study(path)
     warn(path, of_the_file(study))
     return study
+
+
+def shortest(value: float) -> str:
+    """The fewest digits that are read as this very number."""
+    return repr(float(value)).removesuffix(".0")
 
 
 def warn(path: Path, warnings: Sequence[str]) -> None:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rover_dynamics.rover.rover_file import read_rover
-from workbench.commands.computing import console, naming, read_and_warn, tell_kept, warn
+from workbench.commands.computing import console, naming, read_and_warn, shortest, tell_kept, warn
 from workbench.execution.progress import RunDisplay
 from workbench.execution.result_files import read_result
 from workbench.execution.runner import Computing, run_tasks
@@ -65,7 +65,7 @@ def _again(study_path: Path | None, tires: Sequence[str], asked: Asked) -> str:
     plain = Asked()
     options = [f"--tire {tire}" for tire in tires]
     options += [
-        f"--{name} {getattr(asked, name):g}" for name in ("distance", "abundance") if _other(name, asked, plain)
+        f"--{name} {shortest(getattr(asked, name))}" for name in ("distance", "abundance") if _other(name, asked, plain)
     ]
     options += [f"--seed {asked.seed}"] if asked.seed != plain.seed else []
     options += [f"--speed {3600.0 * asked.speed:.10g}"] if _other("speed", asked, plain) else []
@@ -109,7 +109,7 @@ _ROWS = (
     "way of all stretches",
     "time",
     "energy drives give",
-    "less what they get back",
+    "net of what they get back",
     "largest load of a wheel",
     "largest deflection",
     "time without load",

@@ -11,7 +11,7 @@ import json
 import math
 import os
 import platform
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Literal
@@ -23,12 +23,23 @@ from workbench.execution.fingerprint import canonical_json, text_sha256
 from workbench.execution.task import Task, task_keys
 from workbench.study.model import Study
 
-__all__ = ["OF_ANOTHER", "Kept", "State", "keep", "kept", "keys_of", "replaced", "require_place", "rounded"]
+__all__ = [
+    "OF_ANOTHER",
+    "Kept",
+    "State",
+    "keep",
+    "kept",
+    "keys_of",
+    "replaced",
+    "require_numbers",
+    "require_place",
+    "rounded",
+]
 
 OF_ANOTHER = "the kept record is of another study"
 """Why nothing follows from the numbers of a stale record."""
 State = Literal["current", "older sources", "stale"]
-_DIGITS, _WORDS, _MOST = 16, 200, 50_000_000
+_DIGITS, _WORDS, _MOST, _LONGEST, _HUGE = 16, 200, 50_000_000, 1e10, 1e300
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,6 +111,13 @@ def kept(study: Study, name: str, understand: Callable[[Mapping[str, Any]], obje
     return record
 
 
+def require_numbers(values: Iterable[object]) -> None:
+    """Raise ValueError for a value of a record that is no number in ±1e300: JSON has texts, truths and longer ones."""
+    for value in values:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not -_HUGE < value < _HUGE:
+            raise ValueError(f"{str(value)[:_WORDS]!r} is no number that can be")
+
+
 def _finite(text: str) -> float:
     number = float(text)
     if not math.isfinite(number):
@@ -114,7 +132,7 @@ def _record(content: Any) -> Kept:
     record = Kept(**content)
     words = record.command, record.inputs, record.sources, record.date, record.machine
     if not (
-        all(isinstance(w, str) for w in words) and isinstance(record.found, dict) and 0.0 <= record.wall_s < math.inf
+        all(isinstance(w, str) for w in words) and isinstance(record.found, dict) and 0.0 <= record.wall_s < _LONGEST
     ):
         raise ValueError("command, inputs, sources, date and machine are texts, found a table, wall_s seconds")
     return record

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from contracts.curves import StiffnessCurve
 from contracts.hub_travel import Way
 from workbench.execution.task import Task
 from workbench.questions.fe.graph import fe_curve_tasks
-from workbench.questions.kept import Kept, State
+from workbench.questions.kept import Kept, State, require_numbers
 from workbench.questions.travels import WORKING_LOAD, travel_tasks
 from workbench.questions.wheel.graph import wheel_meshes
 from workbench.study.model import Study
@@ -60,6 +61,17 @@ def crosscheck_tasks(study: Study, orientations_deg: Sequence[float]) -> list[Ta
 
 def whole(found: Mapping[str, Any]) -> None:
     """Raises for what a record cannot hold: loads and deflections are positive and finite, as many of each."""
+    moved = found["travel"]
+    columns = [moved[name] for name in ("travel_m", "ours_N", "peer_N")]
+    require_numbers([*found["deflections_m"], *chain.from_iterable(columns), found["peer_unknowns"]])
+    require_numbers(run[name] for run in found["runs"] for name in ("orientation_deg", "iterations"))
+    require_numbers(one for run in found["runs"] for name in ("ours_N", "peer_N") for one in run[name])
+    require_numbers(moved[name] for name in ("orientation_deg", "deflection_m", "friction"))
+    travel, forces = columns[0], zip(*columns[1:], strict=True)
+    if len({len(column) for column in columns}) > 1 or len(travel) < 2 or travel[0] != 0.0 or not _ascending(travel):
+        raise ValueError("a travel begins at 0, ascends, and has as many forces of both")
+    if any(begin == end for begin, end in zip(next(forces), next(forces), strict=True)):
+        raise ValueError("a hub that is moved is resisted")
     deflections = np.array(found["deflections_m"], dtype=np.float64)
     loads = np.array([[run["ours_N"], run["peer_N"]] for run in found["runs"]], dtype=np.float64)
     if loads.ndim != 3 or loads.shape[2] != len(deflections) or deflections.ndim != 1:
@@ -67,14 +79,12 @@ def whole(found: Mapping[str, Any]) -> None:
     positive = (loads > 0.0) & (loads < _LARGEST_LOAD)
     if not (positive.all() and (deflections > 0.0).all() and (deflections < 1.0).all()):
         raise ValueError(f"loads lie between 0 and {_LARGEST_LOAD:g} N, deflections between 0 and 1 m")
-    moved, names = found["travel"], ("travel_m", "ours_N", "peer_N")
-    columns = np.array([moved[name] for name in names], dtype=np.float64)
-    if columns.ndim != 2 or columns.shape[1] < 2 or not (np.abs(columns) < _LARGEST_LOAD).all() or columns[0, 0] != 0.0:
-        raise ValueError("a travel begins at 0 and has as many finite forces of both")
-    numbers = [value for run in found["runs"] for value in (run["orientation_deg"], run["iterations"])]
-    numbers += [moved[name] for name in ("orientation_deg", "deflection_m", "friction")]
-    if not (np.isfinite(np.array(numbers, dtype=np.float64)).all() and isinstance(found["peer"], str)):
-        raise ValueError("a run has an orientation and iterations, the record the name of the other code")
+    if not (len(deflections) and _ascending(found["deflections_m"]) and isinstance(found["peer"], str)):
+        raise ValueError("deflections ascend, and the record has the name of the other code")
+
+
+def _ascending(values: Sequence[float]) -> bool:
+    return all(a < b for a, b in pairwise(values))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

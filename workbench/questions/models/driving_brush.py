@@ -14,7 +14,7 @@ from contracts.hub_travel import Way
 from rover_dynamics.tires.brush_tire import BrushTireParameters
 from workbench.execution.task import Task
 from workbench.questions.curve_graph import stiffness_tasks
-from workbench.questions.kept import kept
+from workbench.questions.kept import kept, require_numbers
 from workbench.questions.models.wheel_tasks import where_it_moves
 from workbench.questions.travels import travel_tasks
 from workbench.study.brush_tire import brush_values
@@ -23,7 +23,7 @@ from workbench.study.model_parameters import rover_brush
 
 __all__ = ["RECORD", "DrivingBrush", "calibration_tasks", "driving_brush", "driving_inputs"]
 
-RECORD = "brush"
+RECORD, _STIFFEST = "brush", 1e12
 """Name of the record beside the study."""
 
 
@@ -59,15 +59,16 @@ def driving_brush(study: Study) -> DrivingBrush:
     if study.rover is None or study.rover.brush == "study":
         return DrivingBrush(stated, None)
     record = kept(study, RECORD, _numbers)
+    again = f"run workbench calibrate brush {'STUDY' if study.kept is None else study.kept.with_suffix('.toml')}"
     if record is None:
-        file = "STUDY" if study.kept is None else study.kept.with_suffix(".toml")
-        rule = "has no numbers beside the study"
-        raise InputError("rover.brush", '"wheel"', rule, f"run workbench calibrate brush {file}")
+        raise InputError("rover.brush", '"wheel"', "has no numbers beside the study", again)
     found = record.found
-    state = record.state(calibration_tasks(study, found["model"], found["load_N"], found["orientations_deg"]))
+    state = record.state_of(
+        lambda: calibration_tasks(study, found["model"], found["load_N"], found["orientations_deg"])
+    )
     if state == "stale":
         rule = f"has numbers of {record.date[:10]} that are of another wheel than the study's is now"
-        raise InputError("rover.brush", '"wheel"', rule, f"run {record.command}")
+        raise InputError("rover.brush", '"wheel"', rule, again)
     stiffness, carcass = _numbers(found)
     older = ", by older sources of ours" if state == "older sources" else ""
     words = f"of the study's wheel at {found['load_N']:g} N, {record.command}{older}; the rest: {stated.source}"
@@ -83,7 +84,10 @@ def driving_inputs(study: Study) -> dict[str, Any]:
 
 def _numbers(found: Mapping[str, Any]) -> tuple[float, tuple[float, float]]:
     """Radial stiffness and carcass of a record [N/m]; raises ValueError for what no wheel has."""
-    numbers = [float(found[f"{name}_N_per_m"]) for name in ("radial", "forward", "sideways")]
-    if not (min(numbers) > 0.0 and found["load_N"] > 0.0 and found["model"] and found["orientations_deg"]):
-        raise ValueError("stiffnesses and load must be above zero")
+    numbers = [found[f"{name}_N_per_m"] for name in ("radial", "forward", "sideways")]
+    require_numbers([*numbers, found["load_N"], *found["orientations_deg"]])
+    if not (min(*numbers, found["load_N"]) > 0.0 and max(numbers) < _STIFFEST and found["orientations_deg"]):
+        raise ValueError(f"stiffnesses and load must be above zero, stiffnesses below {_STIFFEST:g} N/m")
+    if found["model"] not in ("fe", "ancf_wheel"):
+        raise ValueError("the model is fe or ancf_wheel")
     return numbers[0], (numbers[1], numbers[2])

@@ -68,6 +68,8 @@ def rows_of(found: Mapping[str, Any]) -> tuple[PeerRow, ...]:
         values = [getattr(row, one.name) for one in fields(row)]
         if not (all(isinstance(text, str) for text in values[:4]) and all(map(math.isfinite, values[4:]))):
             raise ValueError("a row has key, case, quantity and unit in words, and four finite numbers")
+        if not row.key.strip():
+            raise ValueError("a row has a key")
         if not (row.limit > 0.0 and row.difference >= 0.0):
             raise ValueError("a limit is above zero and a difference not below")
     if not (rows and isinstance(found["peer"], str) and len({row.key for row in rows}) == len(rows)):

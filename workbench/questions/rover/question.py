@@ -17,10 +17,11 @@ from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from workbench.execution.task import Task
+from workbench.questions.kept import kept
 from workbench.questions.models.driving_brush import driving_brush, driving_inputs
 from workbench.questions.question import Question
 from workbench.questions.rover.drive import Drive, read_drive
-from workbench.questions.rover.peer import RoverPeer, peer_checks, rover_peer
+from workbench.questions.rover.peer import RECORD, RoverPeer, peer_checks, rover_peer, rows_of
 from workbench.questions.rover_mission.requirements import MISSION_SOURCE, TITLES, MissionRow, mission_checks, tightest
 from workbench.study.model import Study
 from workbench.verdict.rules import Claim, at_least, at_most, near
@@ -203,6 +204,14 @@ def _series(study: Study, results: RoverResults) -> Sequence[TimeSeries]:
     return [result.series for result in results.by_name.values() if result.series is not None]
 
 
+def _asked(study: Study) -> bool:
+    """Its kept record is read here, before anything is computed."""
+    if study.rover is None:
+        return False
+    kept(study, RECORD, rows_of)
+    return True
+
+
 ROVER = Question(
     name="rover",
     title="Rover",
@@ -212,6 +221,6 @@ ROVER = Question(
     checks=_checks,
     figures=_figures,
     series=_series,
-    applies=lambda study: study.rover is not None,
+    applies=_asked,
     budget=1260,
 )

@@ -21,8 +21,10 @@ __all__ = ["TRAVERSE_TIRES", "Asked", "stretch_name", "traverse_tasks"]
 TRAVERSE_TIRES = ("brush", "fe")
 LONGEST = 20.0
 """Longest stretch [m]: so far nobody steers."""
-FARTHEST = 20000.0
+NEAREST, FARTHEST = 0.1, 20000.0
 """[m]"""
+FEWEST = 1e-3
+"""Least abundance of rocks [-]: next to none."""
 _COSTS = {"brush": 0.8, "fe": 1.0}
 """Expected time by way [s/m]."""
 
@@ -37,9 +39,12 @@ class Asked:
     seed: int = 1
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.distance <= FARTHEST:
-            rule = f"must lie in (0, {FARTHEST:g}] m"
+        if not NEAREST <= self.distance <= FARTHEST:
+            rule = f"must lie in [{NEAREST:g}, {FARTHEST:g}] m"
             raise InputError("distance", f"{self.distance:g} m", rule, "give metres, such as 2000")
+        if 0.0 < self.abundance < FEWEST:
+            rule = f"must be {FEWEST:g} or more, at which next to no rock is met"
+            raise InputError("abundance", f"{self.abundance:g}", rule, "try 0.06")
         _ = self.way
 
     @property

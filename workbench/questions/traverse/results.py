@@ -7,6 +7,7 @@ tests/unit/test_workbench_traverse.py.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from itertools import chain
@@ -182,7 +183,8 @@ def traverse_of(found: Mapping[str, Any]) -> Traverse:
 
     if any(set(one) != {each.name for each in fields(TireRun)} for one in found["runs"]):
         raise ValueError("a run holds what one of ours holds, and nothing else")
-    runs = TypeAdapter(list[TireRun]).validate_python(found["runs"])
+    text = json.dumps(found["runs"], allow_nan=False)  # strictly: no text is a number
+    runs = TypeAdapter(list[TireRun]).validate_json(text, strict=True)
     asked = TypeAdapter(Asked).validate_python(found["asked"])
     wheels = TypeAdapter(list[str]).validate_python(found["wheels"])
     tires = [one.tire for one in runs]
@@ -204,6 +206,8 @@ def _require_ours(run: TireRun, wheels: int) -> None:
         raise ValueError("a share and stretches above first yield go with its load")
     if len(run.typical) != (2 if run.loads else 0):
         raise ValueError("largest loads have a median and a 95th percentile")
+    if not 0 <= run.ended <= run.stretches or run.reached > run.way + 1e-3:
+        raise ValueError("no more stretches end than there are, and what was reached was driven")
     flat = [one for values in lists for one in chain.from_iterable([v] if isinstance(v, float) else v for v in values)]
     if min((run.time, run.energy, run.tallest, *run.typical, run.overloaded or 0, *flat)) < 0.0:
         raise ValueError("times, energies, rocks, loads and counts are not negative")
