@@ -68,6 +68,11 @@ def test_the_same_again_is_found_in_the_store(calibrated: Calibrated) -> None:
     assert (again.returncode, "0 tasks computed" in again.stdout) == (0, True), again.stderr
     after = (folder / "study.kept" / "brush.json").read_text(encoding="utf-8")
     assert json.loads(after)["found"] == json.loads(before)["found"]
+    assert "replace" not in again.stderr
+    other = json.loads(after) | {"command": "workbench calibrate brush study.toml --load 41", "inputs": "0"}
+    (folder / "study.kept" / "brush.json").write_text(json.dumps(other), encoding="utf-8")
+    told = run(*COMMAND, "--out", "o", "--store", "s", folder=folder).stderr
+    assert "this will replace the kept record of `workbench calibrate brush study.toml --load 41`" in told
 
 
 def test_the_rover_stands_as_deep_as_the_record_says(calibrated: Calibrated) -> None:

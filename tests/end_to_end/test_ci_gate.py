@@ -76,8 +76,9 @@ def test_the_sound_package_passes_without_a_change(accepted: Path, tmp_path: Pat
     assert json.loads((accepted / "again" / "summary.json").read_text(encoding="utf-8"))["changes"] == []
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("module", DEFECTS)
+@pytest.mark.parametrize(
+    "module", [pytest.param(m, marks=() if m.startswith("reference_fe") else pytest.mark.long) for m in DEFECTS]
+)
 def test_a_defect_in_the_physics_fails_and_is_named(accepted: Path, tmp_path: Path, module: str) -> None:
     good, bad, gate = DEFECTS[module]
     package = module.split("/")[0]

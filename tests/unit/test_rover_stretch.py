@@ -66,7 +66,8 @@ def test_nothing_in_the_tracks_is_taller_than_the_rover_crosses_and_the_others_a
     ("change", "words"),
     [
         ({"abundance": 0.0}, "abundance"),
-        ({"abundance": 0.41}, r"\(0, 0.4\]"),
+        ({"abundance": 0.41}, r"\[0.001, 0.4\]"),
+        ({"abundance": 5e-324}, "abundance = 4.94066e-324"),
         ({"abundance": math.nan}, "abundance"),
         ({"length": -1.0}, "> 0"),
         ({"speed": 0.0}, "1 ... 500 m/h"),

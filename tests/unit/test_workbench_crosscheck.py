@@ -141,6 +141,7 @@ def test_the_record_of_the_built_in_study_is_whole() -> None:
         {"travel": None},
         {"travel": MOVED | {"travel_m": [0.0, 0.0, 0.002]}},
         {"travel": MOVED | {"ours_N": [-4.0, -4.0, -7.0]}},
+        {"travel": MOVED | {"ours_N": [-4.0, -5.0, -4.0]}},
         {"travel": MOVED | {"friction": "0.6"}},
         {"peer_unknowns": None},
         {"deflections_m": [0.01, 0.01]},

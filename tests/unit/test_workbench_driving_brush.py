@@ -84,7 +84,8 @@ def test_a_record_of_another_wheel_is_refused_and_one_of_the_fine_study_is_not(s
     with pytest.raises(InputError, match=r"of another wheel than the study's is now; run workbench calibrate brush "):
         driving_brush(study.model_copy(update={"wheel": thinner}))
     light = study.model_copy(update={"fe": study.fe.model_copy(update={"max_load": 150.0})})
-    with pytest.raises(InputError, match=r"of another wheel than the study's is now; run workbench calibrate brush "):
+    again = r"of another wheel than the study's is now; run .* brush .*own.toml --model ancf_wheel --load 200"
+    with pytest.raises(InputError, match=again):
         driving_brush(light)
 
 

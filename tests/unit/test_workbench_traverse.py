@@ -80,7 +80,7 @@ def test_the_way_is_cut_into_equal_stretches_of_their_own() -> None:
         ({"distance": math.nan}, "distance"),
         ({"distance": 1e-8}, "distance = 1e-08 m"),
         ({"abundance": 0.0}, "abundance = 0"),
-        ({"abundance": 5e-324}, "abundance = 4.94066e-324: must be 0.001 or more"),
+        ({"abundance": 5e-324}, "abundance = 4.94066e-324"),
         ({"abundance": 0.5}, "abundance = 0.5"),
         ({"seed": -2}, "seed = -2"),
         ({"speed": 1.0}, "speed = 3600 m/h"),
@@ -210,6 +210,14 @@ def test_the_evidence_tells_both_tires_and_draws_the_cycles() -> None:
         assert words in text, words
     assert "left, fe" in figures["traverse_cycles"]
     assert replace(results, state="stale").state == "stale"
+
+
+def test_the_command_kept_makes_this_very_record_anew() -> None:
+    """To the last digit: a command rounded to another one's would replace its record unsaid."""
+    asked = Asked(distance=0.3000001, abundance=0.0600001)
+    kept_as = command._again(None, ["brush"], asked)
+    assert kept_as == "workbench traverse --tire brush --distance 0.3000001 --abundance 0.0600001"
+    assert command._again(Path("a b.toml"), ["fe"], Asked()) == "workbench traverse 'a b.toml' --tire fe"
 
 
 def test_what_is_printed_fits_a_narrow_terminal(monkeypatch: pytest.MonkeyPatch) -> None:

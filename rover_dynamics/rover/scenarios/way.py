@@ -61,8 +61,8 @@ class Way:
             raise InputError("stretch", f"{self.length:g} m", "must be finite and > 0", "give a distance such as 2000")
         if not 1.0 / 3600.0 <= self.speed <= 500.0 / 3600.0:
             raise InputError("speed", f"{3600.0 * self.speed:g} m/h", "must lie in 1 ... 500 m/h", "try 70")
-        if not 0.0 < self.abundance <= 0.4:
-            raise InputError("abundance", f"{self.abundance:g}", "must lie in (0, 0.4]", "try 0.06")
+        if not 1e-3 <= self.abundance <= 0.4:
+            raise InputError("abundance", f"{self.abundance:g}", "must lie in [0.001, 0.4]", "try 0.06")
         if self.seed < 0:
             raise InputError("seed", self.seed, "must be 0 or more", "give a whole number")
         if not SMALLEST * HEIGHT < self.tallest < LARGEST * HEIGHT:

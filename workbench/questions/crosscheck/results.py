@@ -67,10 +67,10 @@ def whole(found: Mapping[str, Any]) -> None:
     require_numbers(run[name] for run in found["runs"] for name in ("orientation_deg", "iterations"))
     require_numbers(one for run in found["runs"] for name in ("ours_N", "peer_N") for one in run[name])
     require_numbers(moved[name] for name in ("orientation_deg", "deflection_m", "friction"))
-    travel, forces = columns[0], zip(*columns[1:], strict=True)
+    travel = columns[0]
     if len({len(column) for column in columns}) > 1 or len(travel) < 2 or travel[0] != 0.0 or not _ascending(travel):
         raise ValueError("a travel begins at 0, ascends, and has as many forces of both")
-    if any(begin == end for begin, end in zip(next(forces), next(forces), strict=True)):
+    if any(force == column[0] for column in columns[1:] for force in column[1:]):
         raise ValueError("a hub that is moved is resisted")
     deflections = np.array(found["deflections_m"], dtype=np.float64)
     loads = np.array([[run["ours_N"], run["peer_N"]] for run in found["runs"]], dtype=np.float64)

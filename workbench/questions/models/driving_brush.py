@@ -68,7 +68,7 @@ def driving_brush(study: Study) -> DrivingBrush:
     )
     if state == "stale":
         rule = f"has numbers of {record.date[:10]} that are of another wheel than the study's is now"
-        raise InputError("rover.brush", '"wheel"', rule, again)
+        raise InputError("rover.brush", '"wheel"', rule, f"{again} --model {found['model']} --load {found['load_N']:g}")
     stiffness, carcass = _numbers(found)
     older = ", by older sources of ours" if state == "older sources" else ""
     words = f"of the study's wheel at {found['load_N']:g} N, {record.command}{older}; the rest: {stated.source}"

@@ -23,8 +23,6 @@ LONGEST = 20.0
 """Longest stretch [m]: so far nobody steers."""
 NEAREST, FARTHEST = 0.1, 20000.0
 """[m]"""
-FEWEST = 1e-3
-"""Least abundance of rocks [-]: next to none."""
 _COSTS = {"brush": 0.8, "fe": 1.0}
 """Expected time by way [s/m]."""
 
@@ -42,9 +40,6 @@ class Asked:
         if not NEAREST <= self.distance <= FARTHEST:
             rule = f"must lie in [{NEAREST:g}, {FARTHEST:g}] m"
             raise InputError("distance", f"{self.distance:g} m", rule, "give metres, such as 2000")
-        if 0.0 < self.abundance < FEWEST:
-            rule = f"must be {FEWEST:g} or more, at which next to no rock is met"
-            raise InputError("abundance", f"{self.abundance:g}", rule, "try 0.06")
         _ = self.way
 
     @property
