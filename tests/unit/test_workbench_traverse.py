@@ -121,6 +121,9 @@ def test_the_drive_is_the_sum_of_its_stretches_and_its_loads_are_one_history() -
     assert run.airborne == pytest.approx([0.04, 0.0])
     assert run.typical == pytest.approx([305.0, 309.5])
     assert (run.over, run.overloaded) == (None, None)
+    loads = ([300.0, 250.0], [279.0, 280.0], [250.0, 281.0])
+    on_wheel = run_of("fe", [stretch(yield_N=280.0, over=[0.02, 0.0], loads_N=each) for each in loads])
+    assert (on_wheel.overloaded, on_wheel.stretches) == (2, 3)
     # 200 300 100 200 | 200 300 100 200: half cycles of 100, 200, 200, 200 and 100; apart each 100, 200, 100 twice
     assert run.load_cycles == [[0.0] * 5 + [1.0] + [0.0] * 4 + [1.5], []]
     assert run.ends == ""
