@@ -47,7 +47,7 @@ def test_a_killed_drive_goes_on_where_it_was_and_a_second_one_drives_nothing(tmp
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--abundance", "0"), "abundance = 0: must lie in (0, 0.4]"),
+        (("--abundance", "0"), "abundance = 0: must lie in [0.001, 0.4]"),
         (("--abundance", "0.41"), "abundance = 0.41"),
         (("--distance", "-5"), "distance = -5 m"),
         (("--speed", "0"), "speed = 0 m/h"),
