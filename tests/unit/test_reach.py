@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import importlib.metadata
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -219,6 +220,14 @@ def test_every_library_has_its_distribution() -> None:
     installed = {str(one.name).lower().replace("_", "-") for one in importlib.metadata.distributions()}
     assert names <= installed
     assert {"numpy", "numba", "gmsh", "dolfinx-solver-real", "fenics-ffcx", "vtk"} <= names
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "workbench" / "questions").rglob("*task.py")), ids=lambda p: p.stem)
+def test_no_task_reaches_what_plans_or_judges(path: Path) -> None:
+    """Else hours of kept results would be called stale for a word in a check's claim."""
+    module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    plans = re.compile(r"workbench\.(study\.model|verdict|report|commands|questions\.(question$|.*graph))")
+    assert [name for name in reached(module) if plans.match(name)] == []
 
 
 def test_debians_and_condas_libraries_stand_for_those_of_the_wheel(monkeypatch: pytest.MonkeyPatch) -> None:

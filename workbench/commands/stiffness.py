@@ -25,10 +25,11 @@ from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
 from workbench.questions.curve_graph import MODELS, stiffness_tasks
 from workbench.questions.models.curves import stiffness_curves
-from workbench.questions.strength.yielding import PeakStress, peak_stresses, yield_strengths
+from workbench.questions.strength.yielding import PeakStress, peak_stresses
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import field_files, publish
 from workbench.study.model import Study
+from workbench.study.wheel_design import yield_strengths
 
 __all__ = ["check_orientation", "run_stiffness"]
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["degrees", "orientation_name"]
+__all__ = ["deep_name", "degrees", "orientation_name"]
 
 
 def degrees(angle: float) -> float:
@@ -20,3 +20,8 @@ def orientation_name(model: str, orientation_deg: float) -> str:
     whole, _, fraction = f"{orientation_deg:.6f}".partition(".")
     fraction = fraction.rstrip("0")
     return f"{model}_phi{int(whole):03d}" + (f".{fraction}" if fraction else "")
+
+
+def deep_name(model: str, orientation_deg: float) -> str:
+    """Name of the task that goes on beyond the study's curve."""
+    return orientation_name(f"{model}_deep", orientation_deg)

@@ -14,12 +14,11 @@ from workbench.questions.fe.graph import fe_curve_tasks
 from workbench.questions.fe.reference_checks import reference_checks
 from workbench.questions.fe.results import OVERLAP, ContinuumCurves, read_continuum
 from workbench.questions.question import Question
-from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.wheel.graph import MESH, MESH_WHOLE
 from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
-from workbench.study.wheel_design import wheel_design
+from workbench.study.wheel_design import wheel_design, yield_strengths
 
 __all__ = ["FE"]
 

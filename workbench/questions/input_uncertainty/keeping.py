@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.fe.graph import curve_deflections
-from workbench.questions.strength.yielding import largest_utilisation, peak_stresses, yield_strengths
+from workbench.questions.strength.yielding import largest_utilisation, peak_stresses
 from workbench.questions.sweep.results import Outcome
 from workbench.study.input_points import as_sampled
 from workbench.study.input_uncertainty import InputUncertaintySection
@@ -22,6 +22,7 @@ from workbench.study.key_units import unit_of
 from workbench.study.model import Study
 from workbench.study.quantities import number_and_unit
 from workbench.study.sweep import tied_keys
+from workbench.study.wheel_design import yield_strengths
 
 __all__ = ["found_of"]
 

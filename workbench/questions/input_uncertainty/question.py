@@ -21,10 +21,11 @@ from workbench.questions.kept import Kept, State, kept
 from workbench.questions.model_curves import ModelCurves, model_curves
 from workbench.questions.question import Question
 from workbench.questions.section.graph import without_planar_model
-from workbench.questions.strength.yielding import largest_utilisation, peak_stresses, yield_strengths
+from workbench.questions.strength.yielding import largest_utilisation, peak_stresses
 from workbench.study.full import around
 from workbench.study.input_uncertainty import UncertainInput
 from workbench.study.model import Study, stated
+from workbench.study.wheel_design import yield_strengths
 from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["INPUT_UNCERTAINTY", "InputUncertainty", "inputs_checks"]

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from contracts.errors import StudyError
 from workbench.execution.task import Task
 from workbench.questions.section.graph import section_tasks
-from workbench.questions.strength.yielding import yield_strengths
 from workbench.study.input_points import as_sampled, input_ends
 from workbench.study.input_uncertainty import InputUncertaintySection
 from workbench.study.model import Study
+from workbench.study.wheel_design import yield_strengths
 
 __all__ = ["RECORD", "Samples", "drawn_of", "record_task", "require_inputs", "samples_of"]
 

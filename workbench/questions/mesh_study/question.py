@@ -17,10 +17,10 @@ from workbench.questions.fe.graph import fe_inputs, fe_task, without_end
 from workbench.questions.mesh_study.figures import mesh_study_figures
 from workbench.questions.mesh_study.results import MeshStudy, mesh_run_name, read_mesh_study
 from workbench.questions.question import Question
-from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.wheel.graph import mesh_task
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
+from workbench.study.wheel_design import yield_strengths
 from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["MESH_STUDY", "mesh_study_inputs", "mesh_study_of", "mesh_study_runs", "read_mesh_study"]

@@ -24,10 +24,10 @@ from rover_dynamics.tires.wheel_potential import (
     raise_and_slope,
     wheel_potential,
 )
-from workbench.questions.model_curves import CURVE
+from workbench.questions.model_curves import CURVE, Between
 from workbench.questions.models.wheel_brush import carcass_of
-from workbench.questions.models.wheel_tasks import Between, deep_name
 from workbench.questions.travel_start import TRAVEL
+from workbench.study.orientation import deep_name
 
 __all__ = ["curves_around", "largest_between", "on_solved_tires"]
 

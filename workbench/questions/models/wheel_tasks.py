@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 from contracts.hub_travel import Way
 from workbench.execution.task import Task
@@ -19,14 +19,12 @@ from workbench.questions.travels import WORKING_LOAD, travel_name, travel_tasks
 from workbench.study.contact import RockSection
 from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
 from workbench.study.model import Study
-from workbench.study.orientation import orientation_name
+from workbench.study.orientation import deep_name, orientation_name
 from workbench.study.wheel_design import wheel_design
 
 __all__ = [
     "ROCK_RADIUS",
-    "Between",
     "between_steps",
-    "deep_name",
     "deep_tasks",
     "orientations_to_solve",
     "rock_name",
@@ -38,14 +36,6 @@ __all__ = [
 ROCK_RADIUS = 0.02
 """Of the half-round below the hub on which a tire's equivalent plane is tried [m]."""
 _MOVED, _BETWEEN, _DEEPER, _ROOM, _APART = 4, 8, 1.4, 0.6, 8.0
-
-
-class Between(NamedTuple):
-    """Where a tire's load differs most from a curve solved apart: orientation [deg], deflection [m], relative [-]."""
-
-    orientation_deg: float
-    deflection: float
-    difference: float
 
 
 def orientations_to_solve(study: Study) -> list[float]:
@@ -79,11 +69,6 @@ def deep_tasks(study: Study, model: str) -> tuple[Task, ...]:
         else:
             tasks.append(task)
     return foreseen(tasks)
-
-
-def deep_name(model: str, orientation_deg: float) -> str:
-    """Name of the task that goes on beyond the study's curve."""
-    return orientation_name(f"{model}_deep", orientation_deg)
 
 
 def solved_tire(study: Study, model: str) -> tuple[dict[str, Any], tuple[Task, ...]]:

@@ -12,7 +12,8 @@ from pathlib import Path
 
 from contracts.records import Check
 from workbench.questions.kept import OF_ANOTHER, Kept, State, kept
-from workbench.questions.models.wheel_tasks import ROCK_RADIUS, Between
+from workbench.questions.model_curves import Between
+from workbench.questions.models.wheel_tasks import ROCK_RADIUS
 from workbench.questions.question import Question
 from workbench.questions.rover_mission.graph import mission_tasks
 from workbench.questions.rover_mission.requirements import MISSION, MISSION_SOURCE, TITLES

@@ -22,10 +22,10 @@ from workbench.questions.strength.yielding import (
     largest_utilisation,
     smallest_yield_load,
     utilisation,
-    yield_strengths,
 )
 from workbench.study.full import around
 from workbench.study.model import LARGEST_WHEEL_LOAD, Study
+from workbench.study.wheel_design import yield_strengths
 from workbench.verdict.rules import Claim, at_least, at_most
 
 __all__ = ["STRENGTH", "yield_check"]

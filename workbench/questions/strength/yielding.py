@@ -18,8 +18,6 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves
-from workbench.study.model import Study
-from workbench.study.wheel_design import wheel_design
 
 __all__ = [
     "FirstYield",
@@ -31,7 +29,6 @@ __all__ = [
     "peak_stresses",
     "smallest_yield_load",
     "utilisation",
-    "yield_strengths",
 ]
 
 
@@ -194,8 +191,3 @@ class StrengthResults:
     def missing(self) -> tuple[float, ...]:
         """Orientations [deg] of which no point converged."""
         return tuple(self.fe.missing)
-
-
-def yield_strengths(study: Study) -> dict[str, float]:
-    """Yield strength [Pa] of each part of the mesh."""
-    return {part: material.yield_strength for part, material in wheel_design(study).materials.items()}

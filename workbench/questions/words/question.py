@@ -19,7 +19,6 @@ from workbench.questions.mesh_study.question import mesh_study_of
 from workbench.questions.model_curves import model_curves
 from workbench.questions.models.curves import brush_curve
 from workbench.questions.question import Question
-from workbench.questions.strength.yielding import yield_strengths
 from workbench.questions.words.checks import verdicts, words_checks
 from workbench.questions.words.figures import words_figures
 from workbench.questions.words.graph import HOOPS, HOOPS_TWIN, TWIN, asked, hoops, hoops_tasks, twin_tasks
@@ -28,6 +27,7 @@ from workbench.questions.words.readings import reading_curves, reading_tasks
 from workbench.questions.words.results import Words
 from workbench.study.full import around
 from workbench.study.model import Study
+from workbench.study.wheel_design import yield_strengths
 
 __all__ = ["WORDS"]
 
