@@ -32,7 +32,6 @@ CHANGES = {
     r'\[penalty_study\][^\[]*deflection = "[^"]*"\n': "",
     r'\norientation = "(?!0)[^"]*"': '\norientation = "0 deg"',
     r"enabled = true": "enabled = false",
-    r"realisations = \d+": "realisations = 3",
     r"variants = \[[^\]]*\]": "variants = []",
     r'\[materials."AISI 301"\][^\[]*(?=\n# ---)': "",
     r'on_ancf_tires = "short"': 'on_ancf_tires = "none"',

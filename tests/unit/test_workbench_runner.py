@@ -14,9 +14,11 @@ from pathlib import Path
 
 import pytest
 
+from workbench.execution import runner
 from workbench.execution.claims import Claims
 from workbench.execution.errors import RunError
 from workbench.execution.inventory import results
+from workbench.execution.jobs import Done, Job
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Entry, Store
 from workbench.execution.task import Task, task_keys
@@ -293,3 +295,39 @@ def test_interrupt_is_one_message_and_ends_the_workers(tmp_path: Path) -> None:
         run_tasks([task], Store(tmp_path / "store"), Recorder())
     thread.join()
     assert not Path(f"/proc/{pid_file.read_text(encoding='utf-8')}").exists()
+
+
+class _OneByOne:
+    """Two workers that finish what was started first, and remember what ran beside what."""
+
+    log = Path("log")
+
+    def __init__(self) -> None:
+        self.jobs: list[str] = []
+        self.beside: list[set[str]] = []
+
+    @property
+    def free(self) -> int:
+        return 2 - len(self.jobs)
+
+    def start(self, job: Job) -> None:
+        self.jobs.append(job.name)
+        self.beside.append(set(self.jobs))
+
+    def wait(self) -> list[tuple[str, Done]]:
+        return [(self.jobs.pop(0), Done(dofs=0, wall_s=0.0))]
+
+    def stop(self) -> None:
+        return None
+
+
+def test_two_workers_compile_different_things_while_there_are_any(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workers = _OneByOne()
+    monkeypatch.setattr(runner, "_workers", lambda *given: workers)
+    forms, kernels = "workbench.questions.fe.task:solve", "workbench.questions.multibody.task:solve"
+    tasks = [Task(name=f"form_{i}", function=forms, inputs={"i": i}, cost=9.0) for i in range(3)]
+    tasks += [Task(name=f"kernel_{i}", function=kernels, inputs={"i": i}, cost=1.0) for i in range(3)]
+    run_tasks(tasks, Store(tmp_path), Recorder())
+    assert [len({name[0] for name in both}) for both in workers.beside] == [1, 2, 2, 2, 2, 2]

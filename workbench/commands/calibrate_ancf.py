@@ -145,11 +145,11 @@ def _print(tires: Sequence[FittedTire[Held]], kept: FittedTire[Fitted]) -> None:
         mesh = str(n.preset.spokes), str(n.preset.circumferential_plates)
         table.add_row(tire.name, *mesh, *worst, *each)
     console.print(table)
-    columns = ("parameter", "value", "from the fit", f"spread of {kept.numbers.refits} refits")
-    table = empty_table(f"{kept.name}: parameters, 95 % intervals", columns, texts=["parameter"])
+    columns = ("parameter", "value", "95 % interval")
+    table = empty_table(f"{kept.name}: parameters", columns, texts=["parameter"])
     for row in kept.numbers.parameters:
         fitted = "at its bound" if row.at_bound else _interval(row.interval, row.unit)
-        table.add_row(row.name, displayed(row.value, row.unit), fitted, _interval(row.spread, row.unit))
+        table.add_row(row.name, displayed(row.value, row.unit), fitted)
     console.print(table)
     for pair in kept.numbers.indistinguishable:
         console.print(f"cannot be told apart: {' and '.join(pair)}")

@@ -176,8 +176,9 @@ class _Run:
     def _dispatch(self, waiting: list[Task], entries: dict[str, Entry]) -> bool:
         """Start what can start; whether there is anything to wait for, here or in another run."""
         elsewhere, found = list[str](), False
-        for task in self._ready(waiting, entries):
-            if not self.workers.free:
+        while self.workers.free:
+            task = next((task for task in self._ready(waiting, entries) if task.name not in elsewhere), None)
+            if task is None:
                 break
             key = self.keys[task.name]
             if not self.claims.take(key):
@@ -199,12 +200,16 @@ class _Run:
         return bool(elsewhere or found or self.running)
 
     def _ready(self, waiting: Sequence[Task], entries: Mapping[str, Entry]) -> list[Task]:
-        """Tasks that may start now; one for which memory ran out gets all of it, and on a full disk none begins."""
+        """Tasks that may start now; one for which memory ran out gets all of it, and on a full disk none begins.
+
+        First those that compile what no running one does: two at once would each compile the same.
+        """
         ready = [task for task in waiting if all(name in entries for name in task.needs)]
         lonely = [task for task in ready if task.name in self.alone]
         if self.disk_full or not self.alone.isdisjoint(self.running) or (lonely and self.running):
             return []
-        return lonely[:1] or ready
+        busy = {task.compilers for task, _ in self.running.values()}
+        return lonely[:1] or sorted(ready, key=lambda task: bool(task.compilers) and task.compilers in busy)
 
     def _start(self, task: Task, entries: Mapping[str, Entry]) -> None:
         folder = self.store.scratch()

@@ -15,6 +15,9 @@ from workbench.execution.reach import reached, reached_libraries
 
 __all__ = ["Progress", "Task", "TaskFunction", "bare_name", "chain_costs", "needed_for", "task_keys"]
 
+_COMPILERS = frozenset({"fenics-ffcx", "numba"})
+"""Distributions that compile while a task runs, and keep what they made for the next process."""
+
 type Progress = Callable[[float], None]
 """Called by a task with the fraction done, 0 to 1."""
 
@@ -65,6 +68,11 @@ class Task:
                 }
             )
         )
+
+    @property
+    def compilers(self) -> frozenset[str]:
+        """What compiles in its process: tasks of the same ones share most of what is compiled."""
+        return _COMPILERS.intersection(reached_libraries(self.function.partition(":")[0]))
 
     def origin(self) -> dict[str, Mapping[str, str]]:
         """Hash of each source and version of each library that the function can reach."""

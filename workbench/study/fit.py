@@ -104,7 +104,7 @@ class FittedTireSection(Section):
 
 class AncfFitSection(Section):
     """Fit of the ANCF tire to the FE curves: loads [N] of their average between which it counts, number of deflections,
-    weight of the average against the orientations' deviations from it [-], refits on perturbed curves, tires.
+    weight of the average against the orientations' deviations from it [-], tires.
 
     ``keep`` names the tire that ``workbench calibrate ancf`` writes into a study; the first one if left out.
     """
@@ -115,8 +115,6 @@ class AncfFitSection(Section):
     """Deflections of each orientation."""
     average_weight: Annotated[Number, Field(ge=1.0, le=1e3)] = 10.0
     """Of the average against the orientations' deviations from it [-]."""
-    realisations: Annotated[StrictInt, Field(ge=0, le=1000)] = 20
-    """Refits of the kept tire to curves moved by their uncertainty."""
     keep: str | None = None
     """Name of the tire that is kept; the first without it."""
     bounds: FitBoundsSection = FitBoundsSection()

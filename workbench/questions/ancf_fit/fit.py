@@ -1,4 +1,4 @@
-"""Fit of the ANCF tire to the FE curves: which loads count, what is perturbed, how far a tire lies from the average.
+"""Fit of the ANCF tire to the FE curves: which loads count, how far a tire lies from the average.
 
 Verified by tests/unit/test_workbench_ancf_fit.py.
 """
@@ -28,7 +28,6 @@ __all__ = [
     "compared_deflections",
     "fe_curves",
     "fitted_deflections",
-    "perturbed",
     "read_fit",
 ]
 
@@ -115,13 +114,3 @@ def average_error(curves: Sequence[StiffnessCurve], fe: StiffnessCurve, load_ran
     error = np.mean([curve.load_at(d) for curve in curves], axis=0) / loads - 1.0
     worst = int(np.abs(error).argmax())
     return AverageError(largest=float(error[worst]), at_load=float(loads[worst]))
-
-
-def perturbed(load: FloatArray, uncertainty: FloatArray, realisations: int, seed: int = 20260101) -> list[FloatArray]:
-    """Loads (n_phi, n) [N] moved by their numerical uncertainty, several times.
-
-    Each orientation moves as a whole, F (1 + U z / 2) with z from the standard normal distribution: the mesh errs alike
-    along a curve, and U (n,) [-], a grid convergence index, covers about 95 %.
-    """
-    random = np.random.default_rng(seed)
-    return [load * (1.0 + 0.5 * uncertainty * random.standard_normal((len(load), 1))) for _ in range(realisations)]

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import asdict
 
 from workbench.execution.task import Task
-from workbench.questions.mesh_study.question import mesh_study_inputs, mesh_study_runs
 from workbench.study.fit import FittedTireSection
 from workbench.study.full import around, is_mirrored
 from workbench.study.model import Study
@@ -60,17 +59,13 @@ def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) ->
         Task(name=AS_IT_IS, function="workbench.questions.ancf_fit.task:evaluate", inputs=own, needs=needs, cost=5.0)
     ]
     for tire in section.tires if tires is None else tires:
-        realisations = section.realisations if tire == section.kept else 0
-        runs = tuple(dict.fromkeys([*needs, *mesh_study_runs(study)])) if realisations else needs
         inputs = common | {
             "preset": asdict(fit_start(study, tire)),
             "free": [[name, *getattr(section.bounds, name)] for name in tire.free],
             "phase_starts": tire.phase_starts,
             "points": section.points,
             "average_weight": section.average_weight,
-            "realisations": realisations,
-            "mesh_study": mesh_study_inputs(study) if realisations else None,
         }
         name, function = fit_name(tire.name), "workbench.questions.ancf_fit.task:fit"
-        tasks.append(Task(name=name, function=function, inputs=inputs, needs=runs, cost=30.0))
+        tasks.append(Task(name=name, function=function, inputs=inputs, needs=needs, cost=30.0))
     return tasks

@@ -54,7 +54,6 @@ class FittedParameter:
     value, bounds, start : found, where it may lie, where the search began
     at_bound : it lies on a bound
     interval : 95 % from the fit; None on a bound or where not determined
-    spread : 95 % of the refits; None likewise, or without refits
     """
 
     name: str
@@ -64,7 +63,6 @@ class FittedParameter:
     start: float
     at_bound: bool
     interval: tuple[float, float] | None
-    spread: tuple[float, float] | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +79,6 @@ class Fitted(Held):
     settled : the search ended by its tolerance
     deflections_m : at which loads were fitted [m]
     parameters : the free ones
-    refits : perturbed sets of curves whose fit settled
     phase_trials : the coarse searches it began with
     """
 
@@ -93,5 +90,4 @@ class Fitted(Held):
     settled: bool
     deflections_m: tuple[float, ...]
     parameters: tuple[FittedParameter, ...]
-    refits: int
     phase_trials: tuple[PhaseTrial, ...]

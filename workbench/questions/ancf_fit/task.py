@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ancf_reduced.fit.curve_fit import CurveFit, LoadData, fit_curves
+from ancf_reduced.fit.curve_fit import CurveFit, LoadData
 from ancf_reduced.fit.parameters import FreeParameter, Parameter, with_mass
 from ancf_reduced.fit.phase_search import fit_from_phases
 from ancf_reduced.plates.mass import flexible_mass
@@ -29,10 +29,8 @@ from workbench.questions.ancf_fit.fit import (
     compared_deflections,
     fe_curves,
     fitted_deflections,
-    perturbed,
 )
 from workbench.questions.ancf_fit.records import Fitted, FittedParameter, Held
-from workbench.questions.mesh_study.results import read_mesh_study
 from workbench.questions.model_curves import mean_curve
 from workbench.study.ancf_tire import preset_from, tire_from
 from workbench.study.orientation import orientation_name
@@ -46,7 +44,7 @@ __all__ = ["evaluate", "fit"]
 FloatArray = NDArray[np.float64]
 _STEP = 1e-3
 """Spacing of the points of the curves that are shown [m]."""
-_TOLERANCE, _REFIT_TOLERANCE = 1e-5, 1e-3
+_TOLERANCE = 1e-5
 _MIRRORED_EVERY = 20
 """Of the deflections at which curves are compared, solved again for the mirror images."""
 
@@ -62,7 +60,7 @@ def evaluate(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pr
 
 
 def fit(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """Fit a preset to the FE curves, then again to each perturbed set of them; without a result, say why."""
+    """Fit a preset to the FE curves; without a result, say why."""
     try:
         write_result(out, asdict(_fitted(inputs, needs, out, progress)))
     except (InputError, ConvergenceError) as error:
@@ -83,9 +81,7 @@ def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
     free = [FreeParameter(parameter=Parameter(name), lower=low, upper=high) for name, low, high in inputs["free"]]
     search = fit_from_phases(preset_from(inputs["preset"]), free, data, inputs["phase_starts"], _TOLERANCE)
     found = search.fit
-    progress(0.4)
-    realisations = inputs["realisations"]
-    again = _refits(found, _uncertainty(inputs, needs, deflection), realisations, progress) if realisations else []
+    progress(0.8)
     tire = build_tire(with_mass(found.preset, WHEEL_MASS))
     held, statistics = _held_against(tire, inputs, solid, out), found.statistics
     names = [p.parameter.value for p in found.free]
@@ -98,38 +94,13 @@ def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
         evaluations=found.evaluations,
         settled=found.settled,
         deflections_m=tuple(deflection.tolist()),
-        parameters=_parameters(found, again),
-        refits=len(again),
+        parameters=_parameters(found),
         phase_trials=tuple(search.trials),
     )
 
 
 def _unknowns(tire: Tire) -> int:
     return int(tire.mesh.reference_coordinates()[tire.tie.free].size)
-
-
-def _uncertainty(inputs: Mapping[str, Any], needs: Mapping[str, Path], deflection: FloatArray) -> FloatArray:
-    """Numerical uncertainty of the FE loads over the load [-], from the mesh study."""
-    return read_mesh_study(**inputs["mesh_study"], folders=needs).relative_uncertainty(deflection)
-
-
-def _refits(found: CurveFit, uncertainty: FloatArray, realisations: int, progress: Progress) -> list[FloatArray]:
-    """Values of the free parameters for each perturbed set of curves that settled; one on its bound stays there.
-
-    An unknown on its bound would shorten every step of the search, which keeps strictly inside.
-    """
-    inside, values = found.statistics.inside, []
-    free = [p for p, good in zip(found.free, inside.tolist(), strict=True) if good]
-    for i, load in enumerate(perturbed(found.data.load, uncertainty, realisations)):
-        try:
-            data = replace(found.data, load=load)
-            again = fit_curves(found.preset, free, data, _REFIT_TOLERANCE, known=found)
-        except ConvergenceError:
-            continue
-        if again.settled:
-            values.append(np.array([p.parameter.of(again.preset) for p in found.free]))
-        progress(0.4 + 0.6 * (i + 1) / realisations)
-    return values
 
 
 def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[StiffnessCurve], out: Path) -> Held:
@@ -173,13 +144,12 @@ def _mirrored_rms(tire: Tire, deflection: FloatArray, solid: Sequence[StiffnessC
     return tuple(errors)
 
 
-def _parameters(found: CurveFit, again: Sequence[FloatArray]) -> tuple[FittedParameter, ...]:
-    """Each free parameter with its 95 % from the fit, and from the refits where there are three or more."""
+def _parameters(found: CurveFit) -> tuple[FittedParameter, ...]:
+    """Each free parameter with its 95 % from the fit."""
     statistics, rows = found.statistics, []
     for i, (p, value) in enumerate(zip(found.free, found.values.tolist(), strict=True)):
         inside = bool(statistics.inside[i])
         at, half = float(statistics.unknowns[i]), float(statistics.half_width[i])
-        unknowns = np.array([p.parameter.unknown(values[i]) for values in again])
         row = FittedParameter(
             name=p.parameter.value,
             unit=p.parameter.unit,
@@ -188,9 +158,6 @@ def _parameters(found: CurveFit, again: Sequence[FloatArray]) -> tuple[FittedPar
             start=p.parameter.of(found.start),
             at_bound=not inside,
             interval=_ends(p.parameter, at, half) if inside else None,
-            spread=_ends(p.parameter, float(unknowns.mean()), 1.96 * float(unknowns.std(ddof=1)))
-            if inside and len(again) > 2
-            else None,
         )
         rows.append(row)
     return tuple(rows)
