@@ -69,11 +69,11 @@ class ContactGrid:
         p = coordinates[self.tables.nodes].reshape(len(self.tables.nodes), 16, 3)
         return np.asarray(self.tables.interpolation @ p)
 
-    def areas(self, coordinates: FloatArray) -> FloatArray:
-        """Present area of the face that each point stands for, (n_carriers, n_points) float [m^2]."""
-        p = coordinates[self.tables.nodes].reshape(len(self.tables.nodes), 1, 16, 3)
-        a = self.tables.slopes @ p
-        return np.asarray(self.share * np.linalg.norm(np.cross(a[:, :, 0], a[:, :, 1]), axis=-1))
+    def areas(self, coordinates: FloatArray, carrier: IntArray, point: IntArray) -> FloatArray:
+        """Present area of the face that each of some points of carriers stands for, (n,) float [m^2]."""
+        p = coordinates[self.tables.nodes[carrier]].reshape(len(carrier), 16, 3)
+        a = self.tables.slopes[carrier, point] @ p
+        return np.asarray(self.share[point] * np.linalg.norm(np.cross(a[:, 0], a[:, 1]), axis=-1))
 
 
 def build_contact_grid(

@@ -214,7 +214,7 @@ class PlateContact:
             force=record[:, 5:8],
             slip=record[:, 8:11],
             normal=record[:, 11:14],
-            area=self.grid.areas(p)[carrier, point],
+            area=self.grid.areas(p, carrier, point),
         )
 
     def _evaluate(self, p: FloatArray, v: FloatArray, force: FloatArray) -> tuple[int, float, float, float, float]:

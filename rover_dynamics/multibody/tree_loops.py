@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import qr
+from scipy.linalg.lapack import dgecon, dgetrf, dgetrs
 from scipy.sparse import csr_array
 
 from rover_dynamics.multibody.assembly import ITERATIONS, POSITION_TOLERANCE, cannot_be_assembled
@@ -27,6 +28,8 @@ IntArray = NDArray[np.int64]
 
 _SINGULAR = 1e-3
 """Of the margin where the dependent velocities were chosen: below it a position counts as singular."""
+_DOUBTFUL = 10.0 * _SINGULAR
+"""Of that margin: below it by the estimate in the norm of column sums, singular values decide."""
 _WORSE = 5.0
 """Growth of the largest rate of a dependent velocity with an independent one, above which they are chosen anew."""
 
@@ -131,10 +134,13 @@ class Loops:
 
     def _solved(self, J: FloatArray, right: FloatArray, t: float) -> FloatArray:
         """Changes with J change = right."""
-        left, sizes, rows = np.linalg.svd(J, full_matrices=False)
-        if sizes[-1] < _SINGULAR * self._best_margin * sizes[0]:
-            raise SingularPosition(t, _signed(J, sizes))
-        return np.asarray(rows.T @ ((left.T @ right) / sizes[:, None]))
+        factors, pivots, zero = dgetrf(J)
+        margin = dgecon(factors, np.linalg.norm(J, 1))[0]
+        if zero or margin < _DOUBTFUL * self._best_margin:
+            sizes = np.linalg.svd(J, compute_uv=False)
+            if sizes[-1] < _SINGULAR * self._best_margin * sizes[0]:
+                raise SingularPosition(t, _signed(J, sizes))
+        return np.asarray(dgetrs(factors, pivots, right)[0])
 
     def _divide(self, J: FloatArray) -> None:
         """Take the best conditioned columns of J for the dependent velocities, by pivoting."""
