@@ -91,7 +91,7 @@ def stiffness(
     from workbench.execution.store import Store
     from workbench.questions.curve_graph import MODELS, stiffness_tasks
     from workbench.questions.models.curves import stiffness_curves
-    from workbench.study.wheel_design import yield_strengths
+    from workbench.study.strengths import yield_strengths
 
     if not isinstance(study, Study):
         raise InputError("study", repr(study), "is no study", "give what read_study returns")

@@ -18,7 +18,7 @@ from rover_dynamics.rover.scenarios.outcome import Outcome
 from workbench.execution.result_files import read_result, write_result
 from workbench.execution.task import task_keys
 from workbench.questions.kept import Kept
-from workbench.questions.model_curves import Between
+from workbench.questions.models.between import Between
 from workbench.questions.rover.tires import DISSIPATION, AncfRide
 from workbench.questions.rover_ancf.runs import fitted_run
 from workbench.questions.rover_mission.graph import MISSION_TIRES, mission_task_name, mission_tasks

@@ -18,6 +18,8 @@ from workbench.questions.strength.yielding import (
     smallest_yield_load,
     utilisation,
 )
+from workbench.study.reading import built_in_study, read_study
+from workbench.study.strengths import yield_strengths
 
 STRENGTH = {"tire": 800e6, "springs": 1000e6, "hub": 500e6}
 
@@ -98,3 +100,14 @@ def test_peak_stress_at_a_load_lies_between_increments() -> None:
     assert (springs.part, springs.used, springs.strength) == ("springs", pytest.approx(0.625), 1000e6)
     with pytest.raises(InputError, match="lies outside the curve"):
         peak_stresses(curve(400e6, 2000e6), STRENGTH, 401.0)
+
+
+def test_each_part_has_the_strength_of_its_material() -> None:
+    study = read_study(built_in_study())
+    steel = study.materials["Ti-6Al-4V"].model_copy(update={"yield_strength": 300e6})
+    other = study.model_copy(update={"materials": study.materials | {"Ti-6Al-4V": steel}})
+    parts = set(yield_strengths(study))
+    assert {"tire", "grousers", "springs_outer", "springs_inner"} <= parts
+    found = yield_strengths(other)
+    assert set(found) == parts
+    assert found["tire"] == 300e6

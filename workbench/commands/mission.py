@@ -18,7 +18,8 @@ from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.terminal import empty_table
 from workbench.questions.kept import keep, replaced, require_place
-from workbench.questions.model_curves import CURVE, Between
+from workbench.questions.model_curves import CURVE
+from workbench.questions.models.between import Between
 from workbench.questions.models.wheel_curves import curves_around, largest_between
 from workbench.questions.models.wheel_tasks import between_steps, rock_name, solved_tire, where_it_moves
 from workbench.questions.rover_mission.graph import COMPARED, MISSION_TIRES, mission_task_name, mission_tasks
@@ -28,7 +29,7 @@ from workbench.questions.rover_mission.results import Cell, Mission, WheelYield,
 from workbench.study.model import Study
 from workbench.study.orientation import orientation_name
 from workbench.study.reading import built_in_study
-from workbench.study.wheel_design import yield_strengths
+from workbench.study.strengths import yield_strengths
 
 __all__ = ["run_mission"]
 

@@ -29,7 +29,7 @@ from workbench.questions.strength.yielding import PeakStress, peak_stresses
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import field_files, publish
 from workbench.study.model import Study
-from workbench.study.wheel_design import yield_strengths
+from workbench.study.strengths import yield_strengths
 
 __all__ = ["check_orientation", "run_stiffness"]
 

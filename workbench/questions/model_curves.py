@@ -9,7 +9,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +19,6 @@ from workbench.execution.result_files import FAILURE, UNSTABLE, increments_of, r
 
 __all__ = [
     "CURVE",
-    "Between",
     "ModelCurves",
     "RunNumbers",
     "UserCurve",
@@ -117,14 +115,6 @@ class UserCurve:
     curve: StiffnessCurve
     orientation_deg: float | None
     uncertainty: NDArray[np.float64]
-
-
-class Between(NamedTuple):
-    """Where a tire's load differs most from a curve solved apart: orientation [deg], deflection [m], relative [-]."""
-
-    orientation_deg: float
-    deflection: float
-    difference: float
 
 
 def model_curves(model: str, folders: Mapping[str, Path], around: Around | None = None) -> ModelCurves:

@@ -18,15 +18,7 @@ from workbench.study.wheel import WheelStudy
 if TYPE_CHECKING:
     from geometry.wheel import WheelDesign
 
-__all__ = [
-    "SectionInputError",
-    "design_from",
-    "in_section",
-    "materials",
-    "part_materials",
-    "wheel_design",
-    "yield_strengths",
-]
+__all__ = ["SectionInputError", "design_from", "in_section", "materials", "part_materials", "wheel_design"]
 
 
 class SectionInputError(InputError):
@@ -71,11 +63,6 @@ def wheel_design(study: WheelStudy) -> WheelDesign:
         If a part breaks a rule or names a material the study does not have; its section is the part's key.
     """
     return _built(_Sections(study))
-
-
-def yield_strengths(study: WheelStudy) -> dict[str, float]:
-    """Yield strength [Pa] of each part of the mesh."""
-    return {part: material.yield_strength for part, material in wheel_design(study).materials.items()}
 
 
 @dataclass(frozen=True, slots=True, eq=False)

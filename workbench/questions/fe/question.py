@@ -18,7 +18,8 @@ from workbench.questions.wheel.graph import MESH, MESH_WHOLE
 from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
-from workbench.study.wheel_design import wheel_design, yield_strengths
+from workbench.study.strengths import yield_strengths
+from workbench.study.wheel_design import wheel_design
 
 __all__ = ["FE"]
 

@@ -21,8 +21,8 @@ from workbench.study.input_uncertainty import InputUncertaintySection
 from workbench.study.key_units import unit_of
 from workbench.study.model import Study
 from workbench.study.quantities import number_and_unit
+from workbench.study.strengths import yield_strengths
 from workbench.study.sweep import tied_keys
-from workbench.study.wheel_design import yield_strengths
 
 __all__ = ["found_of"]
 

@@ -25,7 +25,7 @@ from workbench.questions.strength.yielding import largest_utilisation, peak_stre
 from workbench.study.full import around
 from workbench.study.input_uncertainty import UncertainInput
 from workbench.study.model import Study, stated
-from workbench.study.wheel_design import yield_strengths
+from workbench.study.strengths import yield_strengths
 from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["INPUT_UNCERTAINTY", "InputUncertainty", "inputs_checks"]

@@ -19,7 +19,7 @@ from workbench.questions.section.graph import section_tasks
 from workbench.study.input_points import as_sampled, input_ends
 from workbench.study.input_uncertainty import InputUncertaintySection
 from workbench.study.model import Study
-from workbench.study.wheel_design import yield_strengths
+from workbench.study.strengths import yield_strengths
 
 __all__ = ["RECORD", "Samples", "drawn_of", "record_task", "require_inputs", "samples_of"]
 

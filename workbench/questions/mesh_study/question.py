@@ -20,7 +20,7 @@ from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
-from workbench.study.wheel_design import yield_strengths
+from workbench.study.strengths import yield_strengths
 from workbench.verdict.rules import Claim, at_most
 
 __all__ = ["MESH_STUDY", "mesh_study_inputs", "mesh_study_of", "mesh_study_runs", "read_mesh_study"]

@@ -24,7 +24,8 @@ from rover_dynamics.tires.wheel_potential import (
     raise_and_slope,
     wheel_potential,
 )
-from workbench.questions.model_curves import CURVE, Between
+from workbench.questions.model_curves import CURVE
+from workbench.questions.models.between import Between
 from workbench.questions.models.wheel_brush import carcass_of
 from workbench.questions.travel_start import TRAVEL
 from workbench.study.orientation import deep_name

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from contracts.records import Check
 from workbench.questions.kept import OF_ANOTHER, Kept, State, kept
-from workbench.questions.model_curves import Between
+from workbench.questions.models.between import Between
 from workbench.questions.models.wheel_tasks import ROCK_RADIUS
 from workbench.questions.question import Question
 from workbench.questions.rover_mission.graph import mission_tasks

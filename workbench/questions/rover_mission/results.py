@@ -12,7 +12,7 @@ from typing import Any, Literal
 from contracts.curves import StiffnessCurve
 from rover_dynamics.rover.scenarios.outcome import LEAST_FRICTION, Outcome
 from workbench.questions.kept import rounded
-from workbench.questions.model_curves import Between
+from workbench.questions.models.between import Between
 from workbench.questions.rover_mission.graph import MISSION_TIRES
 from workbench.questions.rover_mission.requirements import MISSION, plainly, tightest
 from workbench.questions.strength.yielding import first_yield

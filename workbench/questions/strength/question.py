@@ -25,7 +25,7 @@ from workbench.questions.strength.yielding import (
 )
 from workbench.study.full import around
 from workbench.study.model import LARGEST_WHEEL_LOAD, Study
-from workbench.study.wheel_design import yield_strengths
+from workbench.study.strengths import yield_strengths
 from workbench.verdict.rules import Claim, at_least, at_most
 
 __all__ = ["STRENGTH", "yield_check"]

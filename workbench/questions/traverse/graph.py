@@ -14,7 +14,7 @@ from workbench.questions.models.driving_brush import driving_inputs
 from workbench.questions.models.wheel_tasks import solved_tire
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_on_brush
-from workbench.study.wheel_design import yield_strengths
+from workbench.study.strengths import yield_strengths
 
 __all__ = ["TRAVERSE_TIRES", "Asked", "stretch_name", "traverse_tasks"]
 

@@ -27,7 +27,7 @@ from workbench.questions.words.readings import reading_curves, reading_tasks
 from workbench.questions.words.results import Words
 from workbench.study.full import around
 from workbench.study.model import Study
-from workbench.study.wheel_design import yield_strengths
+from workbench.study.strengths import yield_strengths
 
 __all__ = ["WORDS"]
 
