@@ -9,12 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
-from workbench.questions.mesh_study.results import MeshStudy
+
+if TYPE_CHECKING:
+    from workbench.questions.mesh_study.results import MeshStudy
 
 __all__ = [
     "ALLOWED",
