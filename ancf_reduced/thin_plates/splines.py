@@ -56,9 +56,9 @@ def plates_on_surface(
 ) -> ThinPlates:
     """Plates whose reference is a B-spline surface, one a piece or ``subdivisions`` of them along u and v.
 
-    Nodes (i, j) of the grid have the number i (n_v + 1) + j. The plates' parameters are u and v times the surface's
-    mean lengths along them over their range. ``membrane_points`` as `ThinPlates`: (4, 2) for one more curved along v.
-    A surface that closes on itself stays slit where it begins.
+    Nodes (i, j) of the grid have the number i n + j, n those along v. The plates' parameters are u and v times the
+    surface's mean lengths along them over their range. ``membrane_points`` as `ThinPlates`: (4, 2) for one more curved
+    along v. Where a surface closes on itself without a kink its last nodes are its first ones; with one it stays slit.
 
     Raises
     ------
@@ -86,13 +86,24 @@ def plates_on_surface(
     if jump > _KINK * float(np.abs(nodes[:, :, 0, 1]).max()):
         rule = "must go on from piece to piece, which a kink or parameters of unequal speed prevent"
         raise InputError(f"{surface.name}: slopes", f"jump of {jump:.3g}", rule, "split the surface there")
-    m, n = len(breaks[0]), len(breaks[1])
-    numbers = np.arange(m * n).reshape(m, n)
-    plates = np.stack([numbers[i : m - 1 + i, j : n - 1 + j] for i, j in _CORNERS], axis=-1)
+    for axis in range(2):
+        first, last = np.take(nodes, 0, axis), np.take(nodes, -1, axis)
+        if _meet(first, last, float(steps[axis].min())):
+            nodes = np.delete(nodes, -1, axis)
+    numbers = np.arange(nodes.shape[0] * nodes.shape[1]).reshape(nodes.shape[:2])
+    rows = [np.arange(len(step)) for step in steps]
+    ahead = [(rows[0] + i) % len(numbers) for i in range(2)], [(rows[1] + j) % numbers.shape[1] for j in range(2)]
+    plates = np.stack([numbers[np.ix_(ahead[0][i], ahead[1][j])] for i, j in _CORNERS], axis=-1)
     sizes = np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1)
     return ThinPlates(
         nodes.reshape(-1, 4, 3), plates.reshape(-1, 4), sizes.reshape(-1, 2), [tuple(layers)], membrane_points
     )
+
+
+def _meet(first: Array, last: Array, step: float) -> bool:
+    """Whether two rows of nodes (n, 2, 2, 3) are the same: places to a part of a plate's length [m], slopes of each."""
+    gaps = np.abs(first - last).reshape(-1, 4, 3).max(axis=(0, 2))
+    return bool(gaps[0] <= _KINK * step and gaps[1:].max() <= _KINK * np.abs(first.reshape(-1, 4, 3)[:, 1:]).max())
 
 
 def _mean_length(pieces: Array) -> float:

@@ -97,6 +97,43 @@ def test_stiffness_does_not_depend_on_the_parameters() -> None:
     assert energies[1] == pytest.approx(energies[0], rel=1e-9)
 
 
+def tube(lift: float) -> SplineSurface:
+    """A ring of twelve cubic pieces in u, 0.1 m wide; its end is moved by ``lift`` [m] along the axle."""
+    n, half = 12, math.pi / 12
+    points = []
+    for k in range(n):
+        ends = [np.array([math.cos(a), math.sin(a)]) for a in (2 * half * k, 2 * half * (k + 1))]
+        arm = 4.0 / 3.0 * math.tan(half / 2)
+        turned = [np.array([-e[1], e[0]]) for e in ends]
+        points += [ends[0], ends[0] + arm * turned[0], ends[1] - arm * turned[1]]
+    plane = 0.15 * np.array([*points, points[0]])
+    along = np.linspace(0.0, 0.1, 4)
+    grid = np.stack([np.column_stack([plane[:, :1], np.full(len(plane), y), plane[:, 1:]]) for y in along], axis=1)
+    grid[-1, :, 1] += lift
+    knots = np.concatenate([np.zeros(4), np.repeat(np.arange(1.0, n), 3), np.full(4, float(n))])
+    return SplineSurface(name="tube", control_points=grid, degrees=(3, 3), knots=(knots, clamped()))
+
+
+def test_a_tube_closes_where_it_ends_as_it_began() -> None:
+    """Its last plate ends on the first nodes, and pulling them bends both; lifted by a micrometre it stays slit."""
+    plates = plates_on_surface(tube(0.0), [SHEET], (1, 2))
+    assert plates.reference.shape == (12 * 3, 4, 3)
+    assert plates.plates.max() == 35
+    first, last = plates.plates[:2], plates.plates[-2:]
+    np.testing.assert_array_equal(first[:, :2], last[:, 2:])
+    slit = plates_on_surface(tube(1e-6), [SHEET], (1, 2))
+    assert slit.reference.shape == (13 * 3, 4, 3)
+    q = plates.reference.copy()
+    q[0, 0] *= 1.01
+    assert plates.energy(q) == pytest.approx(2.0 * slit.energy(_moved(slit.reference, 1.01)), rel=1e-3)
+
+
+def _moved(reference: Array, factor: float) -> Array:
+    q = reference.copy()
+    q[0, 0] *= factor
+    return q
+
+
 def test_a_kink_and_odd_subdivisions_are_refused() -> None:
     kinked = smooth(clamped(0.5, 0.5, 0.5), clamped(), (7, 4))
     with pytest.raises(InputError, match="kink"):
