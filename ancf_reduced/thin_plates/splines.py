@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 _CORNERS = ((0, 0), (0, 1), (1, 0), (1, 1))
 _KINK = 1e-6
 """Jump of a slope between pieces, over the slope, from which a surface has a kink [-]."""
+_MEANT = 1e-2
+"""Such a jump where a surface closes on itself, from which it is taken for a seam [-]."""
 
 
 def bezier_points(plates: ThinPlates, q: Array) -> Array:
@@ -64,7 +66,7 @@ def plates_on_surface(
     ------
     InputError
         For a degree above 3, a surface whose slopes jump between its pieces (a kink, or parameters of unequal speed),
-        subdivisions below 1, and a surface that `ThinPlates` refuses.
+        or all but closes without one, subdivisions below 1, and a surface that `ThinPlates` refuses.
     """
     if min(subdivisions) < 1:
         raise InputError("subdivisions", subdivisions, "must be 1 or more along u and v", "give (1, 1)")
@@ -88,7 +90,7 @@ def plates_on_surface(
         raise InputError(f"{surface.name}: slopes", f"jump of {jump:.3g}", rule, "split the surface there")
     for axis in range(2):
         first, last = np.take(nodes, 0, axis), np.take(nodes, -1, axis)
-        if _meet(first, last, float(steps[axis].min())):
+        if len(steps[axis]) > 1 and _closed(surface.name, first, last, float(steps[axis].min())):
             nodes = np.delete(nodes, -1, axis)
     numbers = np.arange(nodes.shape[0] * nodes.shape[1]).reshape(nodes.shape[:2])
     rows = [np.arange(len(step)) for step in steps]
@@ -100,10 +102,24 @@ def plates_on_surface(
     )
 
 
-def _meet(first: Array, last: Array, step: float) -> bool:
-    """Whether two rows of nodes (n, 2, 2, 3) are the same: places to a part of a plate's length [m], slopes of each."""
+def _closed(name: str, first: Array, last: Array, step: float) -> bool:
+    """Whether two rows of nodes (n, 2, 2, 3) meet, in places to a part of a plate's length [m], and go on smoothly.
+
+    InputError where they meet with a kink too small to be meant; a large one is a seam that stays open.
+    """
     gaps = np.abs(first - last).reshape(-1, 4, 3).max(axis=(0, 2))
-    return bool(gaps[0] <= _KINK * step and gaps[1:].max() <= _KINK * np.abs(first.reshape(-1, 4, 3)[:, 1:]).max())
+    slopes, twists = (np.abs(first.reshape(-1, 4, 3)[:, rows]).max() for rows in (slice(1, 3), 3))
+    if gaps[0] > _KINK * step:
+        return False
+    kink = float(max(gaps[1:3].max() / slopes, gaps[3] / max(twists, slopes / step)))
+    if _KINK < kink < _MEANT:
+        raise InputError(
+            f"{name}: slopes where it closes",
+            f"jump of {kink:.3g}",
+            f"must go on there, or have a kink of {_MEANT:g} and more",
+            "let it close smoothly, or split the surface there",
+        )
+    return kink <= _KINK
 
 
 def _mean_length(pieces: Array) -> float:

@@ -128,6 +128,18 @@ def test_a_tube_closes_where_it_ends_as_it_began() -> None:
     assert plates.energy(q) == pytest.approx(2.0 * slit.energy(_moved(slit.reference, 1.01)), rel=1e-3)
 
 
+def test_a_tube_that_closes_with_a_kink_stays_slit_and_one_that_all_but_closes_is_told() -> None:
+    def bent(by: float) -> SplineSurface:
+        whole = tube(0.0)
+        points = whole.control_points.copy()
+        points[-2, :, 0] += by
+        return SplineSurface(name="tube", control_points=points, degrees=whole.degrees, knots=whole.knots)
+
+    assert plates_on_surface(bent(5e-3), [SHEET]).reference.shape == (13 * 2, 4, 3)
+    with pytest.raises(InputError, match="where it closes"):
+        plates_on_surface(bent(1e-6), [SHEET])
+
+
 def _moved(reference: Array, factor: float) -> Array:
     q = reference.copy()
     q[0, 0] *= factor

@@ -131,3 +131,20 @@ def test_a_position_with_one_more_freedom_is_named() -> None:
     )
     with pytest.raises(SingularPosition, match="singular position at t = 0 s"):
         formulation.rates(0.0, packed(folded))
+
+
+@pytest.mark.parametrize(("share", "refused"), [(0.98, True), (1.02, False), (0.0, True)])
+def test_dependent_velocities_are_refused_where_they_are_hardly_determined(share: float, refused: bool) -> None:
+    """The smallest singular value a little above a thousandth of its share at the start, a little less, or zero."""
+    formulation = TreeCoordinates(n_four_bar(2))
+    loops = formulation.loops
+    matrix = loops.rows(0.0, formulation.motion(0.0, formulation.start())).jacobian[:, loops.dependent]
+    left, sizes, right = np.linalg.svd(matrix)
+    sizes[-1] *= 1e-3 * share
+    wanted = np.linspace(-1.0, 1.0, 2 * len(sizes)).reshape(-1, 2)
+    near = (left * sizes) @ right
+    if refused:
+        with pytest.raises(SingularPosition):
+            loops._solved(near, near @ wanted, 0.0)
+    else:
+        np.testing.assert_allclose(loops._solved(near, near @ wanted, 0.0), wanted, atol=1e-9)

@@ -8,8 +8,8 @@ from __future__ import annotations
 import os
 import shutil
 import time
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections import Counter, deque
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -145,6 +145,11 @@ def _workers(computing: Computing, tasks: int, log: Path) -> Workers:
     return LocalWorkers(min(computing.workers, tasks), log)
 
 
+def _others_first(ready: Iterable[Task], busy: set[frozenset[str]]) -> list[Task]:
+    """Those first whose compilers no running task has: two that begin at once would each compile the same."""
+    return sorted(ready, key=lambda task: bool(task.compilers) and task.compilers in busy)
+
+
 class _Run:
     """One run: which task may start, what became of it."""
 
@@ -176,10 +181,10 @@ class _Run:
     def _dispatch(self, waiting: list[Task], entries: dict[str, Entry]) -> bool:
         """Start what can start; whether there is anything to wait for, here or in another run."""
         elsewhere, found = list[str](), False
-        while self.workers.free:
-            task = next((task for task in self._ready(waiting, entries) if task.name not in elsewhere), None)
-            if task is None:
-                break
+        busy = {task.compilers for task, _ in self.running.values()}
+        ready = deque(_others_first(self._ready(waiting, entries), busy))
+        while ready and self.workers.free:
+            task = ready.popleft()
             key = self.keys[task.name]
             if not self.claims.take(key):
                 elsewhere.append(task.name)
@@ -188,6 +193,9 @@ class _Run:
             entry = self.store.get(key)
             if entry is None:
                 self._start(task, entries)
+                if task.compilers not in busy:
+                    busy.add(task.compilers)
+                    ready = deque(_others_first(ready, busy))
                 continue
             self.claims.give_back(key)
             entries[task.name], found = entry, True
@@ -200,16 +208,12 @@ class _Run:
         return bool(elsewhere or found or self.running)
 
     def _ready(self, waiting: Sequence[Task], entries: Mapping[str, Entry]) -> list[Task]:
-        """Tasks that may start now; one for which memory ran out gets all of it, and on a full disk none begins.
-
-        First those that compile what no running one does: two at once would each compile the same.
-        """
+        """Tasks that may start now; one for which memory ran out gets all of it, and on a full disk none begins."""
         ready = [task for task in waiting if all(name in entries for name in task.needs)]
         lonely = [task for task in ready if task.name in self.alone]
         if self.disk_full or not self.alone.isdisjoint(self.running) or (lonely and self.running):
             return []
-        busy = {task.compilers for task, _ in self.running.values()}
-        return lonely[:1] or sorted(ready, key=lambda task: bool(task.compilers) and task.compilers in busy)
+        return lonely[:1] or ready
 
     def _start(self, task: Task, entries: Mapping[str, Entry]) -> None:
         folder = self.store.scratch()

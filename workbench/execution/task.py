@@ -71,7 +71,7 @@ class Task:
 
     @property
     def compilers(self) -> frozenset[str]:
-        """What compiles in its process: tasks of the same ones share most of what is compiled."""
+        """What compiles in its process: tasks of the same set share most of what is compiled."""
         return _COMPILERS.intersection(reached_libraries(self.function.partition(":")[0]))
 
     def origin(self) -> dict[str, Mapping[str, str]]:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from workbench.charts.interactive import empty_figure, figure_html
 from workbench.charts.palette import ORIENTATION_COLOURS
-from workbench.questions.orientations.results import LINES_EVERY
 
 if TYPE_CHECKING:
     from workbench.questions.orientations.results import OrientationMap
@@ -14,12 +13,13 @@ if TYPE_CHECKING:
 
 __all__ = ["orientation_figures"]
 
+_LINES_EVERY = 5e-3
 _MAP_EVERY = 1e-3
 
 
 def orientation_figures(study: Study, found: OrientationMap) -> dict[str, str]:
     """Load against orientation at a few deflections, and the map of load over orientation and deflection."""
-    deflections, fine = found.deflections(LINES_EVERY), found.deflections(_MAP_EVERY)
+    deflections, fine = found.deflections(_LINES_EVERY), found.deflections(_MAP_EVERY)
     lines = empty_figure("orientation [deg]")
     for i, (deflection, loads) in enumerate(zip(deflections, found.loads(deflections), strict=True)):
         lines.add_scatter(
@@ -28,16 +28,6 @@ def orientation_figures(study: Study, found: OrientationMap) -> dict[str, str]:
             name=f"{1e3 * deflection:g} mm",
             mode="lines+markers",
             line={"color": ORIENTATION_COLOURS[i % 6], "width": 2.0},
-            hovertemplate="%{y:.1f} N",
-        )
-    if found.one_way is not None and found.middle is not None:
-        images = sorted(((-phi) % found.period, load) for phi, load in _line(found, found.middle))
-        lines.add_scatter(
-            x=[phi for phi, _ in images],
-            y=[load for _, load in images],
-            name=f"{1e3 * found.middle:g} mm, wheel mounted the other way round",
-            mode="lines+markers",
-            line={"color": ORIENTATION_COLOURS[len(deflections) // 2 % 6], "width": 1.5, "dash": "dot"},
             hovertemplate="%{y:.1f} N",
         )
     surface = empty_figure("orientation [deg]", "radial deflection [mm]")
@@ -55,8 +45,3 @@ def orientation_figures(study: Study, found: OrientationMap) -> dict[str, str]:
         "orientation_lines": figure_html(lines, "orientation-lines"),
         "orientation_map": figure_html(surface, "orientation-map"),
     }
-
-
-def _line(found: OrientationMap, deflection: float) -> list[tuple[float, float]]:
-    """Orientation [deg] and load [N] at a deflection [m]."""
-    return [(phi, float(curve.load_at(deflection))) for phi, curve in found.curves.items()]

@@ -14,10 +14,7 @@ from numpy.typing import NDArray
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 
-__all__ = ["LINES_EVERY", "OrientationMap"]
-
-LINES_EVERY = 5e-3
-"""Deflections whose load is drawn around the wheel [m]."""
+__all__ = ["OrientationMap"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,35 +57,14 @@ class OrientationMap:
         return np.column_stack([curve.load_at(deflections) for curve in self.curves.values()])
 
     @property
-    def image_pairs(self) -> tuple[tuple[float, float], ...]:
-        """Pairs of orientations phi and -phi [deg]: a wheel that rolls backwards meets them in the other order."""
+    def mirror_pairs(self) -> tuple[tuple[float, float], ...]:
+        """Two different orientations [deg] each that the wheel's symmetry maps onto each other."""
+        if not self.mirrored:
+            return ()
         known = self.orientations
         images = [(phi, (-phi) % self.period) for phi in known]
         found = [(phi, known[np.abs(known - image) < 1e-6]) for phi, image in images]
         return tuple((float(phi), float(image[0])) for phi, image in found if len(image) and image[0] > phi + 1e-6)
-
-    @property
-    def mirror_pairs(self) -> tuple[tuple[float, float], ...]:
-        """Two different orientations [deg] each that the wheel's symmetry maps onto each other."""
-        return self.image_pairs if self.mirrored else ()
-
-    @property
-    def middle(self) -> float | None:
-        """The middle one of the deflections that are drawn [m]; None without any."""
-        drawn = self.deflections(LINES_EVERY)
-        return float(drawn[len(drawn) // 2]) if len(drawn) else None
-
-    @property
-    def one_way(self) -> tuple[tuple[float, float], float] | None:
-        """The pair whose loads differ most at the middle deflection, and their difference over their mean [-].
-
-        None for a wheel that is its own mirror image, and without a pair.
-        """
-        if self.mirrored or self.middle is None:
-            return None
-        loads = {pair: [float(self.curves[phi].load_at(self.middle)) for phi in pair] for pair in self.image_pairs}
-        found = {pair: abs(a - b) / (0.5 * (a + b)) for pair, (a, b) in loads.items()}
-        return max(found.items(), key=lambda one: one[1], default=None)
 
     def mirror_error(self) -> float:
         """Largest difference of load within a pair over their mean, at points that were solved for both [-]."""
