@@ -41,7 +41,7 @@ test: lint ## lint, then every test, two processes
 test-long: $(READY) ## what takes minutes: kills, fuzz, whole studies; the result goes into docs/test_long.json and .md
 	$(PYTHON) -m tests.long_run
 
-search: $(READY) ## look for the wheels the thesis' words allow (an hour; goes on where it stopped); keeps set and table
+search: $(READY) ## look for the wheels the thesis' words allow (half an hour; goes on where it stopped); keeps set and table
 	$(PYTHON) -m workbench.questions.words.readings studies/thesis_tires
 	$(VENV)/bin/workbench sweep studies/words_search.toml --out build/words_search
 	$(PYTHON) -m workbench.questions.words.keeping build/words_search studies/words_search.csv
