@@ -45,6 +45,22 @@ def test_shares_add_up_to_the_outer_cylinder(layout: str) -> None:
     assert area == pytest.approx(2 * np.pi * 0.1425 * 0.12, rel=2e-3)
 
 
+def test_areas_are_those_of_the_points_asked_for() -> None:
+    """On a deformed tire, where no two are alike: by pairs and one at a time, and as a small parallelogram says."""
+    q, step = _deformed(), 1e-6
+    carrier, point = np.array([0, 3, 1, 3, 2]), np.array([7, 0, 99, 58, 44])
+    found = TIRE.grid.areas(q, carrier, point)
+    alone = [TIRE.grid.areas(q, np.array([c]), np.array([k]))[0] for c, k in zip(carrier, point, strict=True)]
+    np.testing.assert_array_equal(found, alone)
+    assert len(set(np.round(found / TIRE.grid.share[point], 9))) == 5
+    inner = TIRE.grid.xi[44]
+    xi = inner + step * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    corner, one, two = contact_grid(TIRE.mesh, RIM, xi, np.ones(3)).positions(q)[2]
+    area = np.linalg.norm(np.cross(one - corner, two - corner)) / step**2
+    assert found[4] == pytest.approx(TIRE.grid.share[44] * area, rel=1e-4)
+    assert TIRE.grid.areas(q, carrier[:0], point[:0]).shape == (0,)
+
+
 def test_points_lie_in_the_hull_of_their_face() -> None:
     e = TIRE.mesh.normalised(_deformed(), TIRE.model.frame)[RIM]
     hull = np.einsum("sq,jsi->jqi", TIRE.grid.tables.hull, e)
