@@ -1,7 +1,6 @@
-"""Contact within an ANCF wheel: springs, rim and hub with each other.
+"""Contact of points on the faces of an ANCF wheel with rigid surfaces and with plates.
 
-Each contact is a row: a gap, its slopes, a penalty. Points on the faces of springs are held off the rim's inside, off
-the hub, and off the springs beside them, with one penalty stiffness as in the solid model. Verified by
+Each contact is a row: a gap, its slopes, a penalty. Which of a wheel's parts touch is in `inner_contacts`. Verified by
 tests/unit/test_ancf_wheel_contacts.py.
 """
 
@@ -15,20 +14,18 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array, vstack
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
-from ancf_reduced.wheel.closest import Moved, PlateFace
+from ancf_reduced.wheel.closest import PlateFace
 from ancf_reduced.wheel.contact_kernels import Faces, face_points, face_slopes, plate_gaps, rigid_gaps
 from ancf_reduced.wheel.faces import FacePoints
 from ancf_reduced.wheel.mesh import AncfWheel
 
 __all__ = [
-    "RIM",
+    "SKIN",
     "HubContact",
-    "InnerContacts",
     "Near",
     "PlateContact",
     "Points",
     "Surface",
-    "inner_contacts",
     "joined",
 ]
 
@@ -40,14 +37,11 @@ _LEAST_GAP = 10e-6
 """Points closer than this to a face at the beginning, beside a weld, are left out [m]."""
 _DEPTH = 5e-3
 """How far behind a face a point is still held off [m]."""
-_SKIN = 4e-3
+SKIN = 4e-3
 """Movement of both sides together for which a search of what is near looks ahead [m]."""
 _FACING = 0.5
 """Largest cosine between the normals of a point's face and of the one it touches [-]."""
 
-
-RIM = 1
-"""Number of springs on the rim among an `InnerContacts`' parts."""
 Entries = tuple[Index, Index, Array]
 """Rows, columns and values of a sparse matrix; those of one place add up."""
 
@@ -156,7 +150,7 @@ class HubContact:
 
     def search(self, q: Array) -> None:
         """As `PlateContact.search`."""
-        self._near = self._asked[self._gaps(self._points.at(q, self._asked)[0]) < _INNER_REACH + _SKIN]
+        self._near = self._asked[self._gaps(self._points.at(q, self._asked)[0]) < _INNER_REACH + SKIN]
 
     def _gaps(self, places: Array) -> Array:
         return np.asarray(np.hypot(places[:, 0], places[:, 2]) - self._radius)
@@ -195,9 +189,9 @@ class PlateContact:
         self.search(wheel.plates.reference)
 
     def search(self, q: Array) -> None:
-        """Which points are near at nodes q, and may be until both sides have moved by `_SKIN` together."""
+        """Which points are near at nodes q, and may be until both sides have moved by `SKIN` together."""
         places, _ = self._points.at(q, self._of[self._asked])
-        found, self._samples = self._face.near(q, places, self._reach + _SKIN)
+        found, self._samples = self._face.near(q, places, self._reach + SKIN)
         self._near = self._asked[found]
 
     def _found(self, q: Array, reach: float) -> tuple[Index, Array, Index, Array]:
@@ -247,59 +241,3 @@ class PlateContact:
         numbers = np.concatenate([plates.numbers[pairs[held, 0]], plates.numbers[pairs[held, 1]]], axis=1)
         rows, columns = np.repeat(numbers, 96, axis=1).ravel(), np.tile(numbers, (1, 96)).ravel()
         return (rows, columns, blocks[held].ravel()) if held.any() else None
-
-
-class InnerContacts:
-    """Springs on the hub, on the rim, and fronts and backs of springs on those of the strips beside them.
-
-    Attributes
-    ----------
-    counts : points of each contact
-    """
-
-    def __init__(self, wheel: AncfWheel, penalty: float) -> None:
-        self.parts = inner_contacts(wheel, penalty)
-        self.counts = [part.count for part in self.parts]
-        self._moved = Moved(wheel.plates, float(np.abs(wheel.faces.height).max(initial=0.0)))
-
-    def near(self, q: Array, forces: Sequence[Array], blocks: Array) -> list[Near]:
-        """Contacts within reach of each part, see there."""
-        if 2.0 * self._moved(q) > _SKIN:
-            for part in self.parts:
-                part.search(q)
-            self._moved.remember(q)
-        return [part.near(q, held, blocks) for part, held in zip(self.parts, forces, strict=True)]
-
-
-def inner_contacts(wheel: AncfWheel, penalty: float) -> list[HubContact | PlateContact]:
-    """Springs on the hub, on the rim, and fronts and backs of springs on those of the strips beside them."""
-    strips, faces, plates = wheel.strips, wheel.faces, wheel.plates
-    thickness = np.array([layers[0].thickness for layers in plates.layers])
-    front = 0.5 * thickness * strips.facing
-    strip = strips.strip[faces.plate]
-    in_front = faces.height * strips.facing[faces.plate] > 0.0
-    points = Points(wheel, faces)
-    rim = PlateFace(plates, np.flatnonzero((strips.strip == 0) & strips.bare), front)
-    found: list[HubContact | PlateContact] = [
-        HubContact(wheel, points, penalty),
-        PlateContact(wheel, points, np.flatnonzero(in_front & (strip > 0)), rim, penalty),
-    ]
-    for one, others in _beside(wheel):
-        for side in (1.0, -1.0):
-            face = PlateFace(plates, np.flatnonzero(np.isin(strips.strip, others)), side * front)
-            of = np.flatnonzero((strip == one) & (in_front == (side > 0.0)))
-            found.append(PlateContact(wheel, points, of, face, penalty))
-    return found
-
-
-def _beside(wheel: AncfWheel) -> list[tuple[int, list[int]]]:
-    """Springs' strips, each with those of higher number that lie in one part of the width with it."""
-    plates, strip = wheel.plates, wheel.strips.strip
-    width = {}
-    for k in range(1, int(strip.max()) + 1):
-        y = plates.reference[plates.plates[strip == k], 0, 1]
-        width[k] = float(y.min()) + 1e-9, float(y.max()) - 1e-9
-    found = [
-        (a, [b for b in width if b > a and width[a][0] < width[b][1] and width[b][0] < width[a][1]]) for a in width
-    ]
-    return [(a, others) for a, others in found if others]

@@ -24,30 +24,85 @@ _AXLE = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TieLine:
-    """Where the first edges of springs follow the rim, one row per plate of a spring.
+    """Where edges of springs follow the rim (or springs and cone an elastic hub), one row per plate of a spring.
 
     Attributes
     ----------
-    spring, rim : (n,) plates; the spring's edge is its u = 0
-    ends : (n, 2, 2) places (u, v) in the rim's plate of that edge's ends v = 0, 1
+    spring, rim : (n,) plates
+    edge : (n, 2, 2) places (u, v) in the spring's plate of the ends of its edge
+    ends : (n, 2, 2) places (u, v) in the rim's plate of the same ends
+    leaving : (n,) axis of the spring's plate that leaves the edge, 0 or 1
     offset : (n,) of the spring's middle from the rim's, along the rim's normal [m]
+    square : (n, 2) parts along the rim's normal and its r_2 of a direction at right angles to the spring there
     turning : (n,) moment by angle and width that the weld's end has against turning [N/rad]
     """
 
     spring: Index
     rim: Index
+    edge: Array
     ends: Array
+    leaving: Index
     offset: Array
+    square: Array
     turning: Array
+
+    @classmethod
+    def of(
+        cls,
+        spring: Index,
+        rim: Index,
+        places: tuple[Array, Array],
+        offset: float,
+        turning: float,
+        *,
+        leaving: int = 0,
+        square: tuple[float, float] = (1.0, 0.0),
+    ) -> TieLine:
+        """Equal rows for some plates; places (2, 2) of the edge and of its ends on the rim."""
+        n = len(spring)
+        edge, ends = (np.tile(one, (n, 1, 1)) for one in places)
+        return cls(
+            spring=spring,
+            rim=rim,
+            edge=edge,
+            ends=ends,
+            leaving=np.full(n, leaving),
+            offset=np.full(n, offset),
+            square=np.tile(square, (n, 1)),
+            turning=np.full(n, turning),
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rim:
-    """The rim's division around, first row of plates after each of its breaks, and all plates (rows, columns)."""
+    """A ring of plates, the rim or an elastic hub.
+
+    Attributes
+    ----------
+    ring : its division around
+    breaks : first row of plates after each of its breaks
+    plates : all of them (rows, columns)
+    columns : axial intervals they cover
+    thickness : [m]
+    inner_radius : [m]
+    """
 
     ring: Ring
     breaks: Index
     plates: Index
+    columns: range
+    thickness: float
+    inner_radius: float
+
+    @property
+    def outer_radius(self) -> float:
+        """[m]."""
+        return self.inner_radius + self.thickness
+
+    def beginning(self, angle: float, columns: range) -> Index:
+        """Plates whose first edge, u = 0, lies at a break of the ring [rad], in some axial intervals."""
+        row = self.breaks[self.ring.index(angle)]
+        return self.plates[row, columns.start - self.columns.start : columns.stop - self.columns.start]
 
 
 @dataclass(slots=True)
@@ -84,12 +139,19 @@ class Draft:
         return found
 
     def add_strip(
-        self, part: str, line: tuple[Array, Array], steps: Array, columns: range, front: Array
+        self,
+        part: str,
+        line: tuple[Array, Array],
+        steps: Array,
+        columns: range,
+        front: Array,
+        *,
+        touches: bool = True,
     ) -> tuple[Index, Index]:
         """A strip along ``line``, points and unit tangents (m, 2) in the section; closed if it has as many steps.
 
-        columns : axial intervals it covers; front : normal (2,) of its front at its beginning. Returns numbers of its
-        nodes (m, n + 1) and plates (steps, n).
+        columns : axial intervals it covers; front : normal (2,) of its front at its beginning; touches : whether its
+        strip is among those that touch something. Returns numbers of its nodes (m, n + 1) and plates (steps, n).
         """
         points, tangents = line
         y = self.levels[columns.start : columns.stop + 1]
@@ -97,7 +159,11 @@ class Draft:
         new[:, :, 0, [0, 2]], new[:, :, 0, 1] = points[:, None], y
         new[:, :, 1, [0, 2]], new[:, :, 2] = tangents[:, None], _AXLE
         facing = float(np.sign(tangents[0, 0] * front[1] - tangents[0, 1] * front[0]))
-        return self.add_grid(part, new, (steps, np.diff(y)), max(self.strips, default=-1) + 1, facing)
+        return self.add_grid(part, new, (steps, np.diff(y)), self.next_strip(touches), facing)
+
+    def next_strip(self, touches: bool) -> int:
+        """Number of a new strip, negative for those that touch nothing."""
+        return max(self.strips, default=-1) + 1 if touches else min(self.strips) - 1
 
     def add_grid(
         self, part: str, nodes: Array, sizes: tuple[Array, Array], strip: int, facing: float

@@ -12,12 +12,13 @@ __all__ = ["find_tie_forces", "spread", "tie_terms", "vectors"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Ties = tuple[Index, Index, Array, Array, Array, Array, Array]
 
 
 @compiled
 def vectors(q: Array, nodes: Index, tables: Array, out: Array) -> None:
-    """r, a_1, a_2 (3, 3) at a point of a plate with rows tables (3, 16)."""
-    for d in range(3):
+    """Vectors (n, 3), such as r, a_1, a_2, at a point of a plate with rows tables (n, 16)."""
+    for d in range(tables.shape[0]):
         for i in range(3):
             out[d, i] = 0.0
             for k in range(16):
@@ -28,7 +29,7 @@ def vectors(q: Array, nodes: Index, tables: Array, out: Array) -> None:
 def tie_terms(
     q: Array,
     plates: Index,
-    ties: tuple[Index, Index, Array, Array, Array],
+    ties: Ties,
     weights: tuple[Array, Array],
     mixed: Array,
     force: Array,
@@ -36,20 +37,22 @@ def tie_terms(
 ) -> float:
     """Energy of edges that follow a plate at an offset along its normal [J]; adds forces and tangents.
 
-    With g = r_s - r_m - d n_m and h = a_1s . n_m: (k_r g . g + k_n h^2) / 2 at every point.
+    With g = r_s - r_m - d n_m and h = a_s . (c_n n_m + c_2 a_2m): (k_r g . g + k_n h^2) / 2 at every point.
 
     Parameters
     ----------
-    ties : plates of springs and rim (n,), offsets d (n,) [m], rows r, r_1, r_2 of both at p points (n, p, 3, 16)
+    ties : plates that follow (springs) and that are followed (the rim) (n,), offsets d (n,) [m], rows r and a_s of
+        the spring (n, p, 2, 16), r, r_1, r_2 of the rim at p points (n, p, 3, 16), c_n and c_2 (n, 2), and g and h
+        (n, p, 4) at rest, which do not count: where both edges are curved, cubics leave some
     weights : k_r [N/m] and k_n [N m] of every point, (n, p)
     mixed : (n, p, 4) forces for the geometric part of the tangent; of no ties for those that belong to q
     force, tangent : (n, 32, 3), (n, 32, 3, 32, 3) of the spring's 16 and the rim's 16 vectors
     """
-    springs, rims, offsets, of_spring, of_rim = ties
+    springs, rims, offsets, of_spring, of_rim, square, rest = ties
     by_place, by_turn = weights
-    energy, s, m = 0.0, np.empty((3, 3)), np.empty((3, 3))
+    energy, s, m = 0.0, np.empty((2, 3)), np.empty((3, 3))
     second, turn, c, normal = np.empty((6, 6)), np.empty((3, 6)), np.empty(3), np.empty(3)
-    # Rows: vectors r_s, a_1s, r_m, a_1m, a_2m; columns: components of g and h.
+    # Rows: vectors r_s, a_s, r_m, a_1m, a_2m; columns: components of g and h.
     slope, H = np.empty((15, 4)), np.empty((15, 15))
     weight, gap, held, rows = np.empty(4), np.empty(4), np.empty(4), np.zeros((5, 32))
     for t in range(springs.shape[0]):
@@ -58,25 +61,26 @@ def tie_terms(
             vectors(q, plates[rims[t]], of_rim[t, p], m)
             n, J = unit_normal(m[1:])
             normal[:] = n
-            d = offsets[t]
-            h = 0.0
+            d, c_n, c_2 = offsets[t], square[t, 0], square[t, 1]
+            h = -rest[t, p, 3]
             for i in range(3):
-                gap[i] = s[0, i] - m[0, i] - d * n[i]
-                h += s[1, i] * n[i]
+                gap[i] = s[0, i] - m[0, i] - d * n[i] - rest[t, p, i]
+                h += s[1, i] * (c_n * n[i] + c_2 * m[2, i])
             gap[3] = h
             weight[:3], weight[3] = by_place[t, p], by_turn[t, p]
             for i in range(4):
                 held[i] = mixed[t, p, i] if mixed.shape[0] else weight[i] * gap[i]
             for i in range(3):
-                c[i] = -d * held[i] + held[3] * s[1, i]
+                c[i] = -d * held[i] + held[3] * c_n * s[1, i]
             normal_second(m[1:], n, J, c, second, turn)
             slope[:] = 0.0
             for i in range(3):
                 slope[i, i], slope[6 + i, i] = 1.0, -1.0
-                slope[3 + i, 3] = n[i]
+                slope[3 + i, 3] = c_n * n[i] + c_2 * m[2, i]
+                slope[12 + i, 3] += c_2 * s[1, i]
                 for j in range(6):
                     slope[9 + j, i] = -d * turn[i, j]
-                    slope[9 + j, 3] += s[1, i] * turn[i, j]
+                    slope[9 + j, 3] += c_n * s[1, i] * turn[i, j]
             for r in range(3):
                 for k in range(16):
                     if r < 2:
@@ -99,9 +103,11 @@ def tie_terms(
                             H[a, b] += weight[j] * slope[a, j] * slope[b, j]
                 H[9:, 9:] += second
                 for i in range(3):
+                    H[3 + i, 12 + i] += held[3] * c_2
+                    H[12 + i, 3 + i] += held[3] * c_2
                     for j in range(6):
-                        H[3 + i, 9 + j] += held[3] * turn[i, j]
-                        H[9 + j, 3 + i] += held[3] * turn[i, j]
+                        H[3 + i, 9 + j] += held[3] * c_n * turn[i, j]
+                        H[9 + j, 3 + i] += held[3] * c_n * turn[i, j]
                 spread(H, rows, tangent[t])
     return energy
 
@@ -132,13 +138,13 @@ def find_tie_forces(
     q: Array,
     step: Array,
     plates: Index,
-    ties: tuple[Index, Index, Array, Array, Array],
+    ties: Ties,
     weights: tuple[Array, Array],
     out: Array,
 ) -> None:
     """Forces (n, p, 4) of ties after a step from q, linearised."""
-    springs, rims, offsets, of_spring, of_rim = ties
-    s, m, ds, dm = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
+    springs, rims, offsets, of_spring, of_rim, square, rest = ties
+    s, m, ds, dm = np.empty((2, 3)), np.empty((3, 3)), np.empty((2, 3)), np.empty((3, 3))
     second, turn, c = np.empty((6, 6)), np.empty((3, 6)), np.zeros(3)
     for t in range(springs.shape[0]):
         for p in range(out.shape[1]):
@@ -148,12 +154,13 @@ def find_tie_forces(
             vectors(step, plates[rims[t]], of_rim[t, p], dm)
             n, J = unit_normal(m[1:])
             normal_second(m[1:], n, J, c, second, turn)
-            h = 0.0
+            h = -rest[t, p, 3]
             for i in range(3):
                 dn = 0.0
                 for j in range(3):
                     dn += turn[i, j] * dm[1, j] + turn[i, 3 + j] * dm[2, j]
-                gap = s[0, i] - m[0, i] + ds[0, i] - dm[0, i] - offsets[t] * (n[i] + dn)
+                gap = s[0, i] - m[0, i] + ds[0, i] - dm[0, i] - offsets[t] * (n[i] + dn) - rest[t, p, i]
                 out[t, p, i] = weights[0][t, p] * gap
-                h += (s[1, i] + ds[1, i]) * n[i] + s[1, i] * dn
+                across = square[t, 0] * n[i] + square[t, 1] * m[2, i]
+                h += (s[1, i] + ds[1, i]) * across + s[1, i] * (square[t, 0] * dn + square[t, 1] * dm[2, i])
             out[t, p, 3] = weights[1][t, p] * h

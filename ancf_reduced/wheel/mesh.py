@@ -10,8 +10,8 @@ grousers, edges of bands. Verified by tests/unit/test_ancf_wheel_mesh.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,16 +20,16 @@ from scipy.sparse import csc_array
 from ancf_reduced.thin_plates.plates import Layer, ThinPlates
 from ancf_reduced.wheel.draft import Draft, Rim, TieLine
 from ancf_reduced.wheel.faces import APART, FacePoints, Strips, ground_points, inner_points
+from ancf_reduced.wheel.hub import add_cones, add_hub, add_impact_springs, add_ring
 from ancf_reduced.wheel.joints import foot_stiffness
 from ancf_reduced.wheel.springs import add_legs, add_sidewall
 from ancf_reduced.wheel.supports import free_basis, hub_stiffness
+from ancf_reduced.wheel.welds import Weld, weld_layers, welds_of
 from contracts.errors import InputError
 from geometry.build import mesh_size
-from geometry.parts import SpringSet
 from geometry.resolution import Ring, axial_bands, axial_levels, rim_ring, sidewall_angles
 from geometry.rules import require_positive_length
-from geometry.sidewall import SidewallSprings, weld_half_angle
-from geometry.springs import polar, station_angles, weld_angle
+from geometry.sidewall import weld_half_angle
 from geometry.wheel import WheelDesign
 
 __all__ = ["AncfWheel", "TieLine", "build_ancf_wheel"]
@@ -48,11 +48,11 @@ class AncfWheel:
     ----------
     plates : the network
     parts : (n_plates,) name of each plate's part
-    ties : springs on the rim
+    ties : springs on the rim; springs and cone on an elastic hub
     strips : the strip of each plate
     ground : what may touch the ground
     faces : what may touch the hub and other parts of the wheel
-    hub : radius and half width of the cylinder that springs may touch [m]
+    hub : radius and half width of the hub's outside [m]
     basis : (12 n_nodes, n_free) coordinates less their reference by the free ones: supports leave no others
     held : (n_free, n_free) stiffness of the hub's welds against turning [N m/m^2 and alike]
     sides : 2 for half a wheel, whose loads count twice; else 1
@@ -82,8 +82,9 @@ def build_ancf_wheel(
     half_width: bool = True,
     factor: float = 1.0,
     ground_spacing: float = APART,
+    hub: Literal["rigid", "elastic"] = "rigid",
 ) -> AncfWheel:
-    """Divide a wheel into thin plates, its outer hub rigid.
+    """Divide a wheel into thin plates.
 
     Parameters
     ----------
@@ -94,24 +95,31 @@ def build_ancf_wheel(
     factor : at least 1; counts along strips and along the axle are multiplied by it and rounded up
     ground_spacing : largest distance around the rim of points that may touch the ground [m]; ground of radius R between
         two that are s apart is s^2 / (8 R) deeper than they tell
+    hub : elastic: outer hub, cone and impact springs are plates, the inner hub alone is rigid
 
     Raises
     ------
     InputError
-        For bands that are not symmetric where half of the wheel is asked for, sizes that are not positive, and bands
-        so narrow that plates between them were narrower than they are thick.
+        For bands that are not symmetric where half of the wheel is asked for, sizes that are not positive, bands
+        so narrow that plates between them were narrower than they are thick, and an elastic hub that nothing holds.
     """
     if not (math.isfinite(factor) and factor >= 1.0):
         raise InputError("factor", f"{factor:g}", "must be >= 1", "1 is the mesh of the sizes given")
     require_positive_length("ground spacing", ground_spacing)
     size = replace(mesh_size(design, element_size, axial_size, 1, None), factor=factor)
-    bands = axial_bands(design, size, axial_levels(design, "flexible", half_width))
+    if hub not in ("rigid", "elastic"):
+        raise InputError("hub", hub, "is not known", "give rigid or elastic")
+    bands = axial_bands(design, size, _levels(design, half_width=half_width, elastic=hub == "elastic"))
     levels = np.concatenate([[bands[0][0]], *(np.linspace(a, b, n + 1)[1:] for a, b, n in bands)])
     _require_wide(design, levels)
     draft = Draft(levels=levels)
     rim, ground = _add_rim(draft, design, rim_ring(design, size), ground_spacing)
+    ring = add_hub(draft, design, size) if hub == "elastic" else None
     for springs in design.spring_sets:
-        add_legs(draft, design, springs, size, rim)
+        add_legs(draft, springs, size, rim, ring or design.outer_hub.outer_radius)
+    if ring is not None:
+        add_impact_springs(draft, design, size, ring)
+        add_cones(draft, design, size, ring)
     if design.sidewall_springs is not None:
         add_sidewall(draft, design, design.sidewall_springs, size, rim)
     ties, ends = draft.ties, draft.ends
@@ -137,6 +145,14 @@ def build_ancf_wheel(
     )
 
 
+def _levels(design: WheelDesign, *, half_width: bool, elastic: bool) -> Array:
+    """Axial positions at which strips are divided [m]: edges of bands, those of impact springs if they are plates."""
+    if not elastic or design.impact_springs is None or design.inner_hub is None:
+        return axial_levels(design, "flexible", half_width)
+    as_wide = replace(design.inner_hub, width=design.outer_hub.width)  # no level of its own: it is no plate
+    return axial_levels(replace(design, cone=None, inner_hub=as_wide), "all", half_width)
+
+
 def _require_wide(design: WheelDesign, levels: Array) -> None:
     """Refuse edges of bands that lie so close that a plate between them is none."""
     thinnest = min([design.tire.thickness, *(springs.thickness for springs in design.spring_sets)])
@@ -152,15 +168,10 @@ def _require_wide(design: WheelDesign, levels: Array) -> None:
 def _add_rim(draft: Draft, design: WheelDesign, ring: Ring, apart: float) -> tuple[Rim, FacePoints]:
     """Returns the rim and the ground's points."""
     tire, fins = design.tire, design.grousers
-    middle = 0.5 * (tire.inner_radius + tire.outer_radius)
-    angles = np.concatenate([ring.angle(i) + ring.step(i) * np.arange(n) / n for i, n in enumerate(ring.counts)])
-    steps = np.repeat([ring.step(i) / n for i, n in enumerate(ring.counts)], ring.counts)
+    place = tire.inner_radius, tire.thickness, tire.width
+    rim, angles, steps = add_ring(draft, "tire", ring, place, touches=True)
     of = np.repeat(np.arange(len(ring.angles)), ring.counts)
-    points = np.array([polar(middle, a) for a in angles])
-    tangents = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    (columns,) = draft.columns([(-0.5 * tire.width, 0.5 * tire.width)])
-    _, plates = draft.add_strip("tire", (points, tangents), middle * steps, columns, -points[0])
-    welds = _weld_layers(draft, design, ring)
+    welds = weld_layers(draft, ring, tire.thickness, _welds(design))
     inside = dict[int, float]()
     if fins is not None:
         half = math.asin(0.5 * fins.thickness / tire.outer_radius)
@@ -169,7 +180,7 @@ def _add_rim(draft: Draft, design: WheelDesign, ring: Ring, apart: float) -> tup
             inside |= dict.fromkeys(ring.span(at - half, at + half), at)
     own = Layer(material=tire.material, thickness=tire.thickness)
     for i in of:
-        for j in columns:
+        for j in rim.columns:
             fin: tuple[Layer, ...] = ()
             if fins is not None and int(i) in inside:
                 height = -0.5 * (tire.thickness + fins.height)
@@ -180,38 +191,29 @@ def _add_rim(draft: Draft, design: WheelDesign, ring: Ring, apart: float) -> tup
     ground = [
         ground_points(
             design,
-            plates[row],
-            draft.sizes[-1].reshape(*plates.shape, 2)[row],
+            rim.plates[row],
+            draft.sizes[-1].reshape(*rim.plates.shape, 2)[row],
             (_turned(angles[row] - inside[int(i)]), steps[row]) if int(i) in inside else None,
             apart,
         )
         for row, i in enumerate(of)
     ]
-    fields = {name: np.concatenate([getattr(g, name) for g in ground]) for name in FacePoints.__slots__}
-    first = np.concatenate([[0], np.cumsum(ring.counts)[:-1]])
-    return Rim(ring, first, plates), FacePoints(**fields)
+    return rim, FacePoints(
+        **{name: np.concatenate([getattr(g, name) for g in ground]) for name in FacePoints.__slots__}
+    )
+
+
+def _welds(design: WheelDesign) -> list[Weld]:
+    """On the rim."""
+    radius, edge = design.tire.inner_radius, 0.5 * design.tire.width
+    found = [welds_of(springs, radius, inside=True) for springs in design.spring_sets]
+    if (sidewall := design.sidewall_springs) is not None:
+        bands = (-edge, sidewall.weld_length - edge), (edge - sidewall.weld_length, edge)
+        half = weld_half_angle(sidewall, radius)
+        found.append(Weld(springs=sidewall, stations=sidewall_angles(sidewall), half=half, bands=bands))
+    return found
 
 
 def _turned(angle: float) -> float:
     """An angle in [-pi, pi) [rad]."""
     return (angle + math.pi) % (2.0 * math.pi) - math.pi
-
-
-def _weld_layers(draft: Draft, design: WheelDesign, ring: Ring) -> dict[tuple[int, int], tuple[Layer, ...]]:
-    """Layers that welds add to the rim, by interval of the ring and of the axle."""
-    found, radius, edge = dict[tuple[int, int], tuple[Layer, ...]](), design.tire.inner_radius, 0.5 * design.tire.width
-    welds: list[tuple[SpringSet | SidewallSprings, Array, float, Sequence[tuple[float, float]]]] = [
-        (springs, station_angles(springs), 0.5 * weld_angle(springs, radius), springs.bands)
-        for springs in design.spring_sets
-    ]
-    if (sidewall := design.sidewall_springs) is not None:
-        ends = (-edge, sidewall.weld_length - edge), (edge - sidewall.weld_length, edge)
-        welds.append((sidewall, sidewall_angles(sidewall), weld_half_angle(sidewall, radius), ends))
-    for springs, stations, half, bands in welds:
-        height = 0.5 * (design.tire.thickness + springs.thickness)
-        layer = Layer(material=springs.material, thickness=springs.thickness, height=height)
-        for station in stations:
-            for i in ring.span(station - half, station + half):
-                for columns in draft.columns(bands):
-                    found |= {(i, j): (*found.get((i, j), ()), layer) for j in columns}
-    return found

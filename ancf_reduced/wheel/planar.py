@@ -19,10 +19,11 @@ __all__ = ["planar"]
 def planar(wheel: AncfWheel) -> AncfWheel:
     """The wheel with one motion for all nodes across a strip: none along the axle, none of r_2 and r_12.
 
-    Raises InputError for sidewall springs, which stand in planes of their own.
+    Raises InputError for sidewall springs, which stand in planes of their own, and for an elastic hub with its cone.
     """
     if np.any(wheel.strips.strip < 0):
-        raise InputError("planar ANCF wheel", "sidewall springs", "bend out of the wheel's plane", "take them whole")
+        what = "sidewall springs or an elastic hub"
+        raise InputError("planar ANCF wheel", what, "bend out of the wheel's plane", "take the wheel whole")
     basis, reference = wheel.basis, wheel.plates.reference
     strip = np.zeros(len(reference), dtype=np.int64)
     strip[wheel.plates.plates.ravel()] = np.repeat(wheel.strips.strip, 4)

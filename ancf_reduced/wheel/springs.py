@@ -13,7 +13,7 @@ from scipy.interpolate import CubicSpline
 
 from ancf_reduced.thin_plates.plates import Layer
 from ancf_reduced.wheel.draft import Draft, Rim, TieLine
-from ancf_reduced.wheel.joints import RIGID_RATIO, turning_stiffness
+from ancf_reduced.wheel.joints import turning_stiffness
 from ancf_reduced.wheel.supports import HubEnd, on_cylinder
 from geometry.parts import SpringSet
 from geometry.resolution import MeshSize, sidewall_angles
@@ -26,22 +26,27 @@ __all__ = ["add_legs", "add_sidewall", "sidewall_surface"]
 
 Array = NDArray[np.float64]
 _LEAST_PER_LEG = 8
-_ACROSS = np.array([[0.0, 0.0], [0.0, 1.0]])
-"""Ends of a tied edge in the rim's plate, where it runs along the axle."""
+_FIRST, _LAST = np.array([[0.0, 0.0], [0.0, 1.0]]), np.array([[1.0, 0.0], [1.0, 1.0]])
+"""Ends of the edges u = 0 and u = 1 of a plate."""
 _HELD = math.inf
 """Stiffness against turning of an edge whose slope is held [N/rad]."""
 
 
-def add_legs(draft: Draft, design: WheelDesign, springs: SpringSet, size: MeshSize, rim: Rim) -> None:
-    """Draw all legs of a set, tied to the rim where their welds end."""
-    (rim_columns,) = draft.columns([(-0.5 * design.tire.width, 0.5 * design.tire.width)])
-    gap = design.outer_hub.outer_radius, design.tire.inner_radius
-    half = 0.5 * weld_angle(springs, design.tire.inner_radius)
-    offset = 0.5 * (design.tire.thickness + springs.thickness)
+def add_legs(
+    draft: Draft, springs: SpringSet, size: MeshSize, rim: Rim, hub: Rim | float, *, touches: bool = True
+) -> None:
+    """Draw all legs of a set, tied to the rim where their welds end, and to the hub, or held by a rigid one.
+
+    rim, hub : rings between which they lie, or the rigid hub's radius [m]; touches : as `Draft.add_strip`
+    """
+    gap = hub.outer_radius if isinstance(hub, Rim) else hub, rim.inner_radius
+    half = 0.5 * weld_angle(springs, rim.inner_radius)
     layer = Layer(material=springs.material, thickness=springs.thickness)
     turning = [
-        turning_stiffness(springs.material, springs.thickness, ratio)
-        for ratio in (springs.thickness / design.tire.thickness, RIGID_RATIO)
+        turning_stiffness(
+            springs.material, springs.thickness, springs.thickness / on.thickness if isinstance(on, Rim) else None
+        )
+        for on in (rim, hub)
     ]
     for station in station_angles(springs):
         for side in leg_sides(springs):
@@ -53,21 +58,20 @@ def add_legs(draft: Draft, design: WheelDesign, springs: SpringSet, size: MeshSi
             line = CubicSpline(arc, leg.points, bc_type=((1, along[0]), (1, along[1])))
             at = np.linspace(0.0, leg.length, count + 1)
             tangents = line(at, 1) / np.linalg.norm(line(at, 1), axis=1)[:, None]
-            first = rim.breaks[rim.ring.index(station + side * half)]
+            end = station + side * half
             for columns in draft.columns(springs.bands):
                 steps = np.full(count, leg.length / count)
-                numbers, plates = draft.add_strip(springs.name, (line(at), tangents), steps, columns, leg.normals[0])
+                numbers, plates = draft.add_strip(
+                    springs.name, (line(at), tangents), steps, columns, leg.normals[0], touches=touches
+                )
                 draft.layers += [(layer,)] * plates.size
-                on_rim = rim.plates[first, columns.start - rim_columns.start : columns.stop - rim_columns.start]
-                draft.ties.append(_tie(plates[0], on_rim, _ACROSS, offset, turning[0]))
-                frame = on_cylinder(station + side * half)
-                draft.ends.append(HubEnd(numbers[-1], plates[-1], frame, turning[1]))
-
-
-def _tie(spring: NDArray[np.int64], rim: NDArray[np.int64], ends: Array, offset: float, turning: float) -> TieLine:
-    one = np.ones(len(spring))
-    edges = np.tile(ends, (len(spring), 1, 1))
-    return TieLine(spring=spring, rim=rim, ends=edges, offset=offset * one, turning=turning * one)
+                offset, on_rim = 0.5 * (rim.thickness + springs.thickness), rim.beginning(end, columns)
+                draft.ties.append(TieLine.of(plates[0], on_rim, (_FIRST, _FIRST), offset, turning[0]))
+                if isinstance(hub, Rim):
+                    offset, on_hub = -0.5 * (hub.thickness + springs.thickness), hub.beginning(end, columns)
+                    draft.ties.append(TieLine.of(plates[-1], on_hub, (_LAST, _FIRST), offset, turning[1]))
+                else:
+                    draft.ends.append(HubEnd(numbers[-1], plates[-1], on_cylinder(end), turning[1]))
 
 
 def add_sidewall(draft: Draft, design: WheelDesign, springs: SidewallSprings, size: MeshSize, rim: Rim) -> None:
@@ -96,12 +100,12 @@ def add_sidewall(draft: Draft, design: WheelDesign, springs: SidewallSprings, si
             # Columns of (chord, y, outwards) in the wheel's frame.
             to_wheel = np.array([[c, 0.0, s], [0.0, side, 0.0], [s, 0.0, -c]]).T
             nodes = surface @ to_wheel.T
-            strip = min(draft.strips) - 1
+            strip = draft.next_strip(touches=False)
             numbers, plates = draft.add_grid(springs.name, nodes, (steps, middle * around), strip, 1.0)
             draft.layers += [(layer,)] * plates.size
             edge = np.array([[0.0, 1.0], [1.0, 1.0]]) if side > 0.0 else np.array([[0.0, 0.0], [1.0, 0.0]])
             on_rim = rim.plates[rows, -1 if side > 0.0 else 0]
-            draft.ties.append(_tie(plates[0], on_rim, edge, offset, turning))
+            draft.ties.append(TieLine.of(plates[0], on_rim, (_FIRST, edge), offset, turning))
             along, across = nodes[-1, 0, 1], to_wheel[:, 0]
             frame = np.stack([along, across, np.cross(along, across)], axis=1)
             draft.ends.append(HubEnd(numbers[-1], plates[-1], frame, _HELD))

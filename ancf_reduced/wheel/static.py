@@ -18,8 +18,9 @@ from scipy.sparse.linalg import splu
 
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.contact_step import settle
-from ancf_reduced.wheel.contacts import RIM, InnerContacts, Near, joined
+from ancf_reduced.wheel.contacts import Near, joined
 from ancf_reduced.wheel.ground import GroundContact, Pose, ground_frame
+from ancf_reduced.wheel.inner_contacts import RIM, InnerContacts
 from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
 from ancf_reduced.wheel.mesh import AncfWheel
 from ancf_reduced.wheel.reduction import Reduction
@@ -150,17 +151,25 @@ class WheelOnGround:
         self.counts = [self.ground.count, *(self._inner.counts if self._inner else [])]
         at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
         at = 0.5 + 0.5 * at
-        along = ties.ends[:, :1] + at[:, None] * (ties.ends[:, 1:] - ties.ends[:, :1])
-        rows = [
-            np.stack([shape_tables(plates.sizes[k], 0.0 * at, at)[:, :3] for k in ties.spring]),
-            np.stack(
-                [shape_tables(plates.sizes[k], *place.T)[:, :3] for k, place in zip(ties.rim, along, strict=True)]
-            ),
-        ]
-        self._ties = ties.spring, ties.rim, ties.offset, rows[0], rows[1]
+        own, on = (
+            np.stack([shape_tables(plates.sizes[k], *place.T)[:, :3] for k, place in zip(which, along, strict=True)])
+            for which, along in (
+                (which, ends[:, :1] + at[:, None] * (ends[:, 1:] - ends[:, :1]))
+                for which, ends in ((ties.spring, ties.edge), (ties.rim, ties.ends))
+            )
+        )
+        each = np.arange(len(ties.spring))
+        leaving = np.stack([own[:, :, 0], own[each, :, 1 + ties.leaving]], axis=2)
+        alone = ties.spring, ties.rim, ties.offset, leaving, on, ties.square
+        rest, ones = np.zeros((*on.shape[:2], 4)), np.ones(on.shape[:2])
+        find_tie_forces(
+            plates.reference, 0.0 * plates.reference, plates.plates, (*alone, 0.0 * rest), (ones, ones), rest
+        )
+        self._ties = *alone, rest
         layers = [plates.layers[k][0] for k in ties.spring]
         stiff = _TIE_STIFFNESS * np.array([layer.material.young_modulus * layer.thickness for layer in layers])
-        length, width = plates.sizes[ties.spring].T
+        sizes = plates.sizes[ties.spring]
+        length, width = sizes[each, ties.leaving], sizes[each, 1 - ties.leaving]
         share = 0.5 * weight[None] * width[:, None]
         self._weights = share * (stiff / length)[:, None], share * ties.turning[:, None]
         self._tie_numbers = np.concatenate([plates.numbers[ties.spring], plates.numbers[ties.rim]], axis=1)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ancf_reduced.thin_plates.plates import Layer
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.closest import neighbours
+from ancf_reduced.wheel.hub import HUB_PARTS
 from ancf_reduced.wheel.mesh import AncfWheel
 
 __all__ = ["largest_spring_stress"]
@@ -29,12 +30,13 @@ _ALONG, _ACROSS = 9, 5
 def largest_spring_stress(wheel: AncfWheel, q: Array) -> dict[str, float]:
     """Largest von Mises stress [Pa] on both faces of each spring set's legs, at nodes q (n_nodes, 4, 3)."""
     strips = wheel.strips
-    beside = neighbours(wheel.plates.plates, np.flatnonzero(strips.strip != 0))
+    springs = (strips.strip != 0) & ~np.isin(wheel.parts, HUB_PARTS)
+    beside = neighbours(wheel.plates.plates, np.flatnonzero(springs))
     found = dict[str, float]()
-    for part in dict.fromkeys(wheel.parts[strips.strip != 0].tolist()):
+    for part in dict.fromkeys(wheel.parts[springs].tolist()):
         worst = [
             _largest(wheel, q, np.flatnonzero(strips.strip == k), beside)
-            for k in np.unique(strips.strip[(wheel.parts == part) & (strips.strip != 0)])
+            for k in np.unique(strips.strip[(wheel.parts == part) & springs])
         ]
         found[str(part)] = max(worst)
     return found

@@ -23,19 +23,21 @@ _HUB_POINTS = 4
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HubEnd:
-    """Last edge of a spring on the hub, which keeps its place.
+    """Last edge of a spring or a cone on a rigid hub, which keeps its place.
 
     Attributes
     ----------
-    nodes, plates : of the edge, where u = 1
-    frame : columns along the spring, along the edge, out of the hub's surface
+    nodes, plates : of the edge, where u = 1, or v = 1 where axis 1 leaves it
+    frame : columns along both axes and out of the plate's surface, one or one a node
     turning : stiffness against slopes out of that surface [N/rad], infinite: held
+    leaving : axis of the plate that leaves the edge, 0 or 1
     """
 
     nodes: Index
     plates: Index
     frame: Array
     turning: float
+    leaving: int = 0
 
 
 def on_cylinder(angle: float) -> Array:
@@ -63,9 +65,10 @@ def free_basis(nodes: Array, ends: Sequence[HubEnd], *, symmetric: bool) -> csc_
     free = np.ones((len(nodes), 4, 3), dtype=bool)
     for end in ends:
         frames[end.nodes] = end.frame
-        free[end.nodes[:, None], [0, 2]] = False
+        leaving, along = (1, 2) if end.leaving == 0 else (2, 1)
+        free[end.nodes[:, None], [0, along]] = False
         if math.isinf(end.turning):
-            free[end.nodes[:, None], [1, 3], 2] = False
+            free[end.nodes[:, None], [leaving, 3], 2] = False
     if symmetric:
         middle = np.abs(nodes[:, 0, 1]) < 1e-12
         free[middle, 0, 1] = free[middle, 1, 1] = False

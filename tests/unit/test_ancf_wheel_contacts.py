@@ -12,7 +12,8 @@ from scipy.sparse import coo_array, csc_array
 from ancf_reduced.thin_plates.plates import ThinPlates
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.closest import PlateFace
-from ancf_reduced.wheel.contacts import HubContact, InnerContacts, Near, PlateContact, inner_contacts
+from ancf_reduced.wheel.contacts import HubContact, Near, PlateContact
+from ancf_reduced.wheel.inner_contacts import InnerContacts, inner_contacts
 from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
 from ancf_reduced.wheel.static import WheelOnGround, press
 from contracts.errors import InputError
