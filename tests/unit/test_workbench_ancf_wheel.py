@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,10 +15,12 @@ from workbench.questions.ancf_wheel.question import ANCF_WHEEL
 from workbench.questions.ancf_wheel.results import AncfWheelRuns, differences
 from workbench.questions.fe.graph import INNER_STIFFNESS, curve_deflections
 from workbench.questions.model_curves import ModelCurves, RunNumbers
+from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.magnitudes import warnings_of
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
+ROOT = Path(__file__).parents[2]
 D = np.linspace(0.0, 0.03, 16)
 ORIENTATIONS = (0.0, 15.0, 25.0, 40.0, 60.0, 80.0, 95.0, 105.0)
 
@@ -160,6 +163,9 @@ def test_one_task_an_orientation_at_every_second_point(study: Study) -> None:
     rough = study.model_copy(update={"fe": study.fe.model_copy(update={"friction": 0.3})})
     assert ANCF_WHEEL.tasks(rough)[0].inputs["friction"] == 0.3
     assert ANCF_WHEEL.tasks(rough)[0].inputs["deflections"] == points  # the way counts, and so do its steps
+    assert ANCF_WHEEL.tasks(rough)[0].inputs["options"]["hub"] == "rigid"
+    soft = study.model_copy(update={"fe": study.fe.model_copy(update={"hub": "elastic"})})
+    assert ANCF_WHEEL.tasks(soft)[0].inputs["options"]["hub"] == "elastic"
     assert every_second([1.0, 2.0, 3.0]) == [1.0, 3.0]
     assert every_second([1.0, 2.0]) == [2.0]
 
@@ -167,7 +173,6 @@ def test_one_task_an_orientation_at_every_second_point(study: Study) -> None:
 @pytest.mark.parametrize(
     ("section", "key", "value"),
     [
-        ("fe", "hub", "elastic"),
         ("fe", "material_law", "neo_hooke"),
         ("fe", "contact_stiffness", None),
         ("fe", "contact_method", "augmented_lagrangian"),
@@ -180,3 +185,10 @@ def test_what_its_model_does_not_have_is_not_asked(study: Study, section: str, k
     assert [told for told in warnings_of(changed) if told.startswith("[ancf_wheel] has no effect")]
     assert not [told for told in warnings_of(study) if "ancf_wheel" in told]
     assert not ANCF_WHEEL.applies(study.model_copy(update={"ancf_wheel": None}))
+
+
+def test_an_elastic_hub_needs_springs_that_end_on_it() -> None:
+    strips = read_study(ROOT / "studies/amalia.toml")
+    soft = strips.model_copy(update={"fe": strips.fe.model_copy(update={"hub": "elastic"})})
+    assert "without springs between rim and hub" in str(without_ancf_wheel(soft))
+    assert without_ancf_wheel(strips) is None

@@ -17,7 +17,7 @@ def without_ancf_wheel(study: Study) -> str | None:
     """Which part of the study its ANCF wheel does not have; None where it has all."""
     fe = study.fe
     lacks = (
-        (f"fe.hub = {fe.hub}", fe.hub != "rigid"),
+        (f"fe.hub = {fe.hub} without springs between rim and hub", fe.hub != "rigid" and not study.wheel.springs),
         ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
         (f"fe.contact_method = {fe.contact_method}", fe.contact_method != "penalty"),
         (f"fe.material_law = {fe.material_law}", fe.material_law != "st_venant_kirchhoff"),
