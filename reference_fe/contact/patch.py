@@ -10,7 +10,15 @@ from numpy.typing import NDArray
 
 from contracts.mesh import TaggedMesh
 
-__all__ = ["ContactPatch", "contact_faces", "distance_at_touch", "facet_samples", "facet_widths", "measure_patch"]
+__all__ = [
+    "ContactPatch",
+    "contact_faces",
+    "distance_at_touch",
+    "facet_areas",
+    "facet_samples",
+    "facet_widths",
+    "measure_patch",
+]
 
 _SAMPLES = 13
 _DENSE_SAMPLES = 25
@@ -85,21 +93,28 @@ def measure_patch(
     tangent : (dim,) unit vector in the ground along which the length is measured [-]
     touch_gap : normal gap below which a point counts as touching [m], e.g. the ramp of the contact law
     """
-    shape, derivatives, weights = _gauss(facets.shape[1])
-    reference = mesh.points[facets]
-    current = np.einsum("sn,fnk->fsk", shape, reference + displacement[facets])
-    jacobian = np.linalg.norm(_area_vectors(derivatives, reference), axis=-1) * facet_widths(mesh, facets)[:, None]
+    shape, areas = facet_areas(mesh, facets, _GAUSS_POINTS)
+    current = np.einsum("sn,fnk->fsk", shape, (mesh.points + displacement)[facets])
     gap = gap_of(current.reshape(-1, current.shape[-1])).reshape(current.shape[:-1])
     closed = gap < touch_gap
     if not closed.any():
         return ContactPatch(area=0.0, length=0.0, penetration=0.0)
     along = (current @ tangent)[closed]
-    area = float(np.sum(np.where(closed, jacobian * weights, 0.0)))
+    area = float(np.sum(np.where(closed, areas, 0.0)))
     near = gap.min(axis=1) < touch_gap + np.ptp(gap, axis=1)
     dense, _ = _lattice(facets.shape[1], _DENSE_SAMPLES)
     points = np.einsum("sn,fnk->fsk", dense, (mesh.points + displacement)[facets[near]])
     lowest = float(gap_of(points.reshape(-1, points.shape[-1])).min())
     return ContactPatch(area=area, length=float(np.ptp(along)), penetration=max(0.0, -lowest))
+
+
+def facet_areas(
+    mesh: TaggedMesh, facets: NDArray[np.int64], points: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Shape functions (s, n) at a facet's Gauss points, so many an axis, and their undeformed areas (n_facets, s)."""
+    shape, derivatives, weights = _gauss(facets.shape[1], points)
+    jacobian = np.linalg.norm(_area_vectors(derivatives, mesh.points[facets]), axis=-1)
+    return shape, jacobian * weights * facet_widths(mesh, facets)[:, None]
 
 
 def facet_widths(mesh: TaggedMesh, facets: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -124,9 +139,9 @@ def _lattice(nodes: int, samples: int = _SAMPLES) -> tuple[NDArray[np.float64], 
     return _shapes(np.linspace(-1.0, 1.0, samples), nodes)
 
 
-def _gauss(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def _gauss(nodes: int, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Gauss points of a facet: shape functions (s, n), derivatives (dim - 1, s, n), weights (s,)."""
-    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    points, weights = np.polynomial.legendre.leggauss(count)
     return (*_shapes(points, nodes), weights if nodes in _EDGE_ORDER else np.outer(weights, weights).ravel())
 
 

@@ -72,7 +72,7 @@ def wheel_problem(mesh: TaggedMesh, materials: Mapping[str, Material], load_case
     if any(material.thermal_strain for material in materials.values()):
         expanded = solve_thermal_state(domain, flexible, supports, discretisation, load_case.newton, held)
         shape = replace(mesh, points=mesh.points + expanded.nodal_displacement())
-    contact = _ground(shape, load_case)
+    contact = ground_contact(shape, load_case)
     inner = _inner_contact(mesh, load_case)
     problem = StaticProblem(
         domain,
@@ -105,7 +105,7 @@ def _axes(mesh: TaggedMesh) -> list[int]:
     return [0, 2] if mesh.dim == 2 else [0, 1, 2]
 
 
-def _ground(shape: TaggedMesh, load_case: WheelLoadCase) -> ObstacleContact:
+def ground_contact(shape: TaggedMesh, load_case: WheelLoadCase) -> ObstacleContact:
     """The obstacle where it just touches the wheel, which has this shape."""
     axes = _axes(shape)
     normal, along = ground_axes(ground_direction_h(np.deg2rad(load_case.orientation_deg)), load_case)

@@ -36,6 +36,7 @@ TASKS = {
         "ancf_surfaces",
         "metrics",
         "parts_overlap",
+        "footprints",
         "pictures",
     ),
     "environment_-40C",

@@ -29,7 +29,7 @@ from workbench.study.sweep_points import sweep_points
 ENOUGH = {"name", "title", "wheel", "materials", "mesh", "fe"}
 ALWAYS = {"models", "wheel", "fe", "orientations", "strength", "section", "numerics", "crosscheck"}
 """The last one because of the record beside the built-in study's file."""
-OTHERS = {"mesh", "mesh_whole", "metrics", "pictures", "parts_overlap"}
+OTHERS = {"mesh", "mesh_whole", "metrics", "pictures", "parts_overlap", "footprints"}
 ADDED = {
     "ancf": {"ancf", "ancf_mesh", "ancf_dynamics"},
     "brush": set(),

@@ -24,6 +24,7 @@ from workbench.execution.result_files import early_ends, losses_of_stability
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
 from workbench.questions.curve_graph import MODELS, stiffness_tasks
+from workbench.questions.fe.graph import footprint_tasks
 from workbench.questions.models.curves import stiffness_curves
 from workbench.questions.strength.yielding import PeakStress, peak_stresses
 from workbench.report.folders import check_folder, check_targets
@@ -49,8 +50,10 @@ def run_stiffness(
     if model == "brush" and orientations:
         warn(study_path, ["the brush is the same at every orientation: --orientation changes nothing"])
     check_folder(out)
-    check_targets(out, ("curves/any", "fields/any", f"{model}_peak_stress.csv"))
+    check_targets(out, ("curves/any", "fields/any", "footprints/any", f"{model}_peak_stress.csv"))
     tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
+    if model == "fe":
+        tasks += tuple(footprint_tasks(study, [task for task in tasks if task.name.startswith("fe_")]))
     entries = computed(study_path, tasks, store, computing)
     folders = {name: entry.path for name, entry in entries.items()}
     with naming(study_path):
@@ -59,9 +62,8 @@ def run_stiffness(
     texts = {f"{model}_peak_stress.csv": _peaks_csv(peaks)} if peaks else {}
     tell_kept(publish(out, f"stiffness {model}", texts, curves, copies=fields))
     _print(model, curves, peaks)
-    for what, written in (("curves", curves), ("fields", fields)):
-        if written:
-            console.print(f"{what}: {out / what}", soft_wrap=True)
+    for what in (*(["curves"] if curves else []), *sorted({name.split("/")[0] for name in fields})):
+        console.print(f"{what}: {out / what}", soft_wrap=True)
     for name in texts:
         console.print(f"peak stresses of every part: {out / name}", soft_wrap=True)
     warn(study_path, [f"{task}: {told}" for task, told in losses_of_stability(folders).items()])

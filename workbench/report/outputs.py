@@ -19,6 +19,7 @@ from contracts.series import TimeSeries, write_series
 from contracts.text import for_json, one_line
 from workbench.execution.store import Entry
 from workbench.questions.fe.field_file import POINTS_FILE
+from workbench.questions.fe.graph import FOOTPRINTS
 from workbench.report.evidence import Evidence
 from workbench.report.placing import new_files
 from workbench.report.series import SERIES_FOLDER, series_files
@@ -51,10 +52,12 @@ def curve_links(curves: Sequence[StiffnessCurve]) -> dict[str, str]:
 
 
 def field_files(entries: Mapping[str, Entry]) -> dict[str, Path]:
-    """``fields/fe_phi000_200N.vtu``, ``fields/fe_phi000_points.npz`` -> the file in the store."""
+    """``fields/fe_phi000_200N.vtu``, ``fields/fe_phi000_points.npz``, ``footprints/fe_phi000_200N.csv`` -> the file."""
     patterns = ("fields_*N.vtu", POINTS_FILE)
     found = [(n, path) for n, entry in entries.items() for one in patterns for path in sorted(entry.path.glob(one))]
-    return {f"fields/{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
+    footprints = sorted(entries[FOOTPRINTS].path.glob("*N.csv")) if FOOTPRINTS in entries else []
+    fields = {f"fields/{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
+    return fields | {f"footprints/{path.name}": path for path in footprints}
 
 
 def publish(

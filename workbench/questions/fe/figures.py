@@ -5,11 +5,15 @@ Verified by tests/end_to_end/test_report.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
+
 from contracts.curves import Around, StiffnessCurve
 from contracts.errors import InputError
+from contracts.footprint import Footprint
 from workbench.charts.curves import DASHES, add_area, add_line, add_orientations
 from workbench.charts.interactive import Figure, empty_figure, figure_html
 from workbench.charts.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
@@ -20,10 +24,20 @@ from workbench.questions.words.plausible import plausible
 from workbench.study.reference import THESIS_KIND, BandReference, ReferenceSection
 from workbench.study.reference_file import load_band, read_band
 
-__all__ = ["add_reference", "add_uncertainty", "add_users", "around_figure", "fe_figure", "stress_figure"]
+__all__ = [
+    "add_reference",
+    "add_uncertainty",
+    "add_users",
+    "around_figure",
+    "fe_figure",
+    "footprint_figure",
+    "stress_figure",
+]
 
 _TOLD_AT = 0.010, 0.020, 0.030
 """Deflections at which loads are drawn around the wheel [m]."""
+_MAP = 4e-3
+"""Distance of the places of a footprint's map [m]."""
 _GREEN = "#009e73"
 _STRONG = "rgba(0, 158, 115, 0.35)"
 _LEAST = 3
@@ -85,6 +99,29 @@ def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:
             annotation_position="top left",
         )
     return figure_html(figure, "stress-curves")
+
+
+def footprint_figure(footprints: Mapping[float, Footprint]) -> str:
+    """Mean pressure on the ground at the first orientation, from above, around places 4 mm apart."""
+    if not footprints:
+        return ""
+    first, *_ = footprints.values()
+    count = math.ceil(float(np.abs(first.place).max()) / _MAP) + 1
+    grid = _MAP * np.arange(-count, count + 1, dtype=np.float64)
+    pressure = first.spread(grid, grid)
+    figure = empty_figure("forward of the hub [mm]", "left of the wheel's middle [mm]")
+    figure.add_heatmap(
+        x=1e3 * grid,
+        y=1e3 * grid,
+        z=1e-6 * pressure.T,
+        colorscale=[[0.0, "#ffffff"], [0.15, "#9ecae1"], [1.0, "#08306b"]],
+        colorbar={"title": {"text": "MPa"}},
+        hovertemplate="%{x:.0f} mm forward, %{y:.0f} mm left: %{z:.2f} MPa<extra></extra>",
+    )
+    figure.update_layout(hovermode="closest")
+    figure.update_xaxes(rangemode="normal")
+    figure.update_yaxes(rangemode="normal", scaleanchor="x")
+    return figure_html(figure, "footprint")
 
 
 def add_uncertainty(figure: Figure, average: StiffnessCurve, study: MeshStudy | None) -> None:

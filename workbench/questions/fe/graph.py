@@ -18,18 +18,22 @@ from workbench.study.orientation import degrees, orientation_name
 from workbench.study.wheel_design import wheel_design
 
 __all__ = [
+    "FOOTPRINTS",
     "HUB_PARTS",
     "INNER_STIFFNESS",
     "curve_deflections",
     "fe_curve_tasks",
     "fe_inputs",
     "fe_task",
+    "footprint_tasks",
     "material_inputs",
     "without_end",
     "without_fields",
 ]
 
 
+FOOTPRINTS = "footprints"
+"""Task that finds them."""
 HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
 """Parts within the springs' welds on the hub, outside to inside."""
 INNER_STIFFNESS = 1e11
@@ -98,3 +102,15 @@ def fe_curve_tasks(study: Study, orientations_deg: Sequence[float] = ()) -> list
     points = curve_deflections(study)
     wanted = orientations_deg or [degrees(o) for o in study.fe.orientations]
     return [fe_task(orientation_name("fe", o), fe_inputs(study, o, points)) for o in wanted]
+
+
+def footprint_tasks(study: Study, curves: Sequence[Task], mesh: str = "mesh") -> list[Task]:
+    """Footprints of curves at the study's snapshot loads; none where pressures do not follow from a gap to a plane."""
+    fe = study.fe
+    told = fe.snapshot_loads and fe.obstacle.shape == "plane" and fe.contact_method == "penalty"
+    if not told or fe.contact_stiffness is None:
+        return []
+    inputs = {"mesh": mesh, "cases": {curve.name: dict(curve.inputs) for curve in curves}}
+    needs = (mesh, *(curve.name for curve in curves))
+    function = "workbench.questions.fe.footprint_task:find"
+    return [Task(name=FOOTPRINTS, function=function, inputs=inputs, needs=needs, cost=5.0)]

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from contracts.records import Check
 from workbench.execution.task import Task
 from workbench.questions.fe.checks import overlap_checks, parts_overlap_check, reach_check, spread_checks
-from workbench.questions.fe.graph import fe_curve_tasks
+from workbench.questions.fe.graph import fe_curve_tasks, footprint_tasks
 from workbench.questions.fe.reference_checks import reference_checks
 from workbench.questions.fe.results import OVERLAP, ContinuumCurves, read_continuum
 from workbench.questions.question import Question
@@ -36,11 +36,12 @@ def _tasks(study: Study) -> Sequence[Task]:
         needs=(MESH_WHOLE, MESH, curves[0].name),
         cost=10.0,
     )
+    always = [*curves, pictures, *footprint_tasks(study, curves)]
     if not study.fe.keep_points:
-        return [*curves, pictures]
+        return always
     needs = (MESH, *(curve.name for curve in curves))
     function = "workbench.questions.fe.overlap_task:measure"
-    return [*curves, pictures, Task(name=OVERLAP, function=function, inputs={"mesh": MESH}, needs=needs, cost=5.0)]
+    return [*always, Task(name=OVERLAP, function=function, inputs={"mesh": MESH}, needs=needs, cost=5.0)]
 
 
 def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
@@ -58,7 +59,7 @@ def _checks(study: Study, results: ContinuumCurves) -> Sequence[Check]:
 
 def _figures(study: Study, results: ContinuumCurves) -> Mapping[str, str]:
     from workbench.charts.packing import picture_link
-    from workbench.questions.fe.figures import around_figure, fe_figure, stress_figure
+    from workbench.questions.fe.figures import around_figure, fe_figure, footprint_figure, stress_figure
     from workbench.questions.wheel.scene import stress_scene
 
     first, *_ = [*results.fe.loaded.values(), results.fe.average]
@@ -68,6 +69,7 @@ def _figures(study: Study, results: ContinuumCurves) -> Mapping[str, str]:
         "fe": fe_figure(results.fe, results.mesh_study, results.users, study.reference),
         "around": around_figure(results.fe, around(study)),
         "stress": stress_figure(first, strengths),
+        "footprint": footprint_figure(results.footprints),
         "stress_scene": stress_scene(results.mesh_folder, results.solved, min(strengths.values()), deformed),
     }
 

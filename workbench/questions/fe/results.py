@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
+from contracts.footprint import Footprint, read_footprint
 from workbench.execution.result_files import read_result
+from workbench.questions.fe.graph import FOOTPRINTS
 from workbench.questions.mesh_study.question import mesh_study_of
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves
@@ -44,6 +46,7 @@ class ContinuumCurves:
     users : the curves of the study's reference
     mesh_folder, solved : where the mesh lies, and the fields of each orientation [deg]
     picture : still of the deformed wheel; None if no orientation came to its load
+    footprints : at the first snapshot load, by orientation [deg]; empty where there are none
     overlaps : deepest overlap of any two parts at each curve's last point; None where its fields are not kept
     """
 
@@ -53,6 +56,7 @@ class ContinuumCurves:
     mesh_folder: Path
     solved: Mapping[float, Path]
     picture: Path | None
+    footprints: Mapping[float, Footprint]
     overlaps: Mapping[str, PartsDepth] | None = None
 
     @property
@@ -72,8 +76,17 @@ def read_continuum(study: Study, folders: Mapping[str, Path]) -> ContinuumCurves
         mesh_folder=folders[MESH],
         solved={o: folders[orientation_name("fe", o)] for o in fe.by_orientation},
         picture=next(iter(sorted(folders["pictures"].glob("deformed_*N.png"))), None),
+        footprints=_footprints(study, folders, fe.by_orientation),
         overlaps=_overlaps(folders[OVERLAP]) if OVERLAP in folders else None,
     )
+
+
+def _footprints(study: Study, folders: Mapping[str, Path], orientations: Iterable[float]) -> dict[float, Footprint]:
+    if FOOTPRINTS not in folders:
+        return {}
+    load = study.fe.snapshot_loads[0]
+    files = {o: folders[FOOTPRINTS] / f"{orientation_name('fe', o)}_{load:.0f}N.csv" for o in orientations}
+    return {o: read_footprint(path) for o, path in files.items() if path.is_file()}
 
 
 def _overlaps(folder: Path) -> dict[str, PartsDepth]:
