@@ -3,7 +3,8 @@
 The residuals are differences of load over a scale. At each deflection they are split into the mean over the
 orientations and the deviations from it, r_i = m + (r_i - m), and the mean may weigh more: sum_i r_i^2 becomes
 n w^2 m^2 + sum_i (r_i - m)^2, which is ordinary least squares for w = 1. Trust-region reflective steps of scipy, with
-the gradient of `load_sensitivity`; a trial where no equilibrium is found only shrinks the step.
+the gradient of `load_sensitivity`; a trial where no equilibrium is found only shrinks the step. Stiffnesses against the
+hub's travel may be data too (`travel_fit`): one row more for each orientation and way, w_t (S / S_data - 1).
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from scipy.optimize import least_squares
 from ancf_reduced.fit.fit_statistics import FitStatistics, fit_statistics
 from ancf_reduced.fit.load_sensitivity import load_gradient, vary_tire
 from ancf_reduced.fit.parameters import FreeParameter, preset_at, unknowns_of
+from ancf_reduced.fit.travel_fit import TravelData, travel_gradient, travel_stiffness
 from ancf_reduced.motion.equilibrium import NewtonControls
 from ancf_reduced.tire.mesh import Tire, build_tire
 from ancf_reduced.tire.preset import TirePreset
@@ -44,6 +46,7 @@ class LoadData:
     load : (n_phi, n) float [N]
     scale : (n_phi, n) float [N], > 0; a difference of this size counts as 1
     mean_weight : w >= 1 [-], see the module
+    travel : stiffnesses to be met besides, at the same orientations; None for none
 
     Raises
     ------
@@ -58,6 +61,7 @@ class LoadData:
     load: FloatArray
     scale: FloatArray
     mean_weight: float = 1.0
+    travel: TravelData | None = None
 
     def __post_init__(self) -> None:
         shape = (len(self.phi), len(self.deflection))
@@ -69,6 +73,14 @@ class LoadData:
         if np.any(self.scale <= 0.0) or not (math.isfinite(self.mean_weight) and self.mean_weight >= 1.0):
             shown = f"smallest scale {self.scale.min():g} N, weight {self.mean_weight:g}"
             raise InputError("weights of the fit", shown, "need a scale > 0 and a weight >= 1", "use 1 for all")
+        if self.travel is not None and len(self.travel.stiffness) != len(self.phi):
+            shown = f"{len(self.travel.stiffness)} orientations"
+            raise InputError("travel stiffness", shown, f"must be given at {len(self.phi)}", "one row an orientation")
+
+    @property
+    def size(self) -> int:
+        """Rows of the least-squares problem."""
+        return self.load.size + (0 if self.travel is None else self.travel.stiffness.size)
 
     def weighted(self, values: FloatArray) -> FloatArray:
         """Rows of the least-squares problem from values (n_phi, n, ...) [N]: over the scale, mean weighed, flat."""
@@ -87,6 +99,8 @@ class CurveFit:
     free : what was free
     data : what was to be met
     states : equilibria of the fitted tire at the data's deflections, for each orientation
+    travel : the fitted tire's stiffnesses against travel, (n_phi, n_ways) float [N/m; N m/rad]; None without such data
+    sum_of_squares : of the weighted residual [-]
     statistics : intervals, correlation, condition of the free parameters at the optimum
     evaluations : tires solved
     settled : False if the search ended at its limit of tires
@@ -97,6 +111,8 @@ class CurveFit:
     free: tuple[FreeParameter, ...]
     data: LoadData
     states: tuple[TireEquilibria, ...]
+    travel: FloatArray | None
+    sum_of_squares: float
     statistics: FitStatistics
     evaluations: int
     settled: bool
@@ -142,23 +158,31 @@ class _Trials:
         return self.last[1:]
 
     def residual(self, unknowns: FloatArray) -> FloatArray:
-        """Weighted residual [-] of load minus data, (n_phi n,), orientation after orientation.
+        """Weighted residual [-] of load minus data, (n_phi n,), orientation after orientation, then of the travels.
 
         NaN where the tire is impossible or has no equilibrium, which scipy steps back from; the first trial raises.
         """
+        first = self.last is None
         try:
-            states = self.solve(unknowns)[1]
+            tire, states = self.solve(unknowns)
+            rows = self.data.weighted(np.array([s.load for s in states]) - self.data.load)
+            if (data := self.data.travel) is None:
+                return rows
+            stiffness = travel_stiffness(tire, states, data, _CONTROLS)
+            return np.concatenate([rows, data.weighted(stiffness - data.stiffness)])
         except (ConvergenceError, MeshError, InputError):
-            if self.last is None:
+            if first:
                 raise
-            return np.full(self.data.load.size, np.nan)
-        return self.data.weighted(np.array([s.load for s in states]) - self.data.load)
+            return np.full(self.data.size, np.nan)
 
     def jacobian(self, unknowns: FloatArray) -> FloatArray:
-        """Its derivative by the unknowns, (n_phi n, n_free) [-, 1/rad]."""
+        """Its derivative by the unknowns, (n_rows, n_free) [-, 1/rad]."""
         tire, states = self.solve(unknowns)
         varied = vary_tire(tire, self.free)
-        return self.data.weighted(np.array([load_gradient(varied, s) for s in states]))
+        rows = self.data.weighted(np.array([load_gradient(varied, s) for s in states]))
+        if (data := self.data.travel) is None:
+            return rows
+        return np.concatenate([rows, data.weighted(travel_gradient(varied, states, data, _CONTROLS))])
 
 
 def fit_curves(
@@ -207,7 +231,7 @@ def fit_curves(
         gtol=tolerance,
         max_nfev=max_evaluations,
     )
-    states = trials.solve(found.x)[1]
+    tire, states = trials.solve(found.x)
     inside = (found.x - lower > _AT_BOUND) & (upper - found.x > _AT_BOUND)
     return CurveFit(
         start=start,
@@ -215,6 +239,8 @@ def fit_curves(
         free=tuple(free),
         data=data,
         states=tuple(states),
+        travel=None if data.travel is None else travel_stiffness(tire, states, data.travel, _CONTROLS),
+        sum_of_squares=2.0 * float(found.cost),
         statistics=fit_statistics(np.asarray(found.jac), found.fun, found.x, inside),
         evaluations=trials.evaluations,
         settled=found.status > 0,
@@ -227,8 +253,8 @@ def _check(start: TirePreset, free: Sequence[FreeParameter], data: LoadData) -> 
     if not free or len(set(fields)) < len(fields):
         shown = ", ".join(p.parameter for p in free) or "none"
         raise InputError("free parameters", shown, "need one or more, none twice", "thickness is rim and spokes")
-    if data.load.size <= len(free):
-        shown = f"{data.load.size} loads for {len(free)} parameters"
+    if data.size <= len(free):
+        shown = f"{data.size} data for {len(free)} parameters"
         raise InputError("data of the fit", shown, "must be more than the parameters", "add deflections")
     for p in free:
         value = p.parameter.of(start)

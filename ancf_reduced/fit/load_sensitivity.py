@@ -18,17 +18,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ancf_reduced.fit.parameters import FreeParameter, Parameter, preset_at, unknowns_of
-from ancf_reduced.plates.assembly import dense_matrix
 from ancf_reduced.tire.mesh import Tire, build_tire
 from ancf_reduced.tire.plane_problem import PlaneProblem
 from ancf_reduced.tire.static import TireEquilibria
+from ancf_reduced.tire.travel_stiffness import load_of, loaded_tangent
 from contracts.errors import ConvergenceError
 from contracts.frames import ground_direction_h
 
-__all__ = ["VariedTire", "load_gradient", "vary_tire"]
+__all__ = ["STEP", "VariedTire", "load_gradient", "partials", "vary_tire"]
 
 FloatArray = NDArray[np.float64]
-_STEP = 1e-5
+STEP = 1e-5
 """Step of the central differences, in the unknowns: relative, or radians."""
 
 
@@ -56,7 +56,7 @@ def vary_tire(tire: Tire, free: Sequence[FreeParameter]) -> VariedTire:
         if p.parameter in (Parameter.YOUNG_MODULUS, Parameter.CONTACT_STIFFNESS):
             pairs.append(None)
             continue
-        step = _STEP * np.eye(len(free))[i]
+        step = STEP * np.eye(len(free))[i]
         smaller, larger = (build_tire(preset_at(tire.preset, free, at + sign * step)) for sign in (-1.0, 1.0))
         pairs.append((smaller, larger))
     return VariedTire(tire=tire, free=tuple(free), pairs=tuple(pairs))
@@ -82,43 +82,42 @@ def load_gradient(varied: VariedTire, states: TireEquilibria) -> FloatArray:
     return np.array([_gradient_at(varied, problem, p, deflection) for p, deflection in rows])
 
 
-def _gradient_at(varied: VariedTire, problem: PlaneProblem, p: FloatArray, deflection: float) -> FloatArray:
-    """One row, (n_free,)."""
-    tire, free = varied.tire, varied.tire.tie.free
-    contact, elastic = problem.contact_force(p, deflection), tire.model.elastic_force(p)
-    at_rest = _load_of(contact, problem.direction)
-    if at_rest == 0.0:
-        return np.zeros(len(varied.free))
-    adjoint = _adjoint(problem, p, deflection)
-    gradient = np.empty(len(varied.free))
+def partials(
+    varied: VariedTire, problem: PlaneProblem, p: FloatArray, deflection: float
+) -> tuple[FloatArray, FloatArray]:
+    """Partial derivatives at fixed coordinates p (n_nodes, 4, 3) and deflection [m] by every free unknown.
+
+    Returns
+    -------
+    load, residual : (n_free,) float [N] and (n_free, 12 n_free_nodes) float [N, N m]; [N/rad, ...] for the phase
+    """
+    free = varied.tire.tie.free
+    contact, elastic = problem.contact_force(p, deflection), varied.tire.model.elastic_force(p)
+    loads, residuals = np.zeros(len(varied.free)), np.zeros((len(varied.free), 12 * len(free)))
     for i, (kind, pair) in enumerate(zip(varied.free, varied.pairs, strict=True)):
         if pair is not None:
             smaller, larger = (_load_and_residual(other, problem.direction, p[free], deflection) for other in pair)
-            load, residual = (larger[0] - smaller[0]) / (2.0 * _STEP), (larger[1] - smaller[1]) / (2.0 * _STEP)
+            loads[i], residuals[i] = (larger[0] - smaller[0]) / (2.0 * STEP), (larger[1] - smaller[1]) / (2.0 * STEP)
         elif kind.parameter is Parameter.YOUNG_MODULUS:
-            load, residual = 0.0, elastic[free].ravel()
+            residuals[i] = elastic[free].ravel()
         else:
-            load, residual = at_rest, -contact[free].ravel()
-        gradient[i] = load - adjoint @ residual
-    return gradient
+            loads[i], residuals[i] = load_of(contact, problem.direction), -contact[free].ravel()
+    return loads, residuals
 
 
-def _load_of(contact: FloatArray, direction: FloatArray) -> float:
-    """Load [N] from the generalised contact force (n_nodes, 4, 3): its positions' rows sum to the resultant."""
-    return float(-(contact[:, 0] @ direction).sum())
+def _gradient_at(varied: VariedTire, problem: PlaneProblem, p: FloatArray, deflection: float) -> FloatArray:
+    """One row, (n_free,)."""
+    if load_of(problem.contact_force(p, deflection), problem.direction) == 0.0:
+        return np.zeros(len(varied.free))
+    load, residual = partials(varied, problem, p, deflection)
+    return np.asarray(load - residual @ _adjoint(problem, p, deflection))
 
 
 def _adjoint(problem: PlaneProblem, p: FloatArray, deflection: float) -> FloatArray:
-    """lambda = K^-1 dF/dx on the free coordinates, (12 n_free,); dF/dp: sum of the contact tangent along the normal."""
-    tire = problem.tire
-    rows = (12 * tire.tie.free[:, None] + np.arange(12)).ravel()
-    contacts = problem.contact(deflection).tangents(p, np.zeros_like(p))[0]
-    tangent = dense_matrix(tire.mesh, tire.model.elastic_tangents(p) + contacts)
-    along = np.zeros_like(p)
-    along[:, 0] = problem.direction
-    slope = dense_matrix(tire.mesh, contacts) @ along.ravel()
+    """lambda = K^-1 dF/dx on the free coordinates, (12 n_free,)."""
+    tangent, slope, _ = loaded_tangent(problem, p, deflection)
     try:
-        return np.asarray(np.linalg.solve(tangent[np.ix_(rows, rows)], slope[rows]))
+        return np.asarray(np.linalg.solve(tangent, slope))
     except np.linalg.LinAlgError as error:
         message = f"the load's derivative at {deflection:.4g} m does not exist: the tangent is singular there"
         raise ConvergenceError(message, []) from error
@@ -129,4 +128,4 @@ def _load_and_residual(tire: Tire, direction: FloatArray, x: FloatArray, deflect
     problem = PlaneProblem(tire=tire, direction=direction)
     p = problem.expand(x)
     contact = problem.contact_force(p, deflection)
-    return _load_of(contact, direction), (tire.model.elastic_force(p) - contact)[tire.tie.free].ravel()
+    return load_of(contact, direction), (tire.model.elastic_force(p) - contact)[tire.tie.free].ravel()

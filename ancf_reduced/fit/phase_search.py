@@ -100,7 +100,7 @@ def fit_from_phases(
     if not good:
         raise failures[-1]
     trials = [_trial(p, fit) for p, fit in zip(begun, fits, strict=True)]
-    best = min(good, key=_sum_of_squares)
+    best = min(good, key=lambda fit: fit.sum_of_squares)
     found = fit_curves(best.preset, free, data, tolerance, known=best)
     spent = sum(fit.evaluations for fit in good)
     return PhaseSearch(fit=replace(found, start=start, evaluations=found.evaluations + spent), trials=tuple(trials))
@@ -109,8 +109,4 @@ def fit_from_phases(
 def _trial(start: float, fit: CurveFit | None) -> PhaseTrial:
     if fit is None:
         return PhaseTrial(start=start, found=None, sum_of_squares=None)
-    return PhaseTrial(start=start, found=fit.preset.phase, sum_of_squares=_sum_of_squares(fit))
-
-
-def _sum_of_squares(fit: CurveFit) -> float:
-    return float(np.sum(fit.data.weighted(fit.residual) ** 2))
+    return PhaseTrial(start=start, found=fit.preset.phase, sum_of_squares=fit.sum_of_squares)
