@@ -145,6 +145,7 @@ def _print(tires: Sequence[FittedTire[Held]], kept: FittedTire[Fitted]) -> None:
         mesh = str(n.preset.spokes), str(n.preset.circumferential_plates)
         table.add_row(tire.name, *mesh, *worst, *each)
     console.print(table)
+    _print_travels(tires)
     columns = ("parameter", "value", "95 % interval")
     table = empty_table(f"{kept.name}: parameters", columns, texts=["parameter"])
     for row in kept.numbers.parameters:
@@ -153,6 +154,26 @@ def _print(tires: Sequence[FittedTire[Held]], kept: FittedTire[Fitted]) -> None:
     console.print(table)
     for pair in kept.numbers.indistinguishable:
         console.print(f"cannot be told apart: {' and '.join(pair)}")
+
+
+def _print_travels(tires: Sequence[FittedTire[Held]]) -> None:
+    """Stiffnesses against the hub's travel, of the FE wheel and of every tire beside it, if the study asks for them."""
+    rows = tires[0].numbers.travels
+    if not rows:
+        return
+    columns = ("travel", "at", "FE", *(text for tire in tires for text in (tire.name, "to FE")))
+    title = f"stiffness against the hub's travel under {tires[0].numbers.travel_load_N:g} N"
+    table = empty_table(title, columns, texts=["travel"])
+    for i, row in enumerate(rows):
+        scale, unit = (1e-3, "N/mm") if row.unit == "N/m" else (1.0, row.unit)
+        cells = [f"{row.way}, {unit}", f"{row.orientation_deg:g} deg", f"{scale * row.fe:.2f}"]
+        for own in (tire.numbers.travels[i] for tire in tires):
+            if own.tire is None or own.difference is None:
+                cells += ["–", "–"]
+            else:
+                cells += [f"{scale * own.tire:.2f}", f"{100.0 * own.difference:+.0f} %"]
+        table.add_row(*cells)
+    console.print(table)
 
 
 def _interval(ends: Sequence[float] | None, unit: str) -> str:

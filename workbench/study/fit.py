@@ -9,7 +9,7 @@ from pydantic import Field, StrictInt, model_validator
 from workbench.study.quantities import Angle, Force, Length, Number, Pressure, Stiffness
 from workbench.study.section import Positive, Section, in_key
 
-__all__ = ["AncfFitSection", "FitBoundsSection", "FitStartSection", "FittedTireSection"]
+__all__ = ["AncfFitSection", "FitBoundsSection", "FitStartSection", "FitTravelSection", "FittedTireSection"]
 
 type ParameterName = Literal[
     "young_modulus",
@@ -21,6 +21,7 @@ type ParameterName = Literal[
     "contact_stiffness",
     "phase",
 ]
+type WayName = Literal["fore_aft", "lateral", "turning"]
 _Lengths = tuple[Annotated[Length, Positive], Annotated[Length, Positive]]
 
 
@@ -102,6 +103,23 @@ class FittedTireSection(Section):
         return self
 
 
+class FitTravelSection(Section):
+    """Stiffnesses against the hub's travel over the ground as data of the fit, at every orientation of [fe]."""
+
+    ways: Annotated[tuple[WayName, ...], Field(min_length=1)] = ("lateral", "turning")
+    """Travels of the hub: fore_aft, lateral, and turning about the vertical."""
+    load: Annotated[Force, Positive] = 200.0
+    """Under which the wheel stands, within load_range [N]."""
+    weight: Annotated[Number, Positive, Field(le=1e3)] = 1.0
+    """Of a stiffness' relative difference against one of a load at one orientation [-]."""
+
+    @model_validator(mode="after")
+    def _once(self) -> FitTravelSection:
+        if len(set(self.ways)) < len(self.ways):
+            raise in_key("ways", ", ".join(self.ways), "must name nothing twice", "leave out the repeats")
+        return self
+
+
 class AncfFitSection(Section):
     """Fit of the ANCF tire to the FE curves: loads [N] of their average between which it counts, number of deflections,
     weight of the average against the orientations' deviations from it [-], tires.
@@ -119,6 +137,8 @@ class AncfFitSection(Section):
     """Name of the tire that is kept; the first without it."""
     bounds: FitBoundsSection = FitBoundsSection()
     """Lowest and highest value of each free parameter."""
+    travel: FitTravelSection | None = None
+    """Stiffnesses against travel among the data; none without it."""
     tires: Annotated[tuple[FittedTireSection, ...], Field(min_length=1)]
     """What is fitted."""
 

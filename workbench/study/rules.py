@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from contracts.errors import InputError
 from workbench.study.broken_rule import BrokenRule
+from workbench.study.fit import AncfFitSection
 from workbench.study.key_units import absent, as_written, is_table, parts_of
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, fit_start, rover_radius
@@ -198,6 +199,7 @@ def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
     section = study.ancf_fit
     if section is None:
         return
+    yield from _of_the_travels(study, section)
     freed = {name for tire in section.tires for name in tire.free}
     for name in sorted(section.bounds.model_fields_set - freed):
         key = f"ancf_fit.bounds.{name}"
@@ -221,6 +223,17 @@ def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
                 rule = f"must begin within its bounds, {bounds} = {' to '.join(ends)}"
                 hint = "give another start or widen the bounds"
                 yield BrokenRule(key=f"{key}.start.{own}", value=value, rule=rule, hint=hint)
+
+
+def _of_the_travels(study: Study, section: AncfFitSection) -> Iterator[BrokenRule]:
+    """The load under which a wheel is moved must be among those that its curves come to, and that are fitted."""
+    if section.travel is None:
+        return
+    load, low, high = section.travel.load, section.load_range[0], min(section.load_range[1], study.fe.max_load)
+    if not low <= load <= high:
+        rule = f"must lie within ancf_fit.load_range and fe.max_load, {low:g} to {high:g} N"
+        hint = "give a load between, or widen them"
+        yield BrokenRule(key="ancf_fit.travel.load", value=f"{load:g} N", rule=rule, hint=hint)
 
 
 def _room(section: str, deflection: float, gap: float) -> Iterator[BrokenRule]:

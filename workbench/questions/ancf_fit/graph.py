@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict
 
+from contracts.hub_travel import Way
 from workbench.execution.task import Task
+from workbench.questions.travels import MESH_FULL, travel_name, travel_tasks
 from workbench.study.fit import FittedTireSection
 from workbench.study.full import around, is_mirrored
 from workbench.study.model import Study
@@ -42,7 +44,10 @@ def stand_task(study: Study, tire: str) -> Task:
 
 
 def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) -> list[Task]:
-    """The study's own tire as it is, and one fit for each tire of [ancf_fit], or of those given."""
+    """The study's own tire as it is, and one fit for each tire of [ancf_fit], or of those given.
+
+    Where it asks for stiffnesses against travel, also the FE runs that find them.
+    """
     section = study.ancf_fit
     if section is None:
         return []
@@ -54,10 +59,16 @@ def fit_tasks(study: Study, tires: Sequence[FittedTireSection] | None = None) ->
         "around": asdict(around(study)),
     }
     needs = tuple(orientation_name("fe", o) for o in orientations)
+    travels = list[Task]()
+    if section.travel is not None:
+        ways = tuple(Way(name) for name in section.travel.ways)
+        named = {travel_name("fe", way, o) for way in ways for o in orientations}
+        travels = [t for t in travel_tasks(study, "fe", ways, section.travel.load) if t.name in {MESH_FULL, *named}]
+        common["travel"] = section.travel.model_dump(mode="json")
+        needs += tuple(t.name for t in travels if t.name in named)
     own = ancf_tire(study) | common
-    tasks = [
-        Task(name=AS_IT_IS, function="workbench.questions.ancf_fit.task:evaluate", inputs=own, needs=needs, cost=5.0)
-    ]
+    evaluate = "workbench.questions.ancf_fit.task:evaluate"
+    tasks = [*travels, Task(name=AS_IT_IS, function=evaluate, inputs=own, needs=needs, cost=5.0)]
     for tire in section.tires if tires is None else tires:
         inputs = common | {
             "preset": asdict(fit_start(study, tire)),

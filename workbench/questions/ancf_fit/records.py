@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ancf_reduced.fit.phase_search import PhaseTrial
 from ancf_reduced.tire.preset import TirePreset
 
-__all__ = ["AverageError", "Fitted", "FittedParameter", "Held"]
+__all__ = ["AverageError", "Fitted", "FittedParameter", "Held", "TravelRow"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,6 +16,26 @@ class AverageError:
 
     largest: float
     at_load: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TravelRow:
+    """Stiffness against one travel of the hub at one orientation.
+
+    Attributes
+    ----------
+    way, orientation_deg : which one [deg]
+    unit : N/m, or N m/rad
+    fe, tire : of the solid wheel and of the tire [unit]; ``tire`` None where it does not stand under the load
+    difference : tire over solid wheel, less one [-]; None likewise
+    """
+
+    way: str
+    orientation_deg: float
+    unit: str
+    fe: float
+    tire: float | None
+    difference: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,6 +52,8 @@ class Held:
     largest_N : at each orientation, largest difference of load [N]
     average : error of the mean over the orientations
     mirrored_rms : as ``relative_rms``, at minus each orientation; None if not asked for or without equilibrium
+    travel_load_N : under which the hub was moved [N]; None without travels
+    travels : stiffnesses against travel, orientation by orientation; none if not asked for
     """
 
     preset: TirePreset
@@ -42,6 +64,8 @@ class Held:
     largest_N: tuple[float, ...]
     average: AverageError
     mirrored_rms: tuple[float, ...] | None
+    travel_load_N: float | None
+    travels: tuple[TravelRow, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ancf_reduced.fit.curve_fit import CurveFit, LoadData
 from ancf_reduced.fit.parameters import FreeParameter, Parameter, with_mass
 from ancf_reduced.fit.phase_search import fit_from_phases
+from ancf_reduced.fit.travel_fit import TravelData
 from ancf_reduced.plates.mass import flexible_mass
 from ancf_reduced.tire.mesh import Tire, build_tire
 from ancf_reduced.tire.static import solve_tire, tire_curve
@@ -31,6 +32,7 @@ from workbench.questions.ancf_fit.fit import (
     fitted_deflections,
 )
 from workbench.questions.ancf_fit.records import Fitted, FittedParameter, Held
+from workbench.questions.ancf_fit.travels import fe_travels, travel_rows
 from workbench.questions.model_curves import mean_curve
 from workbench.study.ancf_tire import preset_from, tire_from
 from workbench.study.orientation import orientation_name
@@ -53,7 +55,9 @@ def evaluate(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pr
     """Curves of a preset at the FE's orientations and how far they lie from the FE's."""
     tire = tire_from(inputs)
     try:
-        write_result(out, asdict(_held_against(tire, inputs, fe_curves(needs, inputs["orientations_deg"]), out)))
+        solid = fe_curves(needs, inputs["orientations_deg"])
+        travels = fe_travels(inputs, needs, _orientations(solid))
+        write_result(out, asdict(_held_against(tire, inputs, (solid, travels), out)))
     except (InputError, ConvergenceError) as error:
         write_result(out, {FAILURE: str(error)})
     return _unknowns(tire)
@@ -75,15 +79,15 @@ def _fitted(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, pro
     deflection = fitted_deflections(average, inputs["load_range"], inputs["points"])
     load = np.array([curve.load_at(deflection) for curve in solid])
     scale = np.broadcast_to(average.load_at(deflection), load.shape)
-    phi = np.radians([curve.orientation_deg for curve in solid if curve.orientation_deg is not None])
-    weight = inputs["average_weight"]
-    data = LoadData(phi=phi, deflection=deflection, load=load, scale=scale, mean_weight=weight)
+    phi, weight = np.radians(_orientations(solid)), inputs["average_weight"]
+    travels = fe_travels(inputs, needs, _orientations(solid))
+    data = LoadData(phi=phi, deflection=deflection, load=load, scale=scale, mean_weight=weight, travel=travels)
     free = [FreeParameter(parameter=Parameter(name), lower=low, upper=high) for name, low, high in inputs["free"]]
     search = fit_from_phases(preset_from(inputs["preset"]), free, data, inputs["phase_starts"], _TOLERANCE)
     found = search.fit
     progress(0.8)
     tire = build_tire(with_mass(found.preset, WHEEL_MASS))
-    held, statistics = _held_against(tire, inputs, solid, out), found.statistics
+    held, statistics = _held_against(tire, inputs, (solid, travels), out), found.statistics
     names = [p.parameter.value for p in found.free]
     return Fitted(
         **{field.name: getattr(held, field.name) for field in fields(held)},
@@ -103,12 +107,22 @@ def _unknowns(tire: Tire) -> int:
     return int(tire.mesh.reference_coordinates()[tire.tie.free].size)
 
 
-def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[StiffnessCurve], out: Path) -> Held:
-    """Write the tire's curves; its numbers, and its errors in percent of the load over the range of loads."""
+def _orientations(solid: Sequence[StiffnessCurve]) -> list[float]:
+    return [o for curve in solid if (o := curve.orientation_deg) is not None]
+
+
+def _held_against(
+    tire: Tire, inputs: Mapping[str, Any], fe: tuple[Sequence[StiffnessCurve], TravelData | None], out: Path
+) -> Held:
+    """Write the tire's curves; its numbers, and its errors in percent of the load over the range of loads.
+
+    fe : curves and travels of the solid wheel
+    """
+    solid, travels = fe
     average = mean_curve(solid, Around(**inputs["around"]))
     end = float(fitted_deflections(average, inputs["load_range"], 2)[-1])
     grid = [*np.arange(0.0, end - 0.1 * _STEP, _STEP).round(9).tolist(), end]
-    orientations = [o for curve in solid if (o := curve.orientation_deg) is not None]
+    orientations = _orientations(solid)
     curves = [tire_curve(tire, math.radians(o), grid) for o in orientations]
     for curve, o in zip(curves, orientations, strict=True):
         write_curve(curve, out / f"{orientation_name('ancf', o)}.csv")
@@ -123,6 +137,8 @@ def _held_against(tire: Tire, inputs: Mapping[str, Any], solid: Sequence[Stiffne
         largest_N=tuple(float(np.abs(f - s).max()) for f, s in pairs),
         average=average_error(curves, average, inputs["load_range"]),
         mirrored_rms=_mirrored_rms(tire, inside, solid) if inputs["mirrored"] else None,
+        travel_load_N=None if travels is None else travels.load,
+        travels=travel_rows(tire, travels, orientations, grid[1:]),
     )
 
 
