@@ -46,12 +46,49 @@ def test_the_fitted_tire_lands_in_a_study(workspace: Path, tmp_path: Path) -> No
     assert curves.returncode == 0, curves.stderr
 
 
+BOUNDS = "[ancf_fit.bounds]"
+TRAVEL = '[ancf_fit.travel]\nways = ["lateral", "turning"]\nload = "30 N"\nweight = 1\n\n'
+
+
+@pytest.mark.long
+def test_stiffnesses_against_travel_are_data_and_told(workspace: Path, tmp_path: Path) -> None:
+    """One orientation under 30 N: FE's and every tire's stiffness in the file and in the printed table."""
+    (tmp_path / "study.toml").write_text(small_study_text().replace(BOUNDS, TRAVEL + BOUNDS, 1), encoding="utf-8")
+    arguments = ("calibrate", "ancf", tmp_path / "study.toml", "--tire", "four_spokes", "--store", "store")
+    ended = run(*arguments, "--out", tmp_path / "out", folder=workspace)
+    assert ended.returncode in (0, 1), ended.stdout + ended.stderr
+    found = json.loads((tmp_path / "out" / "ancf_fit.json").read_text(encoding="utf-8"))
+    (tire,) = found["tires"]
+    for numbers in (found["own"], tire):
+        assert numbers["travel_load_N"] == 30.0
+        assert [(row["way"], row["unit"]) for row in numbers["travels"]] == [("lateral", "N/m"), ("turning", "N m/rad")]
+    for row, own in zip(tire["travels"], found["own"]["travels"], strict=True):
+        assert row["fe"] == own["fe"] > 0.0
+        assert row["difference"] == pytest.approx(row["tire"] / row["fe"] - 1.0)
+    for text in ("hub's travel under 30 N", "lateral", "N m/rad", f"{tire['travels'][1]['fe']:.4g}"):
+        assert text in ended.stdout
+
+
+@pytest.mark.long
+def test_a_load_that_a_curve_never_reaches_is_one_message(workspace: Path, tmp_path: Path) -> None:
+    text = small_study_text().replace(BOUNDS, TRAVEL.replace("30 N", "240 N") + BOUNDS, 1)
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    arguments = ("calibrate", "ancf", tmp_path / "study.toml", "--store", "store", "--out", tmp_path / "o")
+    ended = run(*arguments, folder=workspace)
+    assert ended.returncode == 2, ended.stdout + ended.stderr
+    assert "240 N" in ended.stderr
+    assert "Traceback" not in ended.stderr
+
+
 @pytest.mark.parametrize(
     ("arguments", "old", "new", "text"),
     [
         (("--tire", "nine_spokes"), "", "", "none of the study's (four_spokes, six_spokes)"),
         ((), "[ancf_fit]", "[ancf_fits]", "not a known key"),
         ((), 'load_range = ["20 N"', 'load_range = ["240 N"', "beyond the end of the FE average"),
+        ((), BOUNDS, TRAVEL.replace("lateral", "sideways") + BOUNDS, "ancf_fit.travel.ways"),
+        ((), BOUNDS, TRAVEL.replace("30 N", "10 N") + BOUNDS, "must lie within ancf_fit.load_range"),
+        ((), BOUNDS, TRAVEL.replace("weight = 1", "weight = 0") + BOUNDS, "ancf_fit.travel.weight"),
     ],
 )
 @pytest.mark.usefixtures("first_report")

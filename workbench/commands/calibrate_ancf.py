@@ -161,17 +161,17 @@ def _print_travels(tires: Sequence[FittedTire[Held]]) -> None:
     rows = tires[0].numbers.travels
     if not rows:
         return
-    columns = ("travel", "at", "FE", *(text for tire in tires for text in (tire.name, "to FE")))
-    title = f"stiffness against the hub's travel under {tires[0].numbers.travel_load_N:g} N"
+    columns = ("travel", "at", "FE", *(tire.name for tire in tires))
+    title = f"against the hub's travel under {tires[0].numbers.travel_load_N:g} N: N/mm, turning N m/rad"
     table = empty_table(title, columns, texts=["travel"])
     for i, row in enumerate(rows):
-        scale, unit = (1e-3, "N/mm") if row.unit == "N/m" else (1.0, row.unit)
-        cells = [f"{row.way}, {unit}", f"{row.orientation_deg:g} deg", f"{scale * row.fe:.2f}"]
+        scale = 1e-3 if row.unit == "N/m" else 1.0
+        cells = [row.way, f"{row.orientation_deg:g} deg", f"{scale * row.fe:.4g}"]
         for own in (tire.numbers.travels[i] for tire in tires):
             if own.tire is None or own.difference is None:
-                cells += ["–", "–"]
+                cells.append("–")
             else:
-                cells += [f"{scale * own.tire:.2f}", f"{100.0 * own.difference:+.0f} %"]
+                cells.append(f"{scale * own.tire:.4g} ({100.0 * own.difference:+.0f} %)")
         table.add_row(*cells)
     console.print(table)
 
