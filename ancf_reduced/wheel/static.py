@@ -16,15 +16,14 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.linalg import splu
 
-from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.contact_step import settle
 from ancf_reduced.wheel.contacts import Near, joined
 from ancf_reduced.wheel.ground import GroundContact, Pose, ground_frame
 from ancf_reduced.wheel.inner_contacts import RIM, InnerContacts
-from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
 from ancf_reduced.wheel.mesh import AncfWheel
 from ancf_reduced.wheel.reduction import Reduction
 from ancf_reduced.wheel.rubbing import Rubbed, Since, congruent, rubbed
+from ancf_reduced.wheel.ties import Ties
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.hub_travel import HubTravel
 from contracts.terrain import Plane, Terrain
@@ -35,9 +34,6 @@ Array = NDArray[np.float64]
 Mixed = tuple[list[Array], Array, Array]
 """Stresses of plates, forces of ties and of contacts [N]."""
 
-_TIE_POINTS = 4
-_TIE_STIFFNESS = 1e3
-"""Of a tie, in t E / length of the spring's plate [-]."""
 _LOWEST = 1e-6
 """Height above the lowest point up to which points are taken to touch first [m]."""
 _ASTRAY = 1e5
@@ -144,37 +140,14 @@ class WheelOnGround:
             rule = "must be > 0 for a wheel that moves over the ground: without, nothing resists"
             raise InputError("friction coefficient", "0", rule, "0.6 is the thesis'")
         self.wheel, self.orientation, self.camber, self.friction = wheel, orientation, camber, friction
-        plates, ties = wheel.plates, wheel.ties
+        plates = wheel.plates
         frame = ground_frame(orientation, camber)
         self.ground = GroundContact(wheel, terrain or Plane(), frame, contact_stiffness, travel)
         self._inner = InnerContacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else None
         self.counts = [self.ground.count, *(self._inner.counts if self._inner else [])]
-        at, weight = np.polynomial.legendre.leggauss(_TIE_POINTS)
-        at = 0.5 + 0.5 * at
-        own, on = (
-            np.stack([shape_tables(plates.sizes[k], *place.T)[:, :3] for k, place in zip(which, along, strict=True)])
-            for which, along in (
-                (which, ends[:, :1] + at[:, None] * (ends[:, 1:] - ends[:, :1]))
-                for which, ends in ((ties.spring, ties.edge), (ties.rim, ties.ends))
-            )
-        )
-        each = np.arange(len(ties.spring))
-        leaving = np.stack([own[:, :, 0], own[each, :, 1 + ties.leaving]], axis=2)
-        alone = ties.spring, ties.rim, ties.offset, leaving, on, ties.square
-        rest, ones = np.zeros((*on.shape[:2], 4)), np.ones(on.shape[:2])
-        find_tie_forces(
-            plates.reference, 0.0 * plates.reference, plates.plates, (*alone, 0.0 * rest), (ones, ones), rest
-        )
-        self._ties = *alone, rest
-        layers = [plates.layers[k][0] for k in ties.spring]
-        stiff = _TIE_STIFFNESS * np.array([layer.material.young_modulus * layer.thickness for layer in layers])
-        sizes = plates.sizes[ties.spring]
-        length, width = sizes[each, ties.leaving], sizes[each, 1 - ties.leaving]
-        share = 0.5 * weight[None] * width[:, None]
-        self._weights = share * (stiff / length)[:, None], share * ties.turning[:, None]
-        self._tie_numbers = np.concatenate([plates.numbers[ties.spring], plates.numbers[ties.rim]], axis=1)
+        self._ties = Ties(plates, wheel.ties)
         self._farthest = float(np.linalg.norm(plates.reference[:, 0], axis=1).max())
-        self._reduction = Reduction(wheel.basis, (plates.numbers, self._tie_numbers))
+        self._reduction = Reduction(wheel.basis, (plates.numbers, self._ties.numbers))
 
     def unloaded(self) -> Equilibrium:
         """The wheel at first touch."""
@@ -290,15 +263,13 @@ class WheelOnGround:
         q = self.wheel.coordinates(free)
         stresses, tied, pressed = mixed
         energy, force, blocks = plates.terms(q, stresses)
-        count = len(tied)
-        tie_force, tie_blocks = np.zeros((count, 32, 3)), np.zeros((count, 32, 3, 32, 3))
-        energy += tie_terms(q, plates.plates, self._ties, self._weights, tied, tie_force, tie_blocks)
+        tie_energy, tie_force, tie_blocks = self._ties.terms(q, tied)
         shares = np.split(pressed, np.cumsum(self.counts)[:-1])
         found = [self.ground.near(q, pose, shares[0], blocks)]
         found += self._inner.near(q, shares[1:], blocks) if self._inner else []
         near = joined(found, self.counts)
         total = np.bincount(plates.numbers.ravel(), weights=force.ravel(), minlength=plates.size)
-        total += np.bincount(self._tie_numbers.ravel(), weights=tie_force.ravel(), minlength=plates.size)
+        total += np.bincount(self._ties.numbers.ravel(), weights=tie_force.ravel(), minlength=plates.size)
         matrix = self._reduction(np.concatenate([blocks.ravel(), tie_blocks.ravel()]))
         if near.tangent is not None:
             rows, columns, values = near.tangent
@@ -320,7 +291,7 @@ class WheelOnGround:
             near=near.points,
             ground=found[0],
             friction=friction,
-            energy=energy + 0.5 * float(free @ held),
+            energy=energy + tie_energy + 0.5 * float(free @ held),
         )
 
     def material_tangent(self, free: Array) -> csc_array:
@@ -330,9 +301,7 @@ class WheelOnGround:
         """
         q, plates = self.wheel.coordinates(free), self.wheel.plates
         stresses, tied = self.extrapolated(free, np.zeros_like(free))
-        count = len(tied)
-        tie_force, tie_blocks = np.zeros((count, 32, 3)), np.zeros((count, 32, 3, 32, 3))
-        tie_terms(q, plates.plates, self._ties, self._weights, 0.0 * tied, tie_force, tie_blocks)
+        tie_blocks = self._ties.terms(q, 0.0 * tied)[2]
         blocks = plates.terms(q, [0.0 * stress for stress in stresses])[2]
         return csc_array(self._reduction(np.concatenate([blocks.ravel(), tie_blocks.ravel()])) + self.wheel.held)
 
@@ -340,9 +309,7 @@ class WheelOnGround:
         """Stresses of plates and forces of ties after a step, linearised."""
         plates = self.wheel.plates
         q, change = self.wheel.coordinates(free), (self.wheel.basis @ step).reshape(plates.reference.shape)
-        tied = np.empty((*self._weights[0].shape, 4))
-        find_tie_forces(q, change, plates.plates, self._ties, self._weights, tied)
-        return plates.stresses(q, change), tied
+        return plates.stresses(q, change), self._ties.after(q, change)
 
 
 def press(

@@ -12,9 +12,9 @@ from scipy.optimize import minimize
 from scipy.sparse import csr_array
 
 from ancf_reduced.wheel.contact_step import settle
-from ancf_reduced.wheel.kernels import tie_terms
 from ancf_reduced.wheel.mesh import build_ancf_wheel
 from ancf_reduced.wheel.static import Equilibrium, WheelOnGround, press
+from ancf_reduced.wheel.ties import Ties
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from geometry.wheel import WheelDesign, exomars_hoops
 
@@ -202,7 +202,6 @@ def test_a_tied_edge_turns_against_its_welds_stiffness(problem: WheelOnGround) -
             _, a, b, _ = plates.reference[plates.plates[rim, corner]]
             place = plates.plates[spring, corner]
             q[place, 1] = plates.reference[place, 1] + angle * np.cross(a, b)
-    force, none = np.zeros((len(ties.spring), 32, 3)), np.zeros((0, 32, 3, 32, 3))
-    energy = tie_terms(q, plates.plates, problem._ties, problem._weights, np.zeros((0, 4, 4)), force, none)
+    energy = Ties(plates, ties).terms(q, np.zeros((0, 4, 4)))[0]
     expected = 0.5 * float((ties.turning * plates.sizes[ties.spring, 1]).sum()) * angle**2
     assert energy == pytest.approx(expected, rel=1e-6)
