@@ -16,9 +16,27 @@ from reference_fe.contact.obstacles import Obstacle, Plane
 from reference_fe.material.hyperelastic import MaterialLaw
 from reference_fe.solver.newton import NewtonSettings
 
-__all__ = ["HUB_PARTS", "FieldSnapshot", "WheelLoadCase", "WheelResult"]
+__all__ = ["HUB_PARTS", "FieldSnapshot", "NamedFaces", "WheelLoadCase", "WheelResult"]
 
 HUB_PARTS = ("outer_hub", "cone", "impact_springs", "inner_hub")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedFaces:
+    """Face groups of a mesh that geometry did not build, by what they do.
+
+    Attributes
+    ----------
+    ground : those that may touch the obstacle
+    held : those that are held, beside the rigid parts
+    pairs : those that may touch each other, the first is held off the second
+
+    Verified by tests/end_to_end/test_own_mesh.py.
+    """
+
+    ground: tuple[str, ...]
+    held: tuple[str, ...] = ()
+    pairs: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,6 +65,7 @@ class WheelLoadCase:
         takes the first two
     transverse_constraint : planar mesh only, part -> how it is held across the plane, see `plane_state`
     newton : tolerance and iteration limit
+    faces : what face groups do; None goes by the names that `geometry.build` gives them
     """
 
     orientation_deg: float
@@ -68,6 +87,7 @@ class WheelLoadCase:
     gauss_points: tuple[int, ...] = (2, 3, 3)
     transverse_constraint: Mapping[str, float] = field(default_factory=dict)
     newton: NewtonSettings = field(default_factory=NewtonSettings)
+    faces: NamedFaces | None = None
 
     def __post_init__(self) -> None:
         if not np.isfinite(self.orientation_deg):

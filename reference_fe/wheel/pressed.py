@@ -109,10 +109,11 @@ class _WheelRun:
         self.mesh, self.problem = self.wheel.mesh, self.wheel.problem
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress, self.energy = StressRecovery(self.problem), StoredEnergy(self.problem)
-        strips = [part for part in self.wheel.flexible if part != "grousers" and part not in HUB_PARTS]
+        ours = load_case.faces is None  # whose parts are strips of structured cells
+        strips = [part for part in self.wheel.flexible if part != "grousers" and part not in HUB_PARTS and ours]
         self.linearised = LinearisedStress(self.problem, strips)
         springs = tuple(part for part in self.wheel.flexible if part not in ("tire", "grousers", *HUB_PARTS))
-        followed = springs and "tire_inner" in mesh.faces
+        followed = ours and springs and "tire_inner" in mesh.faces
         self.overlap = FaceOverlap(self.mesh, springs, "tire_inner") if followed else None
         self.history: list[IncrementRecord] = []
         self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]

@@ -14,7 +14,7 @@ from contracts.hub_travel import Way
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from reference_fe.cells.orientation import curved_axis_first
-from reference_fe.contact.inner import InnerContact
+from reference_fe.contact.inner import ContactPair, InnerContact
 from reference_fe.contact.inner_pairs import wheel_contact_pairs
 from reference_fe.contact.obstacle import ObstacleContact
 from reference_fe.contact.obstacles import touch_level
@@ -62,7 +62,7 @@ def wheel_problem(mesh: TaggedMesh, materials: Mapping[str, Material], load_case
     flexible = {part: materials[part] for part in mesh.parts if part not in rigid and part in materials}
     half_width = "symmetry" in mesh.faces
     _check_symmetry(load_case, prismatic=half_width or mesh.dim == 2)
-    supports = _hub_supports(mesh, rigid, materials)
+    supports = _hub_supports(mesh, rigid, materials, load_case)
     if half_width:
         supports.append(Support(faces=("symmetry",), components=(1,)))
     domain = Domain.from_tagged(mesh)
@@ -110,6 +110,8 @@ def ground_contact(shape: TaggedMesh, load_case: WheelLoadCase) -> ObstacleConta
     axes = _axes(shape)
     normal, along = ground_axes(ground_direction_h(np.deg2rad(load_case.orientation_deg)), load_case)
     faces = tuple(face for face in CONTACT_FACES if face in shape.faces)
+    if load_case.faces is not None:
+        faces = load_case.faces.ground
     points, _ = facet_samples(shape.points, contact_faces(shape, faces))
     return ObstacleContact(
         faces=faces,
@@ -147,15 +149,24 @@ def _check_symmetry(load_case: WheelLoadCase, *, prismatic: bool) -> None:
 
 def _inner_contact(mesh: TaggedMesh, load_case: WheelLoadCase) -> InnerContact | None:
     """What holds the wheel's parts off each other, or None."""
-    pairs = wheel_contact_pairs(mesh) if load_case.inner_contact else ()
+    if load_case.faces is None:
+        pairs = wheel_contact_pairs(mesh)
+    else:
+        pairs = tuple(ContactPair(slave=slave, master=master) for slave, master in load_case.faces.pairs)
+    pairs = pairs if load_case.inner_contact else ()
     return InnerContact(pairs=pairs, stiffness=load_case.inner_contact_stiffness) if pairs else None
 
 
-def _hub_supports(mesh: TaggedMesh, rigid: tuple[str, ...], materials: Mapping[str, Material]) -> list[Support]:
+def _hub_supports(
+    mesh: TaggedMesh, rigid: tuple[str, ...], materials: Mapping[str, Material], load_case: WheelLoadCase
+) -> list[Support]:
     """What holds the wheel, expanded as its material is: its rigid parts, and the bore of an elastic inner hub."""
     stretch = {part: materials[part].thermal_stretch if part in materials else 1.0 for part in mesh.parts}
     supports = [Support(parts=(part,), stretch=stretch[part]) for part in rigid]
-    if "inner_hub" in mesh.parts and "inner_hub" not in rigid:
+    if load_case.faces is not None:
+        if load_case.faces.held:
+            supports.append(Support(faces=load_case.faces.held))
+    elif "inner_hub" in mesh.parts and "inner_hub" not in rigid:
         supports.append(Support(faces=("inner_hub_bore",), stretch=stretch["inner_hub"]))
     if not supports:
         rule = "must hold the wheel: the mesh has neither of them nor an inner hub"

@@ -108,10 +108,10 @@ def strip_thicknesses(study: Study, factor: float = 1.0) -> dict[str, float]:
 def scaled_study(study: Study, factor: float) -> Study:
     """The study with strips ``factor`` times as thick."""
     thickness = strip_thicknesses(study, factor)
-    wheel = study.wheel.model_copy(
+    wheel = study.parametric.model_copy(
         update={
-            "tire": study.wheel.tire.model_copy(update={"thickness": thickness["tire"]}),
-            "springs": tuple(s.model_copy(update={"thickness": thickness[s.name]}) for s in study.wheel.springs),
+            "tire": study.parametric.tire.model_copy(update={"thickness": thickness["tire"]}),
+            "springs": tuple(s.model_copy(update={"thickness": thickness[s.name]}) for s in study.parametric.springs),
         }
     )
     return study.model_copy(update={"wheel": wheel})

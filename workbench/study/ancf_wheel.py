@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from workbench.study.own_mesh import own_mesh
+
 if TYPE_CHECKING:
     from workbench.study.model import Study
 
@@ -15,9 +17,10 @@ __all__ = ["without_ancf_wheel"]
 
 def without_ancf_wheel(study: Study) -> str | None:
     """Which part of the study its ANCF wheel does not have; None where it has all."""
-    fe = study.fe
+    fe, springs = study.fe, study.wheel.springs if study.wheel is not None else ()
     lacks = (
-        (f"fe.hub = {fe.hub} without springs between rim and hub", fe.hub != "rigid" and not study.wheel.springs),
+        ("mesh.file", own_mesh(study) is not None),
+        (f"fe.hub = {fe.hub} without springs between rim and hub", fe.hub != "rigid" and not springs),
         ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
         (f"fe.contact_method = {fe.contact_method}", fe.contact_method != "penalty"),
         (f"fe.material_law = {fe.material_law}", fe.material_law != "st_venant_kirchhoff"),

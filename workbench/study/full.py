@@ -12,6 +12,7 @@ from contracts.errors import InputError
 from geometry.parts import SpringSet
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
+from workbench.study.own_mesh import own_mesh, sized_mesh
 from workbench.study.reference import ReferenceSection
 from workbench.study.sections import RoverSection
 from workbench.study.wheel_design import wheel_design
@@ -34,7 +35,9 @@ def is_mirrored(study: Study) -> bool:
 
 
 def around(study: Study) -> Around:
-    """How the study's wheel repeats itself."""
+    """How the study's wheel repeats itself; of a mesh from another program nothing is known."""
+    if own_mesh(study) is not None:
+        return Around(period=360.0, mirrored=False)
     return Around(period=rotational_period(study), mirrored=is_mirrored(study))
 
 
@@ -100,7 +103,7 @@ def full_study(study: Study) -> Study:
             "reference": study.reference and _of_the_same_orientations(study.reference, study),
             "title": f"{study.title}: full study",
             "fe": study.fe.model_copy(update={"orientations": around}),
-            "mesh": study.mesh.model_copy(update={"factor": full.factor}),
+            "mesh": sized_mesh(study, "a full study").model_copy(update={"factor": full.factor}),
             "rover": _all_runs(study.rover),
             "mesh_study": mesh_study
             and mesh_study.model_copy(update={"factors": full.mesh_study_factors, "orientations": around}),

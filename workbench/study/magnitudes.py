@@ -20,9 +20,9 @@ from contracts.ranges import Key, Oddity, RangeTable, dotted, oddities, range_ta
 from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.key_units import nameless
 from workbench.study.model import DATA, Study
+from workbench.study.own_mesh import material_names
 from workbench.study.quantities import to_si
 from workbench.study.sections import ToleranceSection
-from workbench.study.wheel_design import part_materials
 
 __all__ = [
     "GATES",
@@ -126,7 +126,7 @@ def of_the_file(study: Study) -> tuple[str, ...]:
 
 def _idle(study: Study) -> Iterator[str]:
     """Materials that nothing names; tolerances of checks that are not in the report, words that cannot be asked."""
-    used = {*part_materials(study).values(), *(study.environment.variants if study.environment else ())}
+    used = {*material_names(study).values(), *(study.environment.variants if study.environment else ())}
     swept = study.sweep.parameters.values() if study.sweep else ()
     used |= {value for values in swept if isinstance(values, tuple) for value in values if isinstance(value, str)}
     for name in study.materials:
@@ -138,7 +138,7 @@ def _idle(study: Study) -> Iterator[str]:
     if study.ancf_wheel is not None and (lacking := without_ancf_wheel(study)) is not None:
         yield f"[ancf_wheel] has no effect: its model does not have {lacking}; remove it, or the other"
     tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None
-    if study.of_the_thesis and not (tires and len(study.wheel.springs) > 1):
+    if study.of_the_thesis and not (tires and len(study.parametric.springs) > 1):
         needs = "[ancf] with thesis_preset, [brush] and two sets of springs"
         yield f"reference.thesis_words judges no stiffness: the thesis' words need {needs}"
 

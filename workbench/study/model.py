@@ -9,7 +9,7 @@ import math
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import Field, PrivateAttr
+from pydantic import Discriminator, Field, PrivateAttr, Tag, model_validator
 
 from contracts.errors import InputError
 from workbench.study.contact import PenaltyStudySection
@@ -17,7 +17,9 @@ from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
 from workbench.study.input_uncertainty import InputUncertaintySection
+from workbench.study.own_mesh import OwnMeshSection
 from workbench.study.reference import INITIAL, CurveReference, ReferenceSection, told
+from workbench.study.section import in_key
 from workbench.study.sections import (
     AncfSection,
     AncfWheelSection,
@@ -43,6 +45,12 @@ def stated[T](section: T | None, name: str) -> T:
     if section is None:
         raise InputError(f"[{name}]", "", "is not in the study", "add it, as in studies/exomars.toml")
     return section
+
+
+def _mesh_kind(table: object) -> str:
+    """Which of its two kinds a section [mesh] is."""
+    own = "file" in table if isinstance(table, dict) else isinstance(table, OwnMeshSection)
+    return "file" if own else "sizes"
 
 
 class Study(WheelStudy):
@@ -72,7 +80,9 @@ class Study(WheelStudy):
 
     title: Annotated[str, Field(min_length=1)]
     """Of the report."""
-    mesh: MeshSection
+    mesh: Annotated[
+        Annotated[MeshSection, Tag("sizes")] | Annotated[OwnMeshSection, Tag("file")], Discriminator(_mesh_kind)
+    ]
     fe: FeSection
     mesh_study: MeshStudySection | None = None
     hub_study: HubStudySection | None = None
@@ -93,6 +103,12 @@ class Study(WheelStudy):
     inferred: dict[str, str] = Field(default_factory=dict)
     """Key -> why: values that no publication states."""
     _kept: Path | None = PrivateAttr(default=None)
+
+    @model_validator(mode="after")
+    def _has_a_wheel(self) -> Study:
+        if self.wheel is None and isinstance(self.mesh, MeshSection):
+            raise in_key("wheel", "", "is missing", "add it to the study file, or give its own mesh, mesh.file")
+        return self
 
     @property
     def kept(self) -> Path | None:

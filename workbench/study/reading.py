@@ -25,10 +25,12 @@ from workbench.study.key_units import nearest_key, parts_of, words_of
 from workbench.study.magnitudes import impossible, numbers_of
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
+from workbench.study.own_mesh import materials_by_part, own_mesh
+from workbench.study.own_mesh_rules import broken_own_mesh
 from workbench.study.reference import refuse_moved
 from workbench.study.reference_file import read_band, stated_uncertainty
 from workbench.study.rules import broken_rules, broken_springs
-from workbench.study.wheel_design import SectionInputError, wheel_design
+from workbench.study.wheel_design import SectionInputError
 
 __all__ = ["built_in_study", "read_study", "read_study_table", "study_of"]
 
@@ -93,10 +95,10 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
         hint = f"a number without a unit is SI, here {odd.value}; {odd.hint}" if plain else odd.hint
         raise StudyError(path, dotted(odd.key), value, odd.rule, hint)
     study = _with_whole_paths(study, path.parent)
-    for broken in broken_springs(study):
+    for broken in (*broken_own_mesh(study), *broken_springs(study)):
         raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
     try:
-        wheel_design(study)
+        materials_by_part(study)
         if study.ancf is not None:
             ancf_preset(study)
         if study.brush is not None:
@@ -172,7 +174,7 @@ def _study_error(path: Path, error: ValidationError, table: Any) -> StudyError:
         rule, hint = f"must be one of {', '.join(words_of((*place, name)))}", "see docs/reference/study_keys.md"
     elif first["type"] == "key_in_section":
         rule, hint, value = (str(first["ctx"][name]) for name in ("rule", "hint", "value"))
-        key += f".{first['ctx']['key']}"
+        key = f"{key}.{first['ctx']['key']}".lstrip(".")
         found = _at(table, (*place, first["ctx"]["key"]))
         if value and found and isinstance(found, list) and not any(isinstance(one, dict | list) for one in found):
             value = ", ".join(map(str, found))
@@ -239,12 +241,14 @@ def _key_of(error: SectionInputError) -> str:
 
 
 def _with_whole_paths(study: Study, folder: Path) -> Study:
-    """The study with the whole paths of its ANCF tire's surfaces and of its reference's files."""
+    """The study with the whole paths of its own mesh, its ANCF tire's surfaces and its reference's files."""
 
     def whole(file: str) -> dict[str, str]:
         return {"file": str((folder / file).absolute())}
 
     changes: dict[str, Any] = {}
+    if (mesh := own_mesh(study)) is not None:
+        changes["mesh"] = mesh.model_copy(update=whole(mesh.file))
     if (reference := study.reference) is not None:
         band = reference.band
         moved: dict[str, Any] = {"curves": tuple(one.model_copy(update=whole(one.file)) for one in reference.curves)}

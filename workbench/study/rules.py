@@ -15,6 +15,7 @@ from workbench.study.fit import AncfFitSection
 from workbench.study.key_units import absent, as_written, is_table, parts_of
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, fit_start, rover_radius
+from workbench.study.own_mesh import own_mesh, sized_mesh
 from workbench.study.reference_rules import broken_reference
 from workbench.study.sweep import tied_keys
 from workbench.study.wheel_design import SectionInputError, materials, wheel_design
@@ -25,6 +26,8 @@ __all__ = ["broken_rules", "broken_springs"]
 def broken_springs(study: Study) -> Iterator[BrokenRule]:
     """What the springs' keys say together, before a wheel is built of them."""
     wheel = study.wheel
+    if wheel is None:
+        return
     sets = {f"wheel.springs[{i}]": springs for i, springs in enumerate(wheel.springs)}
     for key, springs in (sets | {"wheel.impact_springs": wheel.impact_springs}).items():
         if springs is None:
@@ -51,27 +54,32 @@ def broken_springs(study: Study) -> Iterator[BrokenRule]:
 
 def broken_rules(study: Study) -> Iterator[BrokenRule]:
     """Every rule between sections that the study breaks, in the order of the file."""
-    parts = tuple(wheel_design(study).materials)
-    for name, size in study.mesh.refinement.items():
-        if name not in parts:
+    yield from _of_the_curves(study)
+    yield from broken_reference(study)
+    if study.ancf is not None:
+        preset = ancf_preset(study)
+        yield from _room("ancf", study.ancf.max_deflection, preset.zero_radius - preset.hub_radius)
+    if own_mesh(study) is None:
+        yield from _of_the_wheel(study)
+
+
+def _of_the_wheel(study: Study) -> Iterator[BrokenRule]:
+    """What the wheel's dimensions have to do with the other sections."""
+    design = wheel_design(study)
+    for name, size in sized_mesh(study).refinement.items():
+        if name not in design.materials:
             yield BrokenRule(
                 key=f"mesh.refinement.{name}",
                 value=f"{1e3 * size:g} mm",
                 rule="names no part of the wheel",
-                hint=f"use {', '.join(parts)}",
+                hint=f"use {', '.join(design.materials)}",
             )
-    yield from _of_the_curves(study)
-    yield from broken_reference(study)
-    design = wheel_design(study)
     yield from _lonely(study)
     yield from _of_the_sweep(study)
     gap = design.tire.inner_radius - design.outer_hub.outer_radius
     yield from _room("fe", study.fe.max_deflection, gap)
     if study.input_uncertainty is not None:
         yield from _room("input_uncertainty", study.input_uncertainty.max_deflection, gap)
-    if study.ancf is not None:
-        preset = ancf_preset(study)
-        yield from _room("ancf", study.ancf.max_deflection, preset.zero_radius - preset.hub_radius)
     yield from _environment(study)
     yield from _of_the_fit(study)
 
@@ -107,7 +115,7 @@ def _lonely(study: Study) -> Iterator[BrokenRule]:
                 yield BrokenRule(
                     key="ancf_fit", value="a table", rule=f"needs [{name}], {what}", hint=f"add [{name}], or remove it"
                 )
-    if study.wheel.inner_hub is None:
+    if study.parametric.inner_hub is None:
         rule = "needs [wheel.inner_hub], whose bore is held"
         if study.fe.hub == "elastic":
             hint = 'add it, or set hub = "rigid", which holds the outer hub'
@@ -180,11 +188,11 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
         name, angle = ("camber", fe.camber) if fe.camber else ("obstacle.yaw", getattr(fe.obstacle, "yaw", 0.0))
         value, hint = f"{math.degrees(angle):g} deg", "set mesh.half_width = false"
         yield BrokenRule(key=f"fe.{name}", value=value, rule=rule, hint=hint)
-    if mesh_study is not None and study.mesh.factor not in mesh_study.factors:
+    if mesh_study is not None and sized_mesh(study).factor not in mesh_study.factors:
         yield BrokenRule(
             key="mesh_study.factors",
             value=", ".join(f"{factor:g}" for factor in mesh_study.factors),
-            rule=f"must contain mesh.factor = {study.mesh.factor:g}, the mesh of the curves",
+            rule=f"must contain mesh.factor = {sized_mesh(study).factor:g}, the mesh of the curves",
             hint="the uncertainty is that of the curves' mesh",
         )
     if mesh_study is not None and study.full.factor not in study.full.mesh_study_factors:

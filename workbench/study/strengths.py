@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from workbench.study.wheel import WheelStudy
-from workbench.study.wheel_design import wheel_design
+from workbench.study.model import Study
+from workbench.study.own_mesh import materials_by_part
 
 __all__ = ["yield_strengths"]
 
 
-def yield_strengths(study: WheelStudy) -> dict[str, float]:
+def yield_strengths(study: Study) -> dict[str, float]:
     """Yield strength [Pa] of each part of the mesh."""
-    return {part: material.yield_strength for part, material in wheel_design(study).materials.items()}
+    return {part: material.yield_strength for part, material in materials_by_part(study).items()}

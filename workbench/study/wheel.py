@@ -10,6 +10,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from contracts.errors import InputError
 from contracts.materials import Material
 from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
 from geometry.sidewall import SidewallSprings
@@ -21,7 +22,9 @@ __all__ = [
     "GrousersSection",
     "HubSection",
     "ImpactSpringsSection",
+    "MaterialName",
     "MaterialSection",
+    "PartName",
     "SidewallSpringsSection",
     "SpringsSection",
     "TireSection",
@@ -112,7 +115,15 @@ class WheelStudy(Section):
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$")]
     """Short name: of files, and in summaries."""
-    wheel: WheelSection
-    """Parts of the wheel."""
+    wheel: WheelSection | None = None
+    """Parts of the wheel; None where its mesh comes from another program."""
     materials: dict[str, MaterialSection]
     """Materials by name."""
+
+    @property
+    def parametric(self) -> WheelSection:
+        """The wheel's parts; raises InputError where the study has its own mesh in their place."""
+        if self.wheel is None:
+            rule = "is not in the study, whose mesh comes from another program"
+            raise InputError("[wheel]", "", rule, "describe the wheel in [wheel] in place of mesh.file")
+        return self.wheel

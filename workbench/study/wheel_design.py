@@ -46,7 +46,7 @@ def materials(study: WheelStudy) -> dict[str, Material]:
 
 def part_materials(study: WheelStudy) -> dict[str, str]:
     """Material name of each part of the mesh."""
-    wheel = study.wheel
+    wheel = study.parametric
     single = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
     parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in wheel.springs}
     if wheel.sidewall_springs is not None:
@@ -87,7 +87,7 @@ class _Sections:
 @lru_cache(maxsize=16)
 def _built(sections: _Sections) -> WheelDesign:
     """Kept, for the plan of a report asks a hundred times."""
-    parts = _WheelParts(sections.study).build()
+    parts = in_section("wheel", lambda: _WheelParts(sections.study)).build()
     return in_section("wheel", lambda: _of_parts(sections.study.name, tuple(parts.items())))
 
 
@@ -110,7 +110,7 @@ class _WheelParts:
     """Turns each part's section into geometry's class."""
 
     def __init__(self, study: WheelStudy) -> None:
-        self.wheel, self.known = study.wheel, materials(study)
+        self.wheel, self.known = study.parametric, materials(study)
 
     def build(self) -> dict[str, Any]:
         """Keyword arguments of WheelDesign."""

@@ -12,6 +12,7 @@ from workbench.questions.wheel.graph import wheel_inputs
 from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
+from workbench.study.own_mesh import sized_mesh
 from workbench.study.sections import AncfWheelSection
 
 __all__ = ["ancf_wheel_curve_tasks", "ancf_wheel_tasks", "every_second"]
@@ -33,7 +34,8 @@ def ancf_wheel_tasks(study: Study) -> list[Task]:
     """
     section = stated(study.ancf_wheel, "ancf_wheel")
     curves = _curve_tasks(study, section, [degrees(o) for o in study.fe.orientations])
-    middle = study.mesh.order == 2 or study.mesh.thickness_elements % 2 == 0
+    mesh = sized_mesh(study)
+    middle = mesh.order == 2 or mesh.thickness_elements % 2 == 0
     return [*curves, _shape_task(study, curves[0].inputs)] if study.fe.keep_points and middle else curves
 
 
@@ -59,7 +61,7 @@ def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequ
         "options": {
             "element_size": section.element_size,
             "axial_size": section.axial_size,
-            "half_width": study.mesh.half_width,
+            "half_width": sized_mesh(study).half_width,
             "ground_spacing": _SPACING[study.fe.obstacle.shape == "plane"],
             "hub": study.fe.hub,
         },

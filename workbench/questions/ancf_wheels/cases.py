@@ -21,6 +21,7 @@ from workbench.questions.fe.graph import curve_deflections, fe_curve_tasks, fe_i
 from workbench.questions.travels import WORKING_LOAD, travel_tasks
 from workbench.questions.wheel.graph import MESH, mesh_task
 from workbench.study.model import Study
+from workbench.study.own_mesh import sized_mesh
 from workbench.study.reading import read_study_table, study_of
 
 __all__ = ["COMMAND", "FINER", "ComparedWheel", "compared_wheels", "wheel_tasks"]
@@ -76,7 +77,7 @@ def compared_wheels() -> tuple[ComparedWheel, ...]:
 def wheel_tasks(wheel: ComparedWheel, study: Study) -> list[Task]:
     """Curves of both models at every orientation, named as the report's, ``fe_fine``, ``ancf_wheel_fine``, travels."""
     curves = fe_curve_tasks(study, wheel.orientations)
-    mesh = mesh_task(study, "mesh_fine", factor=FINER * study.mesh.factor)
+    mesh = mesh_task(study, "mesh_fine", factor=FINER * sized_mesh(study).factor)
     points = curve_deflections(study)
     inputs = fe_inputs(study, wheel.fine, points if study.fe.friction else every_second(points))  # as the plates' own
     solid = [mesh_task(study, MESH), *curves, mesh, fe_task("fe_fine", without_fields(inputs), mesh.name)]

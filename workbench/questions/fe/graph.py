@@ -15,7 +15,7 @@ from contracts.materials import Material
 from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
-from workbench.study.wheel_design import wheel_design
+from workbench.study.own_mesh import OwnMeshSection, materials_by_part, own_mesh
 
 __all__ = [
     "FOOTPRINTS",
@@ -51,8 +51,8 @@ def material_inputs(materials: Mapping[str, Material]) -> dict[str, dict[str, fl
 
 def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]) -> dict[str, Any]:
     """Inputs of ``workbench.questions.fe.task:solve_orientation`` as the study has them."""
-    fe = study.fe
-    return {
+    fe, mesh = study.fe, own_mesh(study)
+    inputs = {
         "orientation_deg": orientation_deg,
         "deflections": list(deflections),
         "max_load": fe.max_load,
@@ -68,8 +68,16 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "inner_contact_stiffness": INNER_STIFFNESS,
         "relative_tolerance": fe.relative_tolerance,
         "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
-        "materials": material_inputs(wheel_design(study).materials),
+        "materials": material_inputs(materials_by_part(study)),
     }
+    return inputs if mesh is None else inputs | _of_own_mesh(mesh)
+
+
+def _of_own_mesh(mesh: OwnMeshSection) -> dict[str, Any]:
+    """What of a mesh from another program is held, and what its groups of faces do."""
+    held = [name for name in mesh.hub if name not in mesh.parts]
+    faces = {"ground": list(mesh.ground), "held": held, "pairs": [list(pair) for pair in mesh.contact]}
+    return {"rigid_parts": [name for name in mesh.hub if name in mesh.parts], "faces": faces}
 
 
 def without_fields(inputs: Mapping[str, Any]) -> dict[str, Any]:

@@ -18,8 +18,8 @@ from workbench.questions.wheel.graph import MESH, MESH_WHOLE
 from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
+from workbench.study.own_mesh import materials_by_part
 from workbench.study.strengths import yield_strengths
-from workbench.study.wheel_design import wheel_design
 
 __all__ = ["FE"]
 
@@ -31,7 +31,7 @@ def _tasks(study: Study) -> Sequence[Task]:
         function="workbench.questions.wheel.pictures:draw",
         inputs={
             "orientation_deg": degrees(study.fe.orientations[0]),
-            "yield_strength": min(material.yield_strength for material in wheel_design(study).materials.values()),
+            "yield_strength": min(material.yield_strength for material in materials_by_part(study).values()),
         },
         needs=(MESH_WHOLE, MESH, curves[0].name),
         cost=10.0,

@@ -18,6 +18,7 @@ from contracts.mesh import TaggedMesh
 from reference_fe.contact.obstacle import ContactMethod
 from reference_fe.material.hyperelastic import MaterialLaw
 from reference_fe.solver.newton import NewtonSettings
+from reference_fe.wheel.case import NamedFaces
 from reference_fe.wheel.pressed import FieldSnapshot, WheelLoadCase, WheelResult, solve_wheel
 from workbench.execution.result_files import FAILURE, increment_rows, write_result
 from workbench.questions.fe.field_file import POINTS_FILE, write_fields, write_points
@@ -96,7 +97,16 @@ def load_case(inputs: Mapping[str, Any]) -> WheelLoadCase:
         inner_contact=inputs["inner_contact"],
         inner_contact_stiffness=inputs["inner_contact_stiffness"],
         newton=NewtonSettings(relative_tolerance=inputs["relative_tolerance"]),
+        faces=_named_faces(inputs.get("faces")),
     )
+
+
+def _named_faces(faces: Mapping[str, Any] | None) -> NamedFaces | None:
+    """What the face groups of a wheel's own mesh do; None for a mesh of ours."""
+    if faces is None:
+        return None
+    pairs = tuple((slave, master) for slave, master in faces["pairs"])
+    return NamedFaces(ground=tuple(faces["ground"]), held=tuple(faces["held"]), pairs=pairs)
 
 
 def _write_fields(mesh: TaggedMesh, snapshot: FieldSnapshot, stem: Path) -> None:

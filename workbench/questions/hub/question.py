@@ -122,5 +122,5 @@ HUB = Question(
     read=_read,
     checks=_checks,
     curves=_curves,
-    applies=lambda study: study.hub_study is not None and study.wheel.inner_hub is not None,
+    applies=lambda study: study.hub_study is not None and study.parametric.inner_hub is not None,
 )

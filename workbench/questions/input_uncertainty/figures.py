@@ -90,7 +90,7 @@ def in_words(study: Study, key: str) -> str:
         return " ".join(str(part) for part in parts[1:]).replace("_", " ")
     if parts[:2] == ["wheel", "springs"] and isinstance(parts[2], int):
         tied = len(tied_keys(key)) > 1
-        owner = "springs" if tied else study.wheel.springs[parts[2]].name
+        owner = "springs" if tied else study.parametric.springs[parts[2]].name
         rest = parts[3:]
     else:
         owner, rest = (

@@ -20,6 +20,7 @@ from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
+from workbench.study.own_mesh import sized_mesh
 from workbench.study.strengths import yield_strengths
 from workbench.verdict.rules import Claim, at_most
 
@@ -31,7 +32,7 @@ def _tasks(study: Study) -> Sequence[Task]:
     tasks = []
     section = stated(study.mesh_study, "mesh_study")
     for factor in section.factors:
-        if factor != study.mesh.factor:
+        if factor != sized_mesh(study).factor:
             mesh = mesh_task(study, f"mesh_x{factor:g}", factor=factor)
             tasks.append(mesh)
             for orientation in section.orientations:
@@ -47,7 +48,7 @@ def mesh_study_inputs(study: Study) -> dict[str, Any]:
         "orientations_deg": [degrees(orientation) for orientation in section.orientations],
         "deflections": list(section.deflections),
         "factors": list(section.factors),
-        "curves_factor": study.mesh.factor,
+        "curves_factor": sized_mesh(study).factor,
     }
 
 

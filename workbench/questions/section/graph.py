@@ -11,6 +11,7 @@ from workbench.questions.fe.graph import curve_deflections, fe_inputs, without_f
 from workbench.questions.wheel.graph import wheel_inputs
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
+from workbench.study.own_mesh import sized_mesh, without_wheel
 
 __all__ = ["section_task", "section_tasks", "without_planar_model"]
 
@@ -21,7 +22,9 @@ def without_planar_model(study: Study) -> InputError | None:
         return InputError("fe.camber or yaw", "not 0", "turns the ground out of the section plane", "use --model fe")
     if study.fe.material_law != "st_venant_kirchhoff":
         return InputError("fe.material_law", study.fe.material_law, "has no planar form", "use st_venant_kirchhoff")
-    if study.wheel.sidewall_springs is not None:
+    if (reason := without_wheel(study, "the section model")) is not None:
+        return reason
+    if study.parametric.sidewall_springs is not None:
         rule = "bend out of the plane of a section model"
         return InputError("wheel.sidewall_springs", "given", rule, "use the solid model (--model fe)")
     return None
@@ -44,7 +47,7 @@ def section_tasks(study: Study, orientations_deg: Sequence[float] = ()) -> list[
 
 def section_task(study: Study, name: str, orientation_deg: float, deflections: Sequence[float]) -> Task:
     """The planar model at one orientation, meshed as finely along the strips as the study's solid mesh."""
-    mesh = study.mesh
+    mesh = sized_mesh(study)
     options: dict[str, Any] = {
         "element_size": mesh.element_size,
         "thickness_elements": mesh.thickness_elements,

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
+from contracts.input_file import require_ordinary_file
+from geometry.own_mesh.files import LARGEST_FILE
+from workbench.execution.fingerprint import file_sha256
 from workbench.execution.task import Task
 from workbench.study.model import Study
+from workbench.study.own_mesh import materials_by_part, own_mesh, sized_mesh
 from workbench.study.wheel_design import part_materials
 
 __all__ = ["MESH", "MESH_WHOLE", "coarse_across", "mesh_task", "wheel_inputs", "wheel_meshes"]
@@ -16,7 +21,12 @@ MESH, MESH_WHOLE = "mesh", "mesh_whole"
 
 
 def wheel_meshes(study: Study) -> tuple[Task, Task]:
-    """The mesh that is solved, and the whole wheel with every part for the picture and the mass."""
+    """The mesh that is solved, and the whole wheel with every part for the picture and the mass.
+
+    Of a mesh from another program both are that mesh, read twice.
+    """
+    if own_mesh(study) is not None:
+        return own_mesh_task(study, MESH), own_mesh_task(study, MESH_WHOLE)
     whole = mesh_task(study, MESH_WHOLE, {"parts": "all", "half_width": False}, factor=1.0)
     return mesh_task(study, MESH), whole
 
@@ -28,7 +38,7 @@ def mesh_task(
 
     What it costs, and what is solved on it, is found by `workbench.questions.fe.foresight`.
     """
-    mesh = study.mesh
+    mesh = sized_mesh(study)
     options = {
         "element_size": mesh.element_size,
         "axial_size": mesh.axial_size,
@@ -44,9 +54,26 @@ def mesh_task(
     return Task(name=name, function="workbench.questions.wheel.mesh_task:build", inputs=inputs)
 
 
+def own_mesh_task(study: Study, name: str = MESH) -> Task:
+    """The study's mesh from another program, read and checked; its path and content decide the result.
+
+    Raises
+    ------
+    InputError
+        For a file that cannot be read at all.
+    """
+    section = own_mesh(study)
+    assert section is not None
+    path = Path(section.file)
+    require_ordinary_file(path, "mesh file", LARGEST_FILE)
+    densities = {part: material.density for part, material in materials_by_part(study).items()}
+    inputs = {"mesh": section.model_dump(mode="json"), "sha256": file_sha256(path), "densities": densities}
+    return Task(name=name, function="workbench.questions.wheel.own_mesh_task:read", inputs=inputs, cost=5.0)
+
+
 def coarse_across(study: Study) -> dict[str, Any]:
     """Changes to a mesh for what does not depend on how strips curl: no edge elements, or twice as long ones."""
-    mesh = study.mesh
+    mesh = sized_mesh(study)
     return {"edge_size": None, "axial_size": mesh.axial_size if mesh.edge_size else 2.0 * mesh.axial_size}
 
 
@@ -56,7 +83,7 @@ def wheel_inputs(study: Study) -> dict[str, Any]:
     The study's name, names of materials and their sources are words about the wheel that decide no result: the report
     takes them from the study, so that to change them computes nothing again.
     """
-    wheel = study.wheel.model_dump(mode="json")
+    wheel = study.parametric.model_dump(mode="json")
     labels = {name: f"material {k}" for k, name in enumerate(dict.fromkeys(part_materials(study).values()), start=1)}
     for group in wheel.values():
         for part in group if isinstance(group, list) else [group] if group else []:

@@ -24,15 +24,15 @@ DEFLECTIONS = (0.005, 0.010, 0.015, 0.020)
 def asked(study: Study) -> bool:
     """Whether the wheel is the one the thesis speaks of, with the thesis' tires and more than one set of springs."""
     tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None
-    springs = len(study.wheel.springs) > 1 and without_planar_model(study) is None
+    springs = without_planar_model(study) is None and len(study.parametric.springs) > 1
     return bool(study.of_the_thesis and tires and springs)
 
 
 def in_phase(study: Study) -> Study:
     """The study with every set of springs at the phase of the first."""
-    first, *others = study.wheel.springs
+    first, *others = study.parametric.springs
     springs = (first, *(one.model_copy(update={"phase": dict(first)["phase"]}) for one in others))
-    return study.model_copy(update={"wheel": study.wheel.model_copy(update={"springs": springs})})
+    return study.model_copy(update={"wheel": study.parametric.model_copy(update={"springs": springs})})
 
 
 def twin_tasks(study: Study, name: str = TWIN) -> list[Task]:

@@ -1,0 +1,145 @@
+"""The section [mesh] of a wheel whose mesh comes from another program, and what stands in [wheel]'s place then.
+
+Verified by tests/unit/test_workbench_own_mesh.py.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import Field
+
+from contracts.errors import InputError
+from contracts.materials import Material
+from workbench.study.quantities import Length
+from workbench.study.section import Section
+from workbench.study.wheel import MaterialName, PartName
+from workbench.study.wheel_design import SectionInputError, in_section, materials, part_materials, wheel_design
+
+if TYPE_CHECKING:
+    from geometry.own_mesh.roles import Placement, Roles
+    from workbench.study.model import Study
+    from workbench.study.sections import MeshSection
+
+__all__ = [
+    "OwnMeshSection",
+    "OwnPartSection",
+    "material_names",
+    "materials_by_part",
+    "own_mesh",
+    "placement_and_roles",
+    "sized_mesh",
+    "without_wheel",
+]
+
+Axis = Literal["x", "y", "z"]
+GroupName = Annotated[str, Field(min_length=1)]
+_UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 25.4e-3}
+
+
+class OwnPartSection(Section):
+    """A part of a mesh from another program."""
+
+    material: MaterialName
+    """Name of one of [materials]."""
+    groups: tuple[GroupName, ...] = ()
+    """Groups of cells of the file that it consists of; without it that of the part's own name."""
+
+
+class OwnMeshSection(Section):
+    """The wheel's mesh from another program, in place of [wheel]."""
+
+    file: Annotated[str, Field(min_length=1)]
+    """Mesh file (.msh, .med, .inp, .vtu, .vtk, .exo), relative to the study file."""
+    units: Literal["m", "cm", "mm", "in"]
+    """Of the file's lengths."""
+    parts: Annotated[dict[PartName, OwnPartSection], Field(min_length=1)]
+    """Part -> its material, and the file's groups of cells."""
+    hub: Annotated[tuple[GroupName, ...], Field(min_length=1)]
+    """Parts, and groups of faces, that are held."""
+    ground: Annotated[tuple[GroupName, ...], Field(min_length=1)]
+    """Groups of faces that may touch the ground."""
+    contact: tuple[Annotated[tuple[GroupName, GroupName], Field()], ...] = ()
+    """Pairs of groups of faces that may touch each other; the first is held off the second."""
+    symmetry: GroupName | None = None
+    """Group of faces in the wheel's mid-plane, for half a wheel; loads are those of the whole."""
+    axle: Axis = "y"
+    """Axis of the file along the axle."""
+    up: Axis = "z"
+    """Axis of the file at whose lower end lies what faces the ground at 0 degrees."""
+    centre: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    """Of the hub, in the file's axes [m]."""
+
+    @property
+    def half_width(self) -> bool:
+        """Whether half the wheel is meshed."""
+        return self.symmetry is not None
+
+
+def own_mesh(study: Study) -> OwnMeshSection | None:
+    """The section of a mesh from another program; None for a wheel of [wheel]."""
+    return study.mesh if isinstance(study.mesh, OwnMeshSection) else None
+
+
+def without_wheel(study: Study, what: str) -> InputError | None:
+    """Why a study cannot have ``what``, which needs the wheel's dimensions; None if it has them."""
+    if own_mesh(study) is None:
+        return None
+    rule = f"is the wheel's own mesh, and {what} needs the dimensions of [wheel]"
+    return InputError("mesh.file", Path(own_file(study)).name, rule, "leave it out, or describe the wheel in [wheel]")
+
+
+def own_file(study: Study) -> str:
+    """Path of the mesh file; empty without one."""
+    section = own_mesh(study)
+    return "" if section is None else section.file
+
+
+def sized_mesh(study: Study, what: str = "a mesh of other sizes") -> MeshSection:
+    """The sizes by which [wheel] is meshed; raises InputError for a mesh from another program."""
+    if (reason := without_wheel(study, what)) is not None:
+        raise reason
+    assert not isinstance(study.mesh, OwnMeshSection)
+    return study.mesh
+
+
+def material_names(study: Study) -> dict[str, str]:
+    """Material name of each part of the mesh."""
+    section = own_mesh(study)
+    return part_materials(study) if section is None else {name: part.material for name, part in section.parts.items()}
+
+
+def materials_by_part(study: Study) -> dict[str, Material]:
+    """Material of each part of the mesh; raises SectionInputError for one that the study does not have."""
+    section = own_mesh(study)
+    if section is None:
+        return dict(wheel_design(study).materials)
+    known = materials(study)
+    for name, part in section.parts.items():
+        if part.material not in known:
+            rule = f"is not in [materials], which has {', '.join(known) or 'none'}"
+            hint = f"add [materials.{part.material}] or correct the name"
+            error = InputError("material", part.material, rule, hint, key="material")
+            raise SectionInputError(f"mesh.parts.{name}", error)
+    return {name: known[part.material] for name, part in section.parts.items()}
+
+
+def placement_and_roles(section: dict[str, Any]) -> tuple[Placement, Roles]:
+    """Where the wheel lies and what names stand for, from the section as JSON."""
+    from geometry.own_mesh.roles import Placement, Roles
+
+    unit, centre = _UNITS[section["units"]], tuple(section["centre"])
+    parts = {name: tuple(part["groups"]) or (name,) for name, part in section["parts"].items()}
+    pairs = tuple((slave, master) for slave, master in section["contact"])
+    return (
+        in_section("mesh", partial(Placement, unit=unit, axle=section["axle"], up=section["up"], centre=centre)),
+        Roles(
+            parts=parts,
+            hub=tuple(section["hub"]),
+            ground=tuple(section["ground"]),
+            contact=pairs,
+            symmetry=section["symmetry"] or "",
+        ),
+    )

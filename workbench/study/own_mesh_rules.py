@@ -1,0 +1,79 @@
+"""Rules of a study whose wheel's mesh comes from another program: what it cannot have, and why.
+
+Verified by tests/unit/test_workbench_own_mesh.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from itertools import chain
+
+from workbench.study.broken_rule import BrokenRule
+from workbench.study.model import Study
+from workbench.study.own_mesh import OwnMeshSection, own_mesh
+
+__all__ = ["NEEDS_WHEEL", "broken_own_mesh"]
+
+NEEDS_WHEEL = {
+    "wheel": "describes a wheel of our own beside mesh.file, which is one already",
+    "mesh_study": "meshes the wheel with other sizes, which a mesh from a file does not have",
+    "hub_study": "meshes the wheel's hubs, which a mesh from a file does not tell apart",
+    "penalty_study": "meshes the wheel with other sizes, which a mesh from a file does not have",
+    "full": "meshes the wheel more finely, which a mesh from a file cannot be",
+    "ancf_fit": "needs [mesh_study], and that a mesh of several sizes",
+    "ancf_wheel": "makes plates of the strips of [wheel], which a mesh from a file does not have",
+    "environment": "lets hubs expand with their part of [wheel], which a mesh from a file does not have",
+    "rover": "needs the dimensions of [wheel]",
+    "sweep": "varies the dimensions of [wheel], which a mesh from a file does not have",
+    "input_uncertainty": "varies the dimensions of [wheel], which a mesh from a file does not have",
+}
+"""Section -> why it cannot stand beside mesh.file."""
+
+
+def broken_own_mesh(study: Study) -> Iterator[BrokenRule]:
+    """What a study with its own mesh has and cannot have; nothing for a wheel of [wheel]."""
+    mesh = own_mesh(study)
+    if mesh is None:
+        return
+    for name, rule in NEEDS_WHEEL.items():
+        if name in study.model_fields_set:
+            yield BrokenRule(key=name, value="a table", rule=rule, hint=f"remove [{name}], or mesh.file")
+    if study.of_the_thesis:
+        rule = "speaks of the thesis' wheel, not of one whose mesh comes from a file"
+        yield BrokenRule(key="reference.thesis_words", value="true", rule=rule, hint="remove it")
+    if study.fe.hub == "elastic":
+        rule = "is for the hubs of [wheel]; what of a mesh from a file is held, mesh.hub says"
+        yield BrokenRule(key="fe.hub", value="elastic", rule=rule, hint="remove it")
+    if study.fe.turned and mesh.half_width:
+        angle = math.degrees(study.fe.camber or getattr(study.fe.obstacle, "yaw", 0.0))
+        rule = "turns the ground out of the plane of symmetry, mesh.symmetry"
+        yield BrokenRule(key="fe.camber", value=f"{angle:g} deg", rule=rule, hint="mesh the whole wheel")
+    yield from _of_the_names(mesh)
+
+
+def _of_the_names(mesh: OwnMeshSection) -> Iterator[BrokenRule]:
+    """A name cannot be two things at once."""
+    if mesh.axle == mesh.up:
+        yield BrokenRule(key="mesh.up", value=mesh.up, rule="must not be the axle", hint="name another axis")
+    owner: dict[str, str] = {}
+    for name, part in mesh.parts.items():
+        for group in part.groups or (name,):
+            if group in owner:
+                rule = f"holds {group}, which {owner[group]} has already"
+                hint = "give a group of cells to one part"
+                yield BrokenRule(key=f"mesh.parts.{name}.groups", value=group, rule=rule, hint=hint)
+            owner[group] = name
+    used = {"hub": mesh.hub, "ground": mesh.ground, "symmetry": (mesh.symmetry,) if mesh.symmetry else ()}
+    for key, names in used.items():
+        for name, times in Counter(names).items():
+            others = [other for other, more in used.items() if other != key and name in more]
+            others += ["contact"] if key in ("hub", "symmetry") and name in chain(*mesh.contact) else []
+            if times > 1 or others:
+                rule = "names it twice" if times > 1 else f"names what mesh.{others[0]} names too"
+                yield BrokenRule(key=f"mesh.{key}", value=name, rule=rule, hint="name it once")
+    pairs = Counter(tuple(sorted(pair)) for pair in mesh.contact)
+    for pair, times in pairs.items():
+        if times > 1:
+            yield BrokenRule(key="mesh.contact", value=", ".join(pair), rule="names it twice", hint="name it once")
