@@ -109,7 +109,7 @@ def test_magnitudes_are_judged_before_anything_is_built(monkeypatch: pytest.Monk
     def built(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("workbench.study.reading.wheel_design", built)
+    monkeypatch.setattr("workbench.study.reading.materials_by_part", built)
     with pytest.raises(StudyError, match=r"wheel\.tire\.outer_radius = '142\.5 m': must lie between 5 mm and 5000 mm"):
         study_of(Path("s.toml"), changed("wheel.tire.outer_radius", "142.5 m"))
 

@@ -11,8 +11,9 @@ from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import fe_curve_tasks
 from workbench.questions.models.graph import brush_task
 from workbench.questions.section.graph import section_tasks
-from workbench.questions.wheel.graph import MESH, MESH_WHOLE, wheel_meshes
+from workbench.questions.wheel.graph import MESH, MESH_WHOLE, own_mesh_tasks, wheel_meshes
 from workbench.study.model import Study
+from workbench.study.own_mesh import own_mesh
 
 __all__ = ["MODELS", "mesh_tasks", "stiffness_tasks"]
 
@@ -21,6 +22,8 @@ MODELS = ("fe", "section", "ancf_wheel", "ancf", "brush")
 
 def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
     """Both meshes of the wheel, and if asked for their files."""
+    if own_mesh(study) is not None:
+        return own_mesh_tasks(study, with_files=with_files)
     meshes = wheel_meshes(study)
     if not with_files:
         return foreseen(meshes)

@@ -17,7 +17,7 @@ from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
 from workbench.study.input_uncertainty import InputUncertaintySection
-from workbench.study.own_mesh import OwnMeshSection
+from workbench.study.own_mesh_section import OwnMeshSection
 from workbench.study.reference import INITIAL, CurveReference, ReferenceSection, told
 from workbench.study.section import in_key
 from workbench.study.sections import (

@@ -1,4 +1,4 @@
-"""The section [mesh] of a wheel whose mesh comes from another program, and what stands in [wheel]'s place then.
+"""A study whose wheel's mesh comes from another program: its section, and what stands in [wheel]'s place then.
 
 Verified by tests/unit/test_workbench_own_mesh.py.
 """
@@ -7,15 +7,11 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
-
-from pydantic import Field
+from typing import TYPE_CHECKING, Any
 
 from contracts.errors import InputError
 from contracts.materials import Material
-from workbench.study.quantities import Length
-from workbench.study.section import Section
-from workbench.study.wheel import MaterialName, PartName
+from workbench.study.own_mesh_section import OwnMeshSection
 from workbench.study.wheel_design import SectionInputError, in_section, materials, part_materials, wheel_design
 
 if TYPE_CHECKING:
@@ -24,8 +20,6 @@ if TYPE_CHECKING:
     from workbench.study.sections import MeshSection
 
 __all__ = [
-    "OwnMeshSection",
-    "OwnPartSection",
     "material_names",
     "materials_by_part",
     "own_mesh",
@@ -34,48 +28,7 @@ __all__ = [
     "without_wheel",
 ]
 
-Axis = Literal["x", "y", "z"]
-GroupName = Annotated[str, Field(min_length=1)]
 _UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 25.4e-3}
-
-
-class OwnPartSection(Section):
-    """A part of a mesh from another program."""
-
-    material: MaterialName
-    """Name of one of [materials]."""
-    groups: tuple[GroupName, ...] = ()
-    """Groups of cells of the file that it consists of; without it that of the part's own name."""
-
-
-class OwnMeshSection(Section):
-    """The wheel's mesh from another program, in place of [wheel]."""
-
-    file: Annotated[str, Field(min_length=1)]
-    """Mesh file (.msh, .med, .inp, .vtu, .vtk, .exo), relative to the study file."""
-    units: Literal["m", "cm", "mm", "in"]
-    """Of the file's lengths."""
-    parts: Annotated[dict[PartName, OwnPartSection], Field(min_length=1)]
-    """Part -> its material, and the file's groups of cells."""
-    hub: Annotated[tuple[GroupName, ...], Field(min_length=1)]
-    """Parts, and groups of faces, that are held."""
-    ground: Annotated[tuple[GroupName, ...], Field(min_length=1)]
-    """Groups of faces that may touch the ground."""
-    contact: tuple[Annotated[tuple[GroupName, GroupName], Field()], ...] = ()
-    """Pairs of groups of faces that may touch each other; the first is held off the second."""
-    symmetry: GroupName | None = None
-    """Group of faces in the wheel's mid-plane, for half a wheel; loads are those of the whole."""
-    axle: Axis = "y"
-    """Axis of the file along the axle."""
-    up: Axis = "z"
-    """Axis of the file at whose lower end lies what faces the ground at 0 degrees."""
-    centre: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
-    """Of the hub, in the file's axes [m]."""
-
-    @property
-    def half_width(self) -> bool:
-        """Whether half the wheel is meshed."""
-        return self.symmetry is not None
 
 
 def own_mesh(study: Study) -> OwnMeshSection | None:

@@ -12,7 +12,8 @@ from itertools import chain
 
 from workbench.study.broken_rule import BrokenRule
 from workbench.study.model import Study
-from workbench.study.own_mesh import OwnMeshSection, own_mesh
+from workbench.study.own_mesh import own_mesh
+from workbench.study.own_mesh_section import OwnMeshSection
 
 __all__ = ["NEEDS_WHEEL", "broken_own_mesh"]
 

@@ -15,7 +15,8 @@ from contracts.materials import Material
 from workbench.execution.task import Task
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
-from workbench.study.own_mesh import OwnMeshSection, materials_by_part, own_mesh
+from workbench.study.own_mesh import materials_by_part, own_mesh
+from workbench.study.own_mesh_section import OwnMeshSection
 
 __all__ = [
     "FOOTPRINTS",

@@ -14,7 +14,16 @@ from workbench.study.model import Study
 from workbench.study.own_mesh import materials_by_part, own_mesh, sized_mesh
 from workbench.study.wheel_design import part_materials
 
-__all__ = ["MESH", "MESH_WHOLE", "coarse_across", "mesh_task", "wheel_inputs", "wheel_meshes"]
+__all__ = [
+    "MESH",
+    "MESH_WHOLE",
+    "coarse_across",
+    "mesh_task",
+    "own_mesh_task",
+    "own_mesh_tasks",
+    "wheel_inputs",
+    "wheel_meshes",
+]
 
 MESH, MESH_WHOLE = "mesh", "mesh_whole"
 """Names of the tasks."""
@@ -69,6 +78,13 @@ def own_mesh_task(study: Study, name: str = MESH) -> Task:
     densities = {part: material.density for part, material in materials_by_part(study).items()}
     inputs = {"mesh": section.model_dump(mode="json"), "sha256": file_sha256(path), "densities": densities}
     return Task(name=name, function="workbench.questions.wheel.own_mesh_task:read", inputs=inputs, cost=5.0)
+
+
+def own_mesh_tasks(study: Study, *, with_files: bool) -> tuple[Task, ...]:
+    """The study's mesh from another program, and if asked for its files as this program writes them."""
+    mesh = own_mesh_task(study)
+    function = "workbench.questions.wheel.own_mesh_files:write_files"
+    return (mesh, Task(name="mesh_files", function=function, inputs={}, needs=(MESH,))) if with_files else (mesh,)
 
 
 def coarse_across(study: Study) -> dict[str, Any]:
