@@ -1,4 +1,4 @@
-"""VTU export for ParaView and PyVista. The only module that imports meshio, and only when a file is written.
+"""VTU export for ParaView and PyVista. Imports meshio only when a file is written.
 
 Verified by tests/unit/test_geometry_files.py.
 """

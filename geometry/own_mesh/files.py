@@ -11,12 +11,17 @@ from contracts.errors import InputError
 from contracts.input_file import require_ordinary_file
 from geometry.own_mesh.file_mesh import FileMesh
 from geometry.own_mesh.gmsh_files import read_gmsh
+from geometry.own_mesh.inp_files import read_inp
+from geometry.own_mesh.meshio_files import read_meshio
 
 __all__ = ["ENDINGS", "LARGEST_FILE", "read_mesh_file"]
 
 LARGEST_FILE = 2_000_000_000
 """Of a mesh file [byte]: two million 27-node cells as text."""
-_READERS = {".msh": read_gmsh, ".med": read_gmsh}
+_READERS = {
+    **{".msh": read_gmsh, ".med": read_gmsh, ".inp": read_inp},
+    **{".vtu": read_meshio, ".vtk": read_meshio, ".exo": read_meshio, ".e": read_meshio},
+}
 ENDINGS = tuple(_READERS)
 
 
