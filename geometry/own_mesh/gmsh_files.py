@@ -70,12 +70,12 @@ def _content(gmsh: Any) -> FileMesh:
     groups: dict[str, Index] = {}
     for _, number in gmsh.model.getPhysicalGroups(3):
         mine = [one for tag in gmsh.model.getEntitiesForPhysicalGroup(3, number) for one in of_entity.get(tag, [])]
-        name = gmsh.model.getPhysicalName(3, number) or str(number)
+        name = gmsh.model.getPhysicalName(3, number).strip() or str(number)
         groups[name] = np.concatenate([groups.get(name, _none()), *mine])
     facets: dict[str, list[Index]] = {}
     flat = 0
     for _, number in gmsh.model.getPhysicalGroups(2):
-        mine = facets.setdefault(gmsh.model.getPhysicalName(2, number) or str(number), [])
+        mine = facets.setdefault(gmsh.model.getPhysicalName(2, number).strip() or str(number), [])
         for tag in gmsh.model.getEntitiesForPhysicalGroup(2, number):
             for kind, faces, nodes in zip(*gmsh.model.mesh.getElements(2, tag), strict=True):
                 _, _, _, n, _, corners = gmsh.model.mesh.getElementProperties(kind)

@@ -51,7 +51,7 @@ def _require_about_axle(mesh: TaggedMesh, roles: Roles, radius: float) -> None:
             found = f"{_length(low[axis])} to {_length(high[axis])} {what}"
             rule = "lie off the axle, which goes through centre along axle"
             raise InputError("ground faces", found, rule, "give the hub's centre, and the axle's axis", key="centre")
-    across = max(float(high[axis] - low[axis]) for axis in (0, 2))
+    across = min(float(high[axis] - low[axis]) for axis in (0, 2))
     if across < radius:
         rule = "do not go around the axle"
         raise InputError("ground faces", f"{_length(across)} across", rule, "check axle, centre and ground", key="axle")
@@ -60,8 +60,8 @@ def _require_about_axle(mesh: TaggedMesh, roles: Roles, radius: float) -> None:
 def _require_outermost(mesh: TaggedMesh, roles: Roles, radius: float, name: Callable[[int], str]) -> None:
     beyond = _radius(mesh.points) > radius * (1.0 + _SAME)
     if beyond.any():
-        cell = int(np.flatnonzero(beyond[mesh.cells].any(axis=1))[0])
-        far = _length(float(_radius(mesh.points).max()))
+        farthest = _radius(mesh.points)[mesh.cells].max(axis=1)
+        cell, far = int(farthest.argmax()), _length(float(farthest.max()))
         rule = f"end at {_length(radius)} from the axle, but {name(cell)} of part {_part(mesh, cell)} reaches {far}"
         hint = "name every group of faces that may touch the ground"
         raise InputError("ground faces", ", ".join(roles.ground), rule, hint, key="ground")

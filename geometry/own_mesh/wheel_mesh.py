@@ -128,7 +128,7 @@ def _faces_of_group(file: FileMesh, cells: Index, name: str, key: str) -> Index:
     inner = chosen[~outside[chosen]]
     if len(inner):
         nodes = ", ".join(str(n) for n in file.node_numbers[every[inner[0]]])
-        rule = f"holds {len(inner)} faces between two cells, the first has the nodes {nodes}"
+        rule = f"holds {len(np.unique(number[inner]))} faces between two cells, the first has the nodes {nodes}"
         raise InputError("group of faces", name, rule, "name faces on the outside of the body", key=key)
     chosen = np.unique(chosen)
     return np.column_stack([chosen // len(local), chosen % len(local)])

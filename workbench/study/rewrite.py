@@ -22,7 +22,7 @@ def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder
     text : the old file
     thickness : of ``"tire"`` and of each spring set by its name [m]
     note : one line, put first as a comment and as the reason of an inferred tire thickness
-    folder : where the old file lies; the reference's files and surfaces are named from there
+    folder : where the old file lies; the reference's files, surfaces and an own mesh are named from there
     """
     document = _parsed(text)
     wheel = document.get("wheel", {})
@@ -33,7 +33,7 @@ def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder
         document["inferred"]["wheel.tire.thickness"] = note
     reference = document.get("reference", {})
     files = [(one, "file") for one in (reference.get("band", {}), *reference.get("curves", ()))]
-    for section, key in (*files, (document.get("ancf", {}), "surfaces")):
+    for section, key in (*files, (document.get("ancf", {}), "surfaces"), (document.get("mesh", {}), "file")):
         if key in section:
             section[key] = str((folder / section[key]).resolve())
     return f"# {note}\n{tomlkit.dumps(document)}"
