@@ -20,8 +20,10 @@ from workbench.questions.input_uncertainty.samples import require_inputs
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.sweep.graph import sweep_graph
+from workbench.questions.wheel.own_mesh_task import own_wheel
 from workbench.report.placing import moved
 from workbench.study.full import full_study
+from workbench.study.own_mesh import own_mesh
 from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.study.rewrite import rewritten_study
 from workbench.study.sweep_points import beyond_reach, end_points
@@ -73,11 +75,14 @@ def _write_new(path: Path, text: str) -> None:
 
 
 def run_check(path: Path) -> int:
-    """Read a study as every command does, plan its reports, its sweep, its samples; what is unusual goes to stderr."""
+    """Read a study as every command does, with its own mesh, plan its reports, its sweep, its samples; what is unusual
+    goes to stderr."""
     study = read_and_warn(path)
     points = end_points(path, read_study_table(path)) if study.sweep is not None else []
     warn(path, beyond_reach(study, points))
     with naming(path):
+        if (mesh := own_mesh(study)) is not None:
+            own_wheel(mesh.model_dump(mode="json"))
         tasks = report_tasks(study)
         if "full" in study.model_fields_set:
             full_study(study)

@@ -12,7 +12,7 @@ from contracts.errors import InputError
 from geometry.parts import SpringSet
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
-from workbench.study.own_mesh import own_mesh, sized_mesh
+from workbench.study.own_mesh import own_mesh, sized_mesh, without_wheel
 from workbench.study.reference import ReferenceSection
 from workbench.study.sections import RoverSection
 from workbench.study.wheel_design import wheel_design
@@ -91,6 +91,8 @@ def full_study(study: Study) -> Study:
     InputError
         If the step does not divide the period, or an orientation the study names is not one of its multiples.
     """
+    if (reason := without_wheel(study, "a full study")) is not None:
+        raise reason
     full, steps = study.full, steps_around(study)
     step = degrees(full.orientation_step)
     for orientation in (degrees(o) for o in study.fe.orientations):
@@ -103,7 +105,7 @@ def full_study(study: Study) -> Study:
             "reference": study.reference and _of_the_same_orientations(study.reference, study),
             "title": f"{study.title}: full study",
             "fe": study.fe.model_copy(update={"orientations": around}),
-            "mesh": sized_mesh(study, "a full study").model_copy(update={"factor": full.factor}),
+            "mesh": sized_mesh(study).model_copy(update={"factor": full.factor}),
             "rover": _all_runs(study.rover),
             "mesh_study": mesh_study
             and mesh_study.model_copy(update={"factors": full.mesh_study_factors, "orientations": around}),

@@ -50,7 +50,7 @@ def stated[T](section: T | None, name: str) -> T:
 def _mesh_kind(table: object) -> str:
     """Which of its two kinds a section [mesh] is."""
     own = "file" in table if isinstance(table, dict) else isinstance(table, OwnMeshSection)
-    return "file" if own else "sizes"
+    return "of a file" if own else "of sizes"
 
 
 class Study(WheelStudy):
@@ -81,7 +81,7 @@ class Study(WheelStudy):
     title: Annotated[str, Field(min_length=1)]
     """Of the report."""
     mesh: Annotated[
-        Annotated[MeshSection, Tag("sizes")] | Annotated[OwnMeshSection, Tag("file")], Discriminator(_mesh_kind)
+        Annotated[MeshSection, Tag("of sizes")] | Annotated[OwnMeshSection, Tag("of a file")], Discriminator(_mesh_kind)
     ]
     fe: FeSection
     mesh_study: MeshStudySection | None = None

@@ -50,9 +50,9 @@ def own_file(study: Study) -> str:
     return "" if section is None else section.file
 
 
-def sized_mesh(study: Study, what: str = "a mesh of other sizes") -> MeshSection:
+def sized_mesh(study: Study) -> MeshSection:
     """The sizes by which [wheel] is meshed; raises InputError for a mesh from another program."""
-    if (reason := without_wheel(study, what)) is not None:
+    if (reason := without_wheel(study, "a mesh of other sizes")) is not None:
         raise reason
     assert not isinstance(study.mesh, OwnMeshSection)
     return study.mesh

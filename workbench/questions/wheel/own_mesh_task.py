@@ -43,9 +43,15 @@ def read(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
 
 
 def own_wheel(section: Mapping[str, Any]) -> TaggedMesh:
-    """The wheel of a section [mesh] as JSON; raises InputError for a file or names that make no wheel."""
-    placement, roles = placement_and_roles(dict(section))
-    return wheel_of_file(read_mesh_file(Path(section["file"])), roles, placement)
+    """The wheel of a section [mesh] as JSON; raises InputError with the key for a file or names that make no wheel."""
+    path, (placement, roles) = Path(section["file"]), placement_and_roles(dict(section))
+    file = read_mesh_file(path)
+    try:
+        return wheel_of_file(file, roles, placement)
+    except InputError as error:
+        what, value = (error.what, error.value or path.name) if error.what == "mesh file" else (error.what, error.value)
+        place = f"mesh.{error.key}: " if error.key not in ("", "file") else ""
+        raise InputError(place + what, value, error.rule, error.hint) from error
 
 
 def measure_own(mesh: TaggedMesh, ground: list[str], densities: Mapping[str, float]) -> dict[str, Any]:
