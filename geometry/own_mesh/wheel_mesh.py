@@ -97,7 +97,7 @@ def _part_of_cells(file: FileMesh, roles: Roles, numbers: Index) -> Index:
         told = f"those of {_listed(of_no_part)}" if of_no_part else "they are in no group"
         rule = f"leaves {len(left)} cells without a material, {told}; the first is cell {numbers[left[0]]}"
         hint = "add a part for them" if of_no_part else "put every cell into a group in the program that made the mesh"
-        raise InputError("[mesh.parts]", "", rule, hint, key="parts")
+        raise InputError("mesh.parts", "", rule, hint)
     return tags
 
 

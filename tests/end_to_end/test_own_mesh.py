@@ -1,0 +1,171 @@
+"""A wheel's own mesh as a user gives it, and our own mesh read back.
+
+Claim: our mesh written as .msh or .inp and read as the wheel's own gives the load that the study's wheel gives on the
+same mesh. Tolerance: 1e-10 of the load, what the deck's 13 digits leave (6e-11 measured); 1e-11 for the .msh file.
+Negative control: without the pairs that touch, or with another part held, the load is another.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contracts.curves import read_curve
+from contracts.mesh import TaggedMesh
+from geometry.build import build_mesh
+from geometry.checks import check_mesh
+from geometry.inp import write_inp
+from geometry.msh import write_msh
+from geometry.own_mesh.files import read_mesh_file
+from geometry.own_mesh.roles import Placement, Roles
+from geometry.own_mesh.wheel_mesh import wheel_of_file
+from reference_fe.wheel.case import NamedFaces, WheelLoadCase
+from reference_fe.wheel.pressed import solve_wheel
+from tests.end_to_end.small_study import ROOT, run, said, tiny_study
+from tests.ring_wheel import ring_deck
+from workbench.study.reading import read_study
+from workbench.study.wheel_design import wheel_design
+
+PAIRS = (
+    ("springs_front", "tire_inner"),
+    ("springs_front", "outer_hub_outer"),
+    ("springs_back", "outer_hub_outer"),
+    ("springs_front", "springs_front"),
+    ("springs_back", "springs_back"),
+    ("tire_inner", "outer_hub_outer"),
+)
+ROLES = Roles(
+    parts={name: (name,) for name in ("tire", "grousers", "springs", "outer_hub")},
+    hub=("outer_hub",),
+    ground=("tire_outer", "grouser_outer"),
+    contact=PAIRS,
+    symmetry="symmetry",
+)
+FACES = NamedFaces(ground=ROLES.ground, pairs=PAIRS)
+CASE = WheelLoadCase(orientation_deg=0.0, deflections=(0.003, 0.006))
+
+
+@pytest.fixture(scope="module")
+def ours(tmp_path_factory: pytest.TempPathFactory) -> tuple[TaggedMesh, Path]:
+    """The tiny study's mesh, and the folder with its files."""
+    folder = tmp_path_factory.mktemp("own")
+    (folder / "tiny.toml").write_text(tiny_study(), encoding="utf-8")
+    design = wheel_design(read_study(folder / "tiny.toml"))
+    mesh = build_mesh(design, element_size=0.024, axial_size=0.060, parts="flexible")
+    write_msh(mesh, folder / "wheel.msh")
+    write_inp(mesh, folder / "wheel.inp")
+    return mesh, folder
+
+
+def _loads(mesh: TaggedMesh, folder: Path, case: WheelLoadCase) -> np.ndarray:
+    materials = wheel_design(read_study(folder / "tiny.toml")).materials
+    return solve_wheel(mesh, materials, case).curve.load
+
+
+@pytest.fixture(scope="module")
+def known(ours: tuple[TaggedMesh, Path]) -> np.ndarray:
+    return _loads(*ours, CASE)
+
+
+@pytest.mark.parametrize(("name", "tolerance"), [("wheel.msh", 1e-11), ("wheel.inp", 1e-10)])
+def test_our_own_mesh_read_back_carries_the_same_load(
+    ours: tuple[TaggedMesh, Path], known: np.ndarray, name: str, tolerance: float
+) -> None:
+    mesh = wheel_of_file(read_mesh_file(ours[1] / name), ROLES, Placement(unit=1.0))
+    check_mesh(mesh)
+    found = _loads(mesh, ours[1], replace(CASE, rigid_parts=("outer_hub",), faces=FACES))
+    assert found == pytest.approx(known, rel=tolerance)
+    assert found[-1] > 50.0
+
+
+def test_negative_control_another_hub_carries_another_load(ours: tuple[TaggedMesh, Path], known: np.ndarray) -> None:
+    """The bore held in place of the whole ring: the ring bends, the load falls."""
+    roles = replace(ROLES, hub=("outer_hub_bore",))
+    mesh = wheel_of_file(read_mesh_file(ours[1] / "wheel.msh"), roles, Placement(unit=1.0))
+    faces = replace(FACES, held=("outer_hub_bore",))
+    found = _loads(mesh, ours[1], replace(CASE, rigid_parts=(), faces=faces))
+    assert 1e-4 < 1.0 - found[-1] / known[-1] < 0.1
+
+
+STUDY = """
+name = "disc"
+title = "A disc of rubber"
+[mesh]
+file = "disc.inp"
+units = "mm"
+hub = ["bore"]
+ground = ["tread"]
+[mesh.parts]
+hub = { material = "rubber" }
+rim = { material = "rubber" }
+[materials.rubber]
+young_modulus = "5 MPa"
+poisson_ratio = 0.4
+density = "1100 kg/m^3"
+yield_strength = "2 MPa"
+source = "made up"
+[fe]
+orientations = ["0 deg"]
+max_deflection = "1 mm"
+points = 2
+max_load = "300 N"
+snapshot_loads = ["20 N"]
+"""
+
+
+@pytest.fixture
+def disc(tmp_path: Path) -> Path:
+    (tmp_path / "disc.inp").write_text(ring_deck(20))
+    (tmp_path / "disc.toml").write_text(STUDY)
+    return tmp_path / "disc.toml"
+
+
+def test_the_commands_on_a_deck(disc: Path) -> None:
+    store = disc.parent / "store"
+    done = said("check", disc)
+    assert done.returncode == 0, done.stderr
+    done = run("mesh", disc, "--out", disc.parent / "mesh", "--store", store)
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((disc.parent / "mesh" / "summary.json").read_text())
+    assert summary["outer_radius"] == pytest.approx(0.1)
+    assert summary["parts"]["rim"]["cells"] == 12
+    written = {path.name for path in (disc.parent / "mesh").iterdir() if path.name[0] != "."}
+    assert written == {"solved.msh", "solved.vtu", "summary.json", "wheel.png"}
+    done = run("report", disc, "--out", disc.parent / "report", "--store", store)
+    assert done.returncode == 0, done.stderr
+    page = (disc.parent / "report" / "report.html").read_text()
+    assert "comes from another program (disc.inp): 24 hexahedra" in page
+    assert "nan" not in page.replace("finance", "").lower().split("<script")[0]
+    curve = read_curve(disc.parent / "report" / "curves" / "fe_phi000.csv", model="fe")
+    assert curve.load[-1] > 20.0
+    assert curve.columns["force_imbalance"].max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"mm"', '"m"', "mesh.units: radius of the ground faces = 100 m: is that of no wheel"),
+        ('["tread"]', '["bore"]', "mesh.hub = bore: names what mesh.ground names too"),
+        ('hub = ["bore"]', 'hub = ["axle"]', "mesh.hub: group of faces = axle: is no group of faces"),
+        ('rim = { material = "rubber" }', "", "mesh.parts: leaves 12 cells without a material, those of"),
+        ("disc.inp", "none.inp", "none.inp: does not exist"),
+        ("disc.inp", "disc.toml", "is of no format that is read"),
+    ],
+)
+def test_a_fault_is_one_message_and_status_2(disc: Path, old: str, new: str, words: str) -> None:
+    disc.write_text(STUDY.replace(old, new, 1))
+    done = said("check", disc)
+    assert done.returncode == 2
+    assert len([line for line in done.stderr.splitlines() if "workbench: error:" in line]) == 1
+    assert words in " ".join(done.stderr.split())
+
+
+def test_a_shipped_study_is_begun_elsewhere_with_its_mesh(tmp_path: Path) -> None:
+    done = said("new", tmp_path / "mine.toml", "--from", "spiral")
+    assert done.returncode == 0, done.stderr
+    assert said("check", tmp_path / "mine.toml").returncode == 0
+    assert str(ROOT / "studies" / "spiral.inp") in (tmp_path / "mine.toml").read_text()
