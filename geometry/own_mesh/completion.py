@@ -86,8 +86,8 @@ def _of_tetrahedra(points: Array, cells: Index) -> Hexahedra:
     nodes = reference_nodes(8 if order == 1 else 27)
     shapes = np.stack([np.prod(0.5 * (1.0 + nodes[:, None] * reference_nodes(8)[None]), axis=2)] * 4)
     weights = np.einsum("pnk,pkb->pnb", shapes, pieces)
-    keys, number = np.unique(np.round(weights.reshape(-1, 4) * 48).astype(np.int64), axis=0, return_inverse=True)
-    at = keys / 48.0
+    keys, number = np.unique(np.round(weights.reshape(-1, 4) * 96).astype(np.int64), axis=0, return_inverse=True)
+    at = keys / 96.0  # each weight is a whole number of 96ths
     places = np.einsum("qn,cnk->cqk", _tetrahedron_shapes(at, cells.shape[1]), points[cells])
     rows = _shared(cells[:, :4], keys).reshape(len(cells), -1)
     _, first, flat = np.unique(rows.ravel(), return_index=True, return_inverse=True)

@@ -111,7 +111,7 @@ source = "made up"
 [fe]
 orientations = ["0 deg"]
 max_deflection = "1 mm"
-points = 2
+points = 8
 max_load = "300 N"
 snapshot_loads = ["20 N"]
 """
