@@ -255,6 +255,36 @@ def traverse(
 
 
 @app.command()
+def roll(
+    study: StudyOrBuiltIn = None,
+    case: Annotated[str, typer.Option(help="rolling, drop or half_round.")] = "rolling",
+    seconds: Annotated[
+        float | None, typer.Option(help="Simulated; 1, 0.3 or 2 s if left out.", show_default=False)
+    ] = None,
+    speed: Annotated[
+        float | None, typer.Option(help="Of the drive, in metres an hour; 70 if left out.", show_default=False)
+    ] = None,
+    height: Annotated[str | None, typer.Option(help="Of the drop; '10 mm' if left out.", show_default=False)] = None,
+    radius: Annotated[
+        str | None, typer.Option(help="Of the half-round; '10 mm' if left out.", show_default=False)
+    ] = None,
+    load: Annotated[
+        float | None,
+        typer.Option(
+            help="Weight on the ground, in N; that of a wheel of the thesis' rover if left out.", show_default=False
+        ),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/roll"),
+    store: StoreOption = DEFAULT_STORE,
+) -> None:
+    """The wheel as thin ANCF plates in motion on Mars: it rolls, falls, or rolls over a half-round."""
+    from workbench.commands.roll import RollChoices, run_roll
+
+    choices = RollChoices(case=case, seconds=seconds, speed=speed, height=height, radius=radius, load=load)
+    raise typer.Exit(run_roll(study, choices, out, store))
+
+
+@app.command()
 def rover(
     scenario: Annotated[
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)
