@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 HUB = 3
 """The hub's coordinates x, z, theta, behind those of the plates."""
 BorderedMatrix = tuple[csc_array, Array]
-"""The plates' part (n_free, n_free) and the hub's columns (n_free + 3, 3) of a symmetric matrix."""
+"""The plates' part (n_free, n_free) and the hub's columns (n_free + 3, 3); its rows are their transpose, or given."""
 
 
 class Bordered:
@@ -28,15 +28,16 @@ class Bordered:
         If it is singular.
     """
 
-    def __init__(self, matrix: BorderedMatrix) -> None:
+    def __init__(self, matrix: BorderedMatrix, rows: Array | None = None) -> None:
         inner, border = matrix
-        self._border, corner = border[:-HUB], border[-HUB:]
+        own, corner = border[:-HUB], border[-HUB:]
+        self._rows = own.T if rows is None else rows
         self._factors = splu(inner, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-        self._over = self._factors.solve(self._border)
-        self._corner = np.linalg.inv(corner - self._border.T @ self._over)
+        self._over = self._factors.solve(own)
+        self._corner = np.linalg.inv(corner - self._rows @ self._over)
 
     def __call__(self, right: Array) -> Array:
         """Of vectors (n,) or columns (n, j)."""
         own = self._factors.solve(np.ascontiguousarray(right[:-HUB]))
-        hub = self._corner @ (right[-HUB:] - self._border.T @ own)
+        hub = self._corner @ (right[-HUB:] - self._rows @ own)
         return np.concatenate([own - self._over @ hub, hub])

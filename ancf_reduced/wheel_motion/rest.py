@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ancf_reduced.wheel.static import Equilibrium, Mixed, press
 from ancf_reduced.wheel_motion.bordered import HUB
-from ancf_reduced.wheel_motion.newton import newton_step
+from ancf_reduced.wheel_motion.newton import Factored
 from ancf_reduced.wheel_motion.rolling import Motion, RollingWheel
 from contracts.errors import ConvergenceError, InputError
 
@@ -78,7 +78,8 @@ def _settled(rolling: RollingWheel, near: Equilibrium, tolerance: float) -> Moti
     mixed: Mixed = *problem.extrapolated(near.free, 0.0 * near.free), here.pressed
     for _ in range(_TRIES):
         found = rolling.linearised(here, mixed, rolling.damping(here.y))
-        done = newton_step(found, mixed[2][found.system.near] > 0.0, (0.0, 0.0), (0, 2))
+        factored = Factored.of(found, mixed[2][found.system.near] > 0.0, (0.0, 0.0), (0, 2))
+        done = None if factored is None else factored.step()
         if done is None:
             break
         step, forces = done

@@ -13,8 +13,6 @@ Verified by tests/verification/test_ancf_rolling.py.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, eye_array, hstack, kron
@@ -22,76 +20,21 @@ from scipy.sparse.linalg import eigsh
 
 from ancf_reduced.wheel.contacts import Near
 from ancf_reduced.wheel.static import Mixed, System, WheelOnGround
-from ancf_reduced.wheel_motion.bordered import HUB, Bordered, BorderedMatrix
+from ancf_reduced.wheel_motion.bordered import HUB, Bordered
 from ancf_reduced.wheel_motion.friction import Friction, Pressed, Rubbing
+from ancf_reduced.wheel_motion.state import Hub, Linearised, Motion
 from contracts.errors import InputError
 
 __all__ = ["ABOUT_AXLE", "Hub", "Linearised", "Motion", "RollingWheel"]
 
 Array = NDArray[np.float64]
+Held = tuple[Array, NDArray[np.int64]]
 ABOUT_AXLE = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
 """E: what e_y x does to a vector."""
+_RUBBING = 0.1e-3
+"""Gap below which the ground's friction on a point is in the equations [m]."""
 _FAR = 1e3
 """Height at which no ground is near [m]."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Hub:
-    """What moves with the hub, of the whole wheel, and its drive.
-
-    Attributes
-    ----------
-    mass : on the axle [kg]
-    inertia : about the axle [kg m^2]
-    speed, gain : drive that turns it with gain (speed - theta') [rad/s, N m s]; no gain: it turns freely
-    """
-
-    mass: float
-    inertia: float
-    speed: float = 0.0
-    gain: float = 0.0
-
-    def __post_init__(self) -> None:
-        for what, value, unit in (("hub mass", self.mass, "kg"), ("hub inertia", self.inertia, "kg m^2")):
-            if not (np.isfinite(value) and value > 0.0):
-                raise InputError(what, f"{value:g} {unit}", "must be finite and > 0", "check the unit")
-        if not (np.isfinite(self.gain) and self.gain >= 0.0):
-            raise InputError("drive gain", f"{self.gain:g} N m s", "must be finite and >= 0", "0 turns freely")
-        if not np.isfinite(self.speed):
-            raise InputError("drive speed", f"{self.speed:g} rad/s", "must be finite", "e.g. 0.14 rad/s")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Motion:
-    """Coordinates y, their rates v and accelerations a (n_free + 3,) at a time [s]; forces of all contacts [N]."""
-
-    time: float
-    y: Array
-    v: Array
-    a: Array
-    pressed: Array
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Linearised:
-    """Residual (n_free + 3,), its derivatives by coordinates, rates and accelerations; contacts for `settle`.
-
-    Attributes
-    ----------
-    residual : inertia and inner forces less weight, drive and friction, without contacts' normal forces
-    by_place, by_rate, by_acceleration : its derivatives
-    slopes : (m, n_free + 3) of the gaps
-    damping : (n_free, n_free) by rates of strain, part of ``by_rate``
-    system : the wheel without inertia
-    """
-
-    residual: Array
-    by_place: BorderedMatrix
-    by_rate: BorderedMatrix
-    by_acceleration: BorderedMatrix
-    slopes: csr_array
-    damping: csc_array
-    system: System
 
 
 class RollingWheel:
@@ -160,8 +103,12 @@ class RollingWheel:
             return csc_array((self.size - HUB, self.size - HUB))
         return csc_array(self._viscosity * self.problem.material_tangent(y[:-HUB]))
 
-    def linearised(self, motion: Motion, mixed: Mixed, damping: csc_array) -> Linearised:
-        """The equations about a state; ``mixed`` as `WheelOnGround.linearised`, damping as it is there or near."""
+    def linearised(self, motion: Motion, mixed: Mixed, damping: csc_array, pull: Array | None = None) -> Linearised:
+        """The equations about a state.
+
+        mixed : as `WheelOnGround.linearised`; damping : as it is there or near; pull : of the ground at all its
+        contacts (n_ground, 3) [-] as the Newton step before found it, or None
+        """
         y, v, a = motion.y, motion.v, motion.a
         T, M = self.basis, self._mass
         system = self.problem.linearised(y[:-HUB], self._pose(y[-HUB:]), mixed)
@@ -182,9 +129,11 @@ class RollingWheel:
         inner, by_rate = damping, np.zeros((self.size, HUB))
         by_rate[-1, -1] = self.hub.gain / self.sides
         slopes, place = self._contacts(y, system, mixed[2])
-        rubbing = self._rubbing(motion, system.ground, mixed[2])
+        close = system.ground.gaps < (-np.inf if pull is None else _RUBBING)
+        rubs = np.flatnonzero((mixed[2][system.ground.points] > 0.0) | close)
+        rubbing, push = self._rubbing(motion, system.ground, (mixed[2], rubs), pull), slopes
         if rubbing is not None:
-            residual -= rubbing.points.forces(rubbing.force)
+            push = push + rubbing.leaning(rubs, len(system.gaps))
             more, border = rubbing.by_rate()
             inner, by_rate = inner + more, by_rate + border
         return Linearised(
@@ -193,6 +142,9 @@ class RollingWheel:
             by_rate=(csc_array(inner), by_rate),
             by_acceleration=(self.own_mass, hub_mass),
             slopes=slopes,
+            push=csr_array(push),
+            rubbing=rubbing,
+            rubs=rubs,
             damping=damping,
             system=system,
         )
@@ -202,14 +154,15 @@ class RollingWheel:
         at = Motion(time=motion.time, y=motion.y, v=motion.v, a=0.0 * motion.v, pressed=motion.pressed)
         found = self.linearised(at, self._mixed(motion), self.damping(motion.y))
         held = -found.system.stiffness * np.minimum(found.system.gaps, 0.0)
-        return Bordered(found.by_acceleration)(found.slopes.T @ held - found.residual)
+        return Bordered(found.by_acceleration)(found.push.T @ held - found.residual)
 
     def load(self, motion: Motion) -> Array:
         """Force of the ground on the whole wheel along world x and z (2,) [N], friction with it."""
         ground = self._near(motion)
-        points = self._pressed(motion.y, ground, motion.pressed)
+        held = _held(ground, motion.pressed)
+        points = self._pressed(motion.y, ground, held)
         force = points.force[:, None] * points.normals
-        rubbing = self._rubbing(motion, ground, motion.pressed)
+        rubbing = self._rubbing(motion, ground, held)
         if rubbing is not None:
             force = force + rubbing.force
         return np.asarray(self.sides * (_rotation(float(motion.y[-1])) @ force.sum(axis=0))[[0, 2]])
@@ -236,7 +189,7 @@ class RollingWheel:
         """Of damping and friction (dissipated, >= 0) and of the drive [W], of the whole wheel."""
         damping = float(motion.v[:-HUB] @ (found.damping @ motion.v[:-HUB]))
         drive = self.hub.gain * (self.hub.speed - motion.v[-1]) * motion.v[-1]
-        rubbing = self._rubbing(motion, found.system.ground, motion.pressed)
+        rubbing = self._rubbing(motion, found.system.ground, _held(found.system.ground, motion.pressed))
         friction = 0.0 if rubbing is None else rubbing.power
         return self.sides * damping, self.sides * friction, float(drive)
 
@@ -268,9 +221,9 @@ class RollingWheel:
         hub[:count, :2] = surface.normals @ axes.T
         hub[:count, 2] = (surface.normals * E_places).sum(axis=1)
         slopes, place = csr_array(hstack([system.slopes, csr_array(hub)])), np.zeros((self.size, HUB))
-        held = np.flatnonzero(pressed[system.ground.points] > 0.0)
+        held = _held(system.ground, pressed)[1]
         if len(held):
-            points = self._pressed(y, system.ground, pressed)
+            points = self._pressed(y, system.ground, (pressed, held))
             bends, normals = surface.bends[held], points.normals
             bent = bends @ points.ways
             bent[:, :, 2] += normals @ ABOUT_AXLE
@@ -280,10 +233,10 @@ class RollingWheel:
             place[-HUB:] = -square
         return slopes, place
 
-    def _pressed(self, y: Array, ground: Near, pressed: Array) -> Pressed:
-        """Points of the ground's contacts that are under pressure."""
+    def _pressed(self, y: Array, ground: Near, which: Held) -> Pressed:
+        """Some of the points that are near the ground."""
         assert ground.surface is not None
-        held = np.flatnonzero(pressed[ground.points] > 0.0)
+        pressed, held = which
         axes = _rotation(float(y[-1]))[[0, 2]]
         ways = np.empty((len(held), 3, HUB))
         ways[:, :, 0], ways[:, :, 1], ways[:, :, 2] = axes[0], axes[1], ground.surface.places[held] @ ABOUT_AXLE.T
@@ -292,11 +245,17 @@ class RollingWheel:
         force = pressed[ground.points[held]]
         return Pressed(force=force, normals=ground.surface.normals[held], slopes=slopes, ways=ways)
 
-    def _rubbing(self, motion: Motion, ground: Near, pressed: Array) -> Rubbing | None:
-        """Friction of the ground, if there is any."""
-        if self.friction.coefficient == 0.0 or not (pressed[ground.points] > 0.0).any():
+    def _rubbing(self, motion: Motion, ground: Near, which: Held, pull: Array | None = None) -> Rubbing | None:
+        """Friction of the ground on some of the points near, if there is any."""
+        if self.friction.coefficient == 0.0 or not len(which[1]):
             return None
-        return Rubbing.of(self.friction, self._pressed(motion.y, ground, pressed), motion.v)
+        own = None if pull is None else pull[ground.points[which[1]]]
+        return Rubbing.of(self.friction, self._pressed(motion.y, ground, which), motion.v, own)
+
+
+def _held(ground: Near, pressed: Array) -> Held:
+    """Forces of all contacts, and which of those near the ground are under pressure."""
+    return pressed, np.flatnonzero(pressed[ground.points] > 0.0)
 
 
 def _rotation(theta: float) -> Array:

@@ -12,10 +12,11 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csc_array
 
 from ancf_reduced.wheel.static import Mixed
 from ancf_reduced.wheel_motion.bordered import HUB
-from ancf_reduced.wheel_motion.newton import newton_step
+from ancf_reduced.wheel_motion.newton import Factored
 from ancf_reduced.wheel_motion.rolling import Linearised, Motion, RollingWheel
 from contracts.errors import ConvergenceError, InputError
 
@@ -23,8 +24,12 @@ __all__ = ["Account", "TravelSettings", "travel"]
 
 Array = NDArray[np.float64]
 _GROWTH, _SHRINKING = 1.5, 0.35
+_KEPT, _GROWTH_FROM = 0.92, 1.3
+"""Shares of the step within which the next one stays as it is, and the factors with it [-]."""
 _DIVERGING = 1.2
 """Times the step before, in places: from there Newton's iteration has not come back [-]."""
+_TURNED = 0.01
+"""Turning of a strip from which the damping matrix is made anew [rad]."""
 _ASTRAY = 0.03
 """Of the wheel's radius: after a first step of more a shorter time step is cheaper [-]."""
 
@@ -133,8 +138,9 @@ def travel(
             if account is not None:
                 account.add(wheel, found)
             here = found
-            grown = step * min(_GROWTH, 0.9 * max(error, 1e-9) ** (-1.0 / 3.0))
-            h = min(max(grown, h) if step < h else grown, run.settings.largest_step)
+            grown = 0.9 * max(error, 1e-9) ** (-1.0 / 3.0)
+            if step == h and not _KEPT <= grown <= _GROWTH_FROM:
+                h = min(step * min(_GROWTH, grown), run.settings.largest_step)
             if watch is not None:
                 watch(here.motion)
         yield here.motion
@@ -142,12 +148,19 @@ def travel(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Step:
-    """A state, its auxiliary accelerations, and the equations a Newton step before."""
+    """A state, its auxiliary accelerations; the equations a Newton step before, where, and their factors; pulls."""
 
     motion: Motion
     auxiliary: Array
     found: Linearised
-    step: Array
+    at: Motion
+    pull: Array
+    factored: Factored | None = None
+
+    @property
+    def step(self) -> Array:
+        """From where the equations are linearised to the state (n_free + 3,)."""
+        return self.motion.y - self.at.y
 
 
 class _Run:
@@ -159,8 +172,12 @@ class _Run:
         self.alpha_m, self.alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
         self.gamma = 0.5 - self.alpha_m + self.alpha_f
         self.beta = 0.25 * (self.gamma + 0.5) ** 2
+        self._braking: tuple[Array, csc_array] | None = None
         places = np.zeros(wheel.problem.wheel.plates.reference.shape, dtype=bool)
         places[:, 0] = True
+        slopes = np.zeros_like(places)
+        slopes[:, 1:3] = True
+        self._slopes = np.flatnonzero(slopes.ravel())
         touched = np.abs(wheel.basis.T @ places.ravel().astype(float)) > 0.0
         self._astray = _ASTRAY * float(np.linalg.norm(wheel.problem.wheel.plates.reference[:, 0], axis=1).max())
         self._places = np.concatenate([np.flatnonzero(touched), wheel.size - HUB + np.arange(2)])
@@ -170,47 +187,69 @@ class _Run:
         a = self.wheel.accelerations(start)
         motion = Motion(time=start.time, y=start.y, v=start.v, a=a, pressed=start.pressed)
         none: Mixed = *self.wheel.problem.extrapolated(start.y[:-HUB], 0.0 * start.y[:-HUB]), start.pressed
-        return Step(motion, a, self.wheel.linearised(motion, none, self.wheel.damping(start.y)), 0.0 * a)
+        found = self.wheel.linearised(motion, none, self._damping(start.y))
+        return Step(motion, a, found, motion, self._pull(found, 0.0 * a))
 
     def advance(self, here: Step, h: float) -> Step | None:
-        """One step [s]; None if Newton's iteration does not converge."""
+        """One step [s]; None if Newton's iteration does not converge.
+
+        The iteration begins at the places of the state before, not at those that its rates lead to: a straight step
+        there would stretch strips that turn. What was linearised last serves it.
+        """
         last, beta, gamma = here.motion, self.beta, self.gamma
         share = (1.0 - self.alpha_m) / (1.0 - self.alpha_f)
-        by_a, by_v = share / (h * h * beta), gamma / (h * beta)
-        a = last.a.copy()
-        auxiliary = self._auxiliary(here, a)
-        y = last.y + h * last.v + h * h * ((0.5 - beta) * here.auxiliary + beta * auxiliary)
-        v = last.v + h * ((1.0 - gamma) * here.auxiliary + gamma * auxiliary)
-        extrapolated = self.wheel.problem.extrapolated
-        mixed: Mixed = *extrapolated(last.y[:-HUB], (y - last.y)[:-HUB]), last.pressed
-        before, damping = 0.0, self.wheel.damping(last.y)
+        weights = by_v, by_a = gamma / (h * beta), share / (h * h * beta)
+        auxiliary = self._auxiliary(here, last.a)
+        ahead = h * last.v + h * h * ((0.5 - beta) * here.auxiliary + beta * auxiliary)
+        v = last.v + h * ((1.0 - gamma) * here.auxiliary + gamma * auxiliary) - by_v * ahead
+        y, a, at = last.y, last.a - by_a * ahead, here.at
+        factored, before, pressed = here.factored, 0.0, last.pressed
+        if factored is None or factored.weights != weights:
+            factored = Factored.of(here.found, last.pressed[here.found.system.near] > 0.0, weights)
+        damping = self._damping(last.y)
         for _ in range(self.settings.newton_iterations):
-            at = Motion(time=last.time + h, y=y, v=v, a=a, pressed=mixed[2])
-            found = self.wheel.linearised(at, mixed, damping)
-            system = found.system
-            touching = mixed[2][system.near] > 0.0
-            done = newton_step(found, touching, (by_v, by_a))
-            if done is None:
+            done = None if factored is None else factored.step((y - at.y, v - at.v, a - at.a))
+            if factored is None or done is None:
                 return None
-            step, forces = done
+            (step, forces), found = done, factored.found
             pressed = np.zeros_like(last.pressed)
-            pressed[system.near] = forces
+            pressed[found.system.near] = forces
             size = float(np.abs(step[self._places]).max())
-            if not size < (_DIVERGING * before if before else self._astray):
+            apart = size if before else float(np.abs((step - ahead)[self._places]).max())
+            if not apart < (_DIVERGING * before if before else self._astray):
                 return None
-            mixed = *extrapolated(y[:-HUB], step[:-HUB]), pressed
+            mixed: Mixed = *self.wheel.problem.extrapolated(y[:-HUB], step[:-HUB]), pressed
+            pull = self._pull(found, v + by_v * step - at.v)
             y, v, a = y + step, v + by_v * step, a + by_a * step
             # what is left if steps go on shrinking as they do (Hairer & Wanner, Solving ODEs II, IV.8, from memory)
-            left, before = size * (min(1.0, size / before) if before else 1.0), size
+            left, begun, before = size * min(1.0, size / before) if before else np.inf, at, size
+            at = Motion(time=last.time + h, y=y, v=v, a=a, pressed=pressed)
             if left < self.settings.newton_tolerance * self.settings.tolerance:
-                motion = Motion(time=last.time + h, y=y, v=v, a=a, pressed=pressed)
-                return Step(motion, self._auxiliary(here, a), found, step)
+                return Step(at, self._auxiliary(here, a), found, begun, pull, factored)
+            found = self.wheel.linearised(at, mixed, damping, pull)
+            factored = Factored.of(found, pressed[found.system.near] > 0.0, weights)
         return None
 
     def error(self, here: Step, found: Step, h: float) -> float:
         """Local error relative to its tolerance [-]."""
         change = np.abs((found.auxiliary - here.auxiliary)[self._places]).max()
         return float(h * h * abs(self.beta - 1.0 / 6.0) * change / self.settings.tolerance)
+
+    def _damping(self, y: Array) -> csc_array:
+        """The wheel's, as it is or was where no strip had turned by more than `_TURNED` since."""
+        if self._braking is not None:
+            change = self.wheel.basis @ (y - self._braking[0])[:-HUB]
+            if np.abs(change[self._slopes]).max() <= _TURNED:
+                return self._braking[1]
+        self._braking = y, self.wheel.damping(y)
+        return self._braking[1]
+
+    def _pull(self, found: Linearised, rates: Array) -> Array:
+        """Of the ground at all contacts with it (n_ground, 3) [-] after a step that changes the rates."""
+        pull, ground = np.zeros((self.wheel.problem.counts[0], 3)), found.system.ground
+        if found.rubbing is not None:
+            pull[ground.points[found.rubs]] = found.rubbing.after(rates)
+        return pull
 
     def _auxiliary(self, here: Step, a: Array) -> Array:
         weighted = self.alpha_f * here.motion.a + (1.0 - self.alpha_f) * a - self.alpha_m * here.auxiliary
