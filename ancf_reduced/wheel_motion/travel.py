@@ -81,9 +81,9 @@ class Account:
         return np.asarray(table[:, 1:7].sum(axis=1) - table[:, 7])
 
     def closure(self) -> float:
-        """Spread of the totals over the largest change of one part [-]."""
-        table = np.array(self.rows)[:, 1:]
-        return float(np.ptp(self.totals) / np.ptp(table, axis=0).max())
+        """Spread of the totals over the largest change of one part [-]; 0 before anything has changed."""
+        change = float(np.ptp(np.array(self.rows)[:, 1:], axis=0).max())
+        return float(np.ptp(self.totals)) / change if change > 0.0 else 0.0
 
     def add(self, wheel: RollingWheel, here: Step) -> None:
         """One row more."""

@@ -40,7 +40,7 @@ _DAMPING = 0.05
 """Of the first mode with the hub held [-]."""
 _BEFORE = 1e-3
 """Way from where it stands to where it first touches the half-round [m]."""
-_SETTINGS = TravelSettings(tolerance=1e-5, largest_step=0.1)
+_SETTINGS = TravelSettings(tolerance=3e-5, largest_step=0.1)
 _ENERGIES = ("kinetic", "strain", "weight", "contact", "damping", "friction", "drive")
 
 
