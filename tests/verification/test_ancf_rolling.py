@@ -32,8 +32,8 @@ ROLLS = Hub(mass=52.6, inertia=0.05, speed=70.0 / 3600.0 / 0.1425, gain=500.0)
 class WithoutCoriolis(RollingWheel):
     """The control: the acceleration 2 theta' E p' forgotten."""
 
-    def linearised(self, motion: Motion, mixed: Mixed, damping: csc_array) -> Linearised:
-        found = super().linearised(motion, mixed, damping)
+    def linearised(self, motion: Motion, mixed: Mixed, damping: csc_array, pull: Array | None = None) -> Linearised:
+        found = super().linearised(motion, mixed, damping, pull)
         own = slice(0, self.basis.shape[1])
         coriolis = 2.0 * motion.v[-1] * (self._mass @ (self._turn @ (self.basis @ motion.v[own])))
         residual = found.residual.copy()
