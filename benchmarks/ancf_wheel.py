@@ -219,7 +219,7 @@ def motion() -> Iterator[dict[str, object]]:
             rolling = RollingWheel(problem, hub, mars, friction, 0.05)
             start = above(rolling, 10e-3) if name.startswith("dropped") else standing(rolling)
             account, begun = Account(), os.times().user
-            settings = TravelSettings(tolerance=3e-5, largest_step=0.1)
+            settings = TravelSettings(tolerance=1e-5 if name.startswith("dropped") else 3e-5, largest_step=0.1)
             list(travel(rolling, start, [end if again else 0.01], settings, account))
             if again:
                 yield row(name, "unknowns", "-", wheel.basis.shape[1] + 3)

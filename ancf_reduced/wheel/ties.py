@@ -12,6 +12,7 @@ from ancf_reduced.thin_plates.plates import ThinPlates
 from ancf_reduced.thin_plates.shape_functions import shape_tables
 from ancf_reduced.wheel.draft import TieLine
 from ancf_reduced.wheel.kernels import find_tie_forces, tie_terms
+from contracts.errors import MeshError
 
 __all__ = ["Ties"]
 
@@ -22,8 +23,17 @@ _STIFFNESS = 1e3
 """Of a tie, in t E / length of the spring's plate [-]."""
 
 
+_APART, _TURNED = 5e-5, 1e-3
+"""Off where an edge is tied, at rest: more is a mistake [m, -]."""
+
+
 class Ties:
     """What ties of plates need at every state.
+
+    Raises
+    ------
+    MeshError
+        For an edge that does not lie where it is tied, or not at its angle: cubics of two radii leave 1e-5 m and 1e-4.
 
     Attributes
     ----------
@@ -53,6 +63,10 @@ class Ties:
         rest, ones = np.zeros((*share.shape, 4)), np.ones(share.shape)
         still = 0.0 * plates.reference
         find_tie_forces(plates.reference, still, plates.plates, (*alone, 0.0 * rest), (ones, ones), rest)
+        apart, turned = np.abs(rest[..., :3]).max(initial=0.0), np.abs(rest[..., 3]).max(initial=0.0)
+        if apart > _APART or turned > _TURNED:
+            told = f"{1e3 * apart:.3g} mm, {turned:.3g} rad"
+            raise MeshError(f"edges of springs or cone lie {told} off where they are tied: report this wheel")
         self._ties = *alone, rest
 
     def terms(self, q: Array, mixed: Array) -> tuple[float, Array, Array]:

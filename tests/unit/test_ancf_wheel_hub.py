@@ -1,4 +1,4 @@
-"""An elastic hub of the ANCF wheel: areas, mass, joints at rest, derivatives, contact, what is refused."""
+"""An elastic hub of the ANCF wheel: areas, where edges are tied, derivatives, contact, what is refused."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
 from ancf_reduced.wheel.planar import planar
 from ancf_reduced.wheel.static import WheelOnGround, press
 from ancf_reduced.wheel.stress import largest_spring_stress
-from contracts.errors import InputError
+from ancf_reduced.wheel.ties import Ties
+from contracts.errors import InputError, MeshError
 from geometry.springs import leg_sides, spring_leg
 from geometry.wheel import WheelDesign, exomars
 
@@ -57,8 +58,40 @@ def test_parts_of_the_hub_have_their_area(wheel: AncfWheel) -> None:
     assert _area(wheel, "impact_springs") == pytest.approx(legs * leg.length * width, rel=1e-4)
 
 
+def test_edges_that_are_tied_amiss_are_told(wheel: AncfWheel) -> None:
+    """An edge on the wall's other side, a millimetre off, and a cone whose angle is mirrored."""
+    cone, ties = wheel.ties.leaving == 1, wheel.ties
+    for changes in (
+        {"offset": -ties.offset},
+        {"ends": ties.ends + 0.05 * (cone[:, None, None])},
+        {"square": np.where(cone[:, None], ties.square * [-1.0, 1.0], ties.square)},
+    ):
+        with pytest.raises(MeshError, match="off where they are tied"):
+            Ties(wheel.plates, replace(ties, **changes))
+
+
+def test_welds_lie_on_the_side_of_their_springs(wheel: AncfWheel) -> None:
+    """Along the normal, which points inwards: springs on the rim's inside and the hub's outside, impact ones in it."""
+    design = exomars()
+    assert design.impact_springs is not None
+    thin = {springs.thickness for springs in design.spring_sets}
+    heights = {"tire": set[float](), HUB: set[float]()}
+    for part, layers in zip(wheel.parts.tolist(), wheel.plates.layers, strict=True):
+        if part in heights:
+            heights[part] |= {np.sign(one.height) for one in layers[1:] if one.thickness in thin}
+    assert heights == {"tire": {1.0}, HUB: {-1.0}}
+    impact = [
+        one.height
+        for part, layers in zip(wheel.parts.tolist(), wheel.plates.layers, strict=True)
+        for one in layers[1:]
+        if part == HUB and one.thickness == design.impact_springs.thickness
+    ]
+    assert impact
+    assert min(impact) > 0.0
+
+
 def test_joints_are_at_rest(wheel: AncfWheel) -> None:
-    """At rest ties have no energy: edges lie where they belong and at their angle; nor has the held hub."""
+    """At rest neither ties have energy nor the held hub."""
     problem = WheelOnGround(wheel, 0.3, inner_contact_stiffness=0.0)
     rest = np.zeros(wheel.basis.shape[1])
     none = np.zeros(sum(problem.counts))
@@ -101,6 +134,7 @@ def test_a_wheel_held_by_its_cone_alone_turns_where_the_joint_is_let_go() -> Non
 
 
 def test_both_halves_are_the_wheel(wheel: AncfWheel) -> None:
+    """Both cones, the mirrored one too, where they belong: else `Ties` would tell."""
     whole = build_ancf_wheel(exomars(), element_size=40e-3, axial_size=60e-3, hub="elastic", half_width=False)
     for part in HUB_PARTS[1:]:
         assert (whole.parts == part).sum() == 2 * (wheel.parts == part).sum()

@@ -53,17 +53,18 @@ def test_what_is_no_motion_is_refused(choices: dict[str, object], match: str) ->
 
 
 def test_a_study_with_what_the_model_has_not_is_refused() -> None:
-    hub = STUDY.model_copy(update={"fe": STUDY.fe.model_copy(update={"hub": "elastic"})})
-    with pytest.raises(InputError, match=r"fe\.hub"):
-        motion_task(hub, RollChoices().asked())
+    neo = STUDY.model_copy(update={"fe": STUDY.fe.model_copy(update={"material_law": "neo_hookean"})})
+    with pytest.raises(InputError, match=r"fe\.material_law"):
+        motion_task(neo, RollChoices().asked())
 
 
 def test_a_motion_that_stops_keeps_what_it_has(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its smallest step is longer than landing allows."""
     inputs = dict(motion_task(STUDY, replace(RollChoices(case="drop", height="0.1 mm").asked(), seconds=0.1)).inputs)
     inputs["options"] = {"element_size": 40e-3, "axial_size": 60e-3}
-    coarse = TravelSettings(tolerance=1e-9, first_step=2e-3, smallest_step=1e-3)
-    monkeypatch.setattr(task_module, "_SETTINGS", coarse)
+    monkeypatch.setattr(
+        task_module, "TravelSettings", lambda **_: TravelSettings(tolerance=1e-9, first_step=2e-3, smallest_step=1e-3)
+    )
     unknowns = task_module.move(inputs, {}, tmp_path, lambda _: None)
     found = json.loads((tmp_path / "result.json").read_text(encoding="utf-8"))
     series = read_series(tmp_path / task_module.SERIES, "drop", "ancf_wheel")

@@ -84,6 +84,7 @@ def motion_task(study: Study, asked: MotionCase) -> Task:
             "axial_size": section.axial_size,
             "half_width": study.mesh.half_width,
             "ground_spacing": _SPACING,
+            "hub": study.fe.hub,
         },
         "contact_stiffness": study.fe.contact_stiffness,
         "inner_contact_stiffness": INNER_STIFFNESS if study.fe.inner_contact else 0.0,

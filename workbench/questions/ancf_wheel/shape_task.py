@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ancf_reduced.wheel.hub import HUB_PARTS
 from ancf_reduced.wheel.mesh import AncfWheel, build_ancf_wheel
 from ancf_reduced.wheel.shape import MiddleSurface
 from contracts.archive import read_archive
@@ -42,7 +43,8 @@ def compare_shapes(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Pa
     wheel = build_ancf_wheel(design_from(inputs["wheel"]), **inputs["options"])
     mesh = read_mesh(needs[inputs["mesh"]] / MESH)
     try:
-        surfaces = {part: _middle_surface(wheel, mesh, part) for part in dict.fromkeys(wheel.parts.tolist())}
+        parts = [part for part in dict.fromkeys(wheel.parts.tolist()) if part not in HUB_PARTS]
+        surfaces = {part: _middle_surface(wheel, mesh, part) for part in parts}
     except InputError as error:
         write_result(out, {"rows": [], FAILURE: str(error)})
         return 0
