@@ -1,4 +1,4 @@
-"""VTU export for ParaView and PyVista. Imports meshio only when a file is written.
+"""VTU export for ParaView and PyVista. The only module that imports meshio, and only when a file is written or read.
 
 Verified by tests/unit/test_geometry_files.py.
 """
@@ -6,11 +6,19 @@ Verified by tests/unit/test_geometry_files.py.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from contracts.mesh import TaggedMesh
 from geometry.hexahedra import VTK_FROM_GMSH
 
-__all__ = ["write_vtu"]
+__all__ = ["meshio_module", "write_vtu"]
+
+
+def meshio_module() -> Any:
+    """The library."""
+    import meshio  # type: ignore[import-untyped]
+
+    return meshio
 
 
 def write_vtu(mesh: TaggedMesh, path: Path) -> None:
@@ -21,9 +29,7 @@ def write_vtu(mesh: TaggedMesh, path: Path) -> None:
     mesh : the mesh
     path : file to write (``.vtu``); its folder is made if needed
     """
-    import meshio  # type: ignore[import-untyped]
-
     path.parent.mkdir(parents=True, exist_ok=True)
     kind, order = ("hexahedron", range(8)) if mesh.order == 1 else ("hexahedron27", VTK_FROM_GMSH)
     cells = [(kind, mesh.cells[:, list(order)])]
-    meshio.write_points_cells(str(path), mesh.points, cells, cell_data={"part": [mesh.cell_tags]})
+    meshio_module().write_points_cells(str(path), mesh.points, cells, cell_data={"part": [mesh.cell_tags]})

@@ -18,6 +18,7 @@ from contracts.errors import InputError
 from geometry.hexahedra import VTK_FROM_GMSH
 from geometry.inp import TWENTY_NODES
 from geometry.own_mesh.file_mesh import CellBlock, FileMesh
+from geometry.vtu import meshio_module
 
 __all__ = ["read_meshio"]
 
@@ -44,9 +45,7 @@ def read_meshio(path: Path) -> FileMesh:
     InputError
         For a file that meshio cannot read.
     """
-    import meshio  # type: ignore[import-untyped]
-
-    module: Any = getattr(meshio, _MODULES[path.suffix.lower()])
+    module: Any = getattr(meshio_module(), _MODULES[path.suffix.lower()])
     try:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             found = module.read(str(path))
