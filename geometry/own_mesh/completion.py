@@ -1,4 +1,4 @@
-"""Cells of other kinds as the hexahedra that are solved: middle nodes added, tetrahedra divided into four.
+"""Cells of other kinds as the hexahedra that are solved: middle nodes added, tetrahedra in four, all divided on.
 
 Verified by tests/unit/test_own_mesh_completion.py.
 """
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from geometry.hexahedra import FACE_CORNERS, face_nodes, reference_nodes
 
-__all__ = ["TETRAHEDRON_FACES", "Hexahedra", "completed", "corners_of_faces"]
+__all__ = ["TETRAHEDRON_FACES", "Hexahedra", "completed", "corners_of_faces", "refined"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -148,3 +148,64 @@ def _shared(corners: Index, keys: Index) -> Index:
     rows = [np.take_along_axis(one, order, axis=2) for one in (nodes, weights)]
     _, number = np.unique(np.concatenate(rows, axis=2).reshape(-1, 8), axis=0, return_inverse=True)
     return np.asarray(number.ravel(), dtype=np.int64)
+
+
+def refined(made: Hexahedra, factor: int) -> Hexahedra:
+    """Each hexahedron divided into ``factor`` along each of its axes, on its own map: the same body, nested meshes.
+
+    Nodes of neighbours are one where they are the same sum of the same nodes: the numerators of their weights, whole
+    numbers, times a random number of 64 bits a node, added up without rounding, tell them apart.
+    """
+    if factor == 1:
+        return made
+    n_nodes = made.cells.shape[1]
+    order = 1 if n_nodes == 8 else 2
+    steps = order * factor
+    line = np.arange(steps + 1)
+    lattice = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    numerators = _numerators(lattice, n_nodes, factor)
+    hashes = np.random.default_rng(1).integers(0, 2**64, len(made.points), dtype=np.uint64)
+    keys = hashes[made.cells] @ numerators.T.astype(np.uint64)
+    _, first, number = np.unique(keys.ravel(), return_index=True, return_inverse=True)
+    places = np.einsum("qn,cnk->cqk", numerators / numerators.sum(axis=1, keepdims=True), made.points[made.cells])
+    number = number.reshape(keys.shape)
+
+    child = np.stack(np.meshgrid(*[np.arange(factor)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    own = np.round(0.5 * order * (reference_nodes(n_nodes) + 1.0)).astype(np.int64)
+    at = (order * child[:, None] + own[None]) @ np.array([(steps + 1) ** 2, steps + 1, 1])
+    sides = [_children_of(face, child, factor) for face in face_nodes(8)]
+    pieces = len(child)
+    faces = np.stack(
+        [
+            pieces * made.faces[..., 0, None] + np.array(sides)[made.faces[..., 1]],
+            np.broadcast_to(made.faces[..., 1, None], (*made.faces.shape[:-1], factor**2)),
+        ],
+        axis=-1,
+    )
+    return Hexahedra(
+        points=places.reshape(-1, 3)[first],
+        cells=number[:, at].reshape(-1, n_nodes),
+        cell_of=np.repeat(made.cell_of, pieces),
+        faces=faces.reshape(*made.faces.shape[:2], -1, 2),
+    )
+
+
+def _numerators(lattice: Index, n_nodes: int, factor: int) -> Index:
+    """Lagrange shape functions (q, n_nodes) at places of a lattice (q, 3), times the same whole number for all."""
+    nodes = reference_nodes(n_nodes)
+    found = np.ones((len(lattice), n_nodes), dtype=np.int64)
+    for axis in range(3):
+        x, end = lattice[:, axis, None], nodes[None, :, axis].astype(np.int64)
+        if n_nodes == 8:
+            found *= np.where(end > 0, x, factor - x)
+        else:
+            x = x - factor
+            found *= np.where(end == 0, 2 * (factor**2 - x**2), x * (x + factor * end))
+    return found
+
+
+def _children_of(face: Index, child: Index, factor: int) -> Index:
+    """Numbers of the children that lie at a face of their parent, given by its corners."""
+    corners = reference_nodes(8)[face]
+    axis = int(np.flatnonzero(np.ptp(corners, axis=0) == 0.0)[0])
+    return np.flatnonzero(child[:, axis] == (factor - 1 if corners[0, axis] > 0.0 else 0))

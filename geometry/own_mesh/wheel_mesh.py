@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry.assembly import boundary_facets
+from geometry.counting import LARGEST_MESH
 from geometry.hexahedra import face_nodes
 from geometry.own_mesh.cell_checks import require_finite, require_sound, solid_cells
-from geometry.own_mesh.completion import completed, corners_of_faces
+from geometry.own_mesh.completion import completed, corners_of_faces, refined
 from geometry.own_mesh.file_mesh import FileMesh
 from geometry.own_mesh.roles import Placement, Roles
 from geometry.own_mesh.wheel_checks import check_wheel
@@ -28,7 +29,7 @@ OTHER_FACES = "other_faces"
 """Group of the faces that the study names nowhere."""
 
 
-def wheel_of_file(file: FileMesh, roles: Roles, placement: Placement) -> TaggedMesh:
+def wheel_of_file(file: FileMesh, roles: Roles, placement: Placement, factor: int = 1) -> TaggedMesh:
     """The wheel of a mesh file.
 
     Parameters
@@ -36,6 +37,7 @@ def wheel_of_file(file: FileMesh, roles: Roles, placement: Placement) -> TaggedM
     file : what the file holds
     roles : what its names stand for; parts and groups of faces keep the names that it gives them
     placement : unit and axes
+    factor : each hexahedron is divided into so many along each of its axes
 
     Returns
     -------
@@ -52,7 +54,8 @@ def wheel_of_file(file: FileMesh, roles: Roles, placement: Placement) -> TaggedM
     require_finite(file, cells)
     tags = _part_of_cells(file, roles, numbers)
     require_sound(file.points, cells, lambda cell: f"cell {numbers[cell]} of part {list(roles.parts)[tags[cell] - 1]}")
-    made = completed(file.points, cells)
+    _require_solvable(len(cells), cells.shape[1], factor)
+    made = refined(completed(file.points, cells), factor)
     groups = {name: _faces_of_group(file, cells, name, key) for name, key in roles.faces.items()}
     facets, facet_tags, faces = _facets(
         made.cells, {name: made.faces[at[:, 0], at[:, 1]] for name, at in groups.items()}
@@ -72,6 +75,13 @@ def wheel_of_file(file: FileMesh, roles: Roles, placement: Placement) -> TaggedM
     )
     check_wheel(mesh, roles, lambda cell: f"cell {numbers[made.cell_of[cell]]}")
     return mesh
+
+
+def _require_solvable(cells: int, nodes: int, factor: int) -> None:
+    total = cells * (4 if nodes in (4, 10) else 1) * factor**3
+    if total > LARGEST_MESH:
+        rule = f"makes {total} hexahedra of {cells} cells, at most {LARGEST_MESH} can be solved"
+        raise InputError("mesh factor", factor, rule, "choose a smaller one, or mesh with larger elements")
 
 
 def _part_of_cells(file: FileMesh, roles: Roles, numbers: Index) -> Index:

@@ -46,7 +46,10 @@ def test_nothing_is_overwritten_and_nothing_unusable_is_written(tmp_path: Path) 
     (tmp_path / "a.toml").write_text("mine", encoding="utf-8")
     for arguments, words in (
         (("new", "a.toml"), "is there already"),
-        (("new", "b.toml", "--from", "nothing"), "one of amalia, e3, exomars, exomars_hoops, first, strip_sweep"),
+        (
+            ("new", "b.toml", "--from", "nothing"),
+            "one of amalia, e3, exomars, exomars_hoops, first, spiral, strip_sweep",
+        ),
         (("new", "b c.toml"), "name = 'b c': must begin with a letter"),
         (("new", "none/b.toml"), "No such file or directory"),
         (("check", "a.toml"), "is not valid TOML"),

@@ -9,7 +9,7 @@ import pytest
 
 from geometry.assembly import boundary_facets
 from geometry.hexahedra import face_nodes, gauss_points, jacobians, reference_nodes
-from geometry.own_mesh.completion import completed
+from geometry.own_mesh.completion import completed, refined
 
 CUBE = reference_nodes(27)
 
@@ -112,3 +112,51 @@ def test_tetrahedra_that_share_a_face_share_its_three_facets(nodes: int) -> None
                 x = found.points[found.cells[hexahedron, local[side]]]
                 assert np.abs((x - a) @ normal).max() < 1e-12
                 assert np.cross(x[1] - x[0], x[3] - x[0]) @ normal > 0.0
+
+
+@pytest.mark.parametrize("nodes", [8, 27])
+@pytest.mark.parametrize("factor", [2, 3])
+def test_a_divided_body_is_the_same_body(nodes: int, factor: int) -> None:
+    """Two curved cells with a common face, of which one is turned: volumes, outer facets and shared nodes."""
+    two = np.vstack([CUBE, CUBE + np.array([2.0, 0.0, 0.0])])[:, :]
+    two = _quadratic(0.5 * two)
+    points, number = np.unique(np.round(two, 12), axis=0, return_inverse=True)
+    cells = number.reshape(2, 27)
+    turn = [int(np.flatnonzero(np.all(np.roll(place, 1) == CUBE, axis=1))[0]) for place in CUBE]
+    cells[1] = cells[1][turn]
+    made = completed(points, cells[:, :nodes])
+    found = refined(made, factor)
+    at, weights = gauss_points(4)
+    whole, parts = (np.linalg.det(jacobians(h.points, h.cells, at)) @ weights for h in (made, found))
+    assert (parts > 0.0).all()
+    assert np.bincount(found.cell_of, weights=parts) == pytest.approx(whole, rel=1e-12)
+    assert len(boundary_facets(found.cells)) == 10 * factor**2
+    order = 1 if nodes == 8 else 2
+    side = order * factor + 1
+    assert len(found.points) == (2 * side - 1) * side**2
+    local = face_nodes(nodes)
+    for cell, faces in enumerate(found.faces):
+        for face, children in enumerate(faces):
+            assert len(children) == factor**2
+            inside = {row.tobytes() for row in np.round(_on_face(made, cell, face), 9)}
+            for hexahedron, number_of in children:
+                corners = found.points[found.cells[hexahedron, local[number_of][:4]]]
+                assert {row.tobytes() for row in np.round(corners, 9) + 0.0} <= inside, (cell, face)
+
+
+def _on_face(made: object, cell: int, face: int) -> np.ndarray:
+    """All places of a fine lattice on a face of a cell."""
+    corners = reference_nodes(8)[face_nodes(8)[face]]
+    line = np.linspace(-1.0, 1.0, 7)
+    grid = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    axis = int(np.flatnonzero(np.ptp(corners, axis=0) == 0.0)[0])
+    grid = grid[grid[:, axis] == corners[0, axis]]
+    nodes = made.points[made.cells[cell]]  # type: ignore[attr-defined]
+    shapes = np.ones((len(grid), len(nodes)))
+    for d in range(3):
+        x, end = grid[:, d, None], reference_nodes(len(nodes))[None, :, d]
+        if len(nodes) == 8:
+            shapes *= 0.5 * (1.0 + end * x)
+        else:
+            shapes *= np.where(end == 0.0, 1.0 - x * x, 0.5 * x * (x + end))
+    return shapes @ nodes + 0.0

@@ -60,6 +60,15 @@ def test_tasks_know_what_is_held_and_what_may_touch() -> None:
     }
 
 
+def test_a_mesh_study_divides_the_cells() -> None:
+    table = _table() | {"mesh_study": {"orientation": "0 deg", "deflections": ["4 mm"], "factors": [1, 2, 3]}}
+    tasks = {task.name: task for task in report_tasks(study_of(SPIRAL, table))}
+    assert [tasks[name].inputs["mesh"]["factor"] for name in ("mesh", "mesh_x2", "mesh_x3")] == [1, 2, 3]
+    table["mesh_study"]["factors"] = [1, 1.5, 2]
+    with pytest.raises(StudyError, match="must be whole numbers"):
+        study_of(SPIRAL, table)
+
+
 def test_the_content_of_the_file_decides_the_key(tmp_path: Path) -> None:
     (tmp_path / "spiral.inp").write_text("*NODE\n1, 0, 0, 0\n")
     keys = []
@@ -104,6 +113,7 @@ BROKEN: dict[str, tuple[dict[str, object], str, str]] = {
         "mesh.parts.rim.groups",
         "holds hub, which hub has already",
     ),
+    "a factor": ({"factor": 1.5}, "mesh.factor", "must be a whole number"),
     "a centre far away": ({"centre": ["0 m", "90 m", "0 m"]}, "mesh.centre[1]", ""),
 }
 

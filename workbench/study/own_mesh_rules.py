@@ -19,11 +19,10 @@ __all__ = ["NEEDS_WHEEL", "broken_own_mesh"]
 
 NEEDS_WHEEL = {
     "wheel": "describes a wheel of our own beside mesh.file, which is one already",
-    "mesh_study": "meshes the wheel with other sizes, which a mesh from a file does not have",
     "hub_study": "meshes the wheel's hubs, which a mesh from a file does not tell apart",
     "penalty_study": "meshes the wheel with other sizes, which a mesh from a file does not have",
     "full": "meshes the wheel more finely, which a mesh from a file cannot be",
-    "ancf_fit": "needs [mesh_study], and that a mesh of several sizes",
+    "ancf_fit": "is not offered for a wheel whose mesh comes from a file",
     "ancf_wheel": "makes plates of the strips of [wheel], which a mesh from a file does not have",
     "environment": "lets hubs expand with their part of [wheel], which a mesh from a file does not have",
     "rover": "needs the dimensions of [wheel]",
@@ -51,6 +50,10 @@ def broken_own_mesh(study: Study) -> Iterator[BrokenRule]:
         angle = math.degrees(study.fe.camber or getattr(study.fe.obstacle, "yaw", 0.0))
         rule = "turns the ground out of the plane of symmetry, mesh.symmetry"
         yield BrokenRule(key="fe.camber", value=f"{angle:g} deg", rule=rule, hint="mesh the whole wheel")
+    if study.mesh_study is not None and any(factor != round(factor) for factor in study.mesh_study.factors):
+        shown = ", ".join(f"{factor:g}" for factor in study.mesh_study.factors)
+        rule = "must be whole numbers: into so many the cells of a mesh from a file are divided"
+        yield BrokenRule(key="mesh_study.factors", value=shown, rule=rule, hint="e.g. 1, 2, 3")
     yield from _of_the_names(mesh)
 
 

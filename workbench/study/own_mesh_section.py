@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StrictInt
 
 from workbench.study.quantities import Length
 from workbench.study.section import Section
@@ -51,6 +51,9 @@ class OwnMeshSection(Section):
     """Axis of the file at whose lower end lies what faces the ground at 0 degrees."""
     centre: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
     """Of the hub, in the file's axes [m]."""
+
+    factor: Annotated[StrictInt, Field(ge=1, le=6)] = 1
+    """Each hexahedron is divided into so many along each of its axes [-]."""
 
     @property
     def half_width(self) -> bool:

@@ -188,11 +188,11 @@ def _of_the_curves(study: Study) -> Iterator[BrokenRule]:
         name, angle = ("camber", fe.camber) if fe.camber else ("obstacle.yaw", getattr(fe.obstacle, "yaw", 0.0))
         value, hint = f"{math.degrees(angle):g} deg", "set mesh.half_width = false"
         yield BrokenRule(key=f"fe.{name}", value=value, rule=rule, hint=hint)
-    if mesh_study is not None and sized_mesh(study).factor not in mesh_study.factors:
+    if mesh_study is not None and study.mesh.factor not in mesh_study.factors:
         yield BrokenRule(
             key="mesh_study.factors",
             value=", ".join(f"{factor:g}" for factor in mesh_study.factors),
-            rule=f"must contain mesh.factor = {sized_mesh(study).factor:g}, the mesh of the curves",
+            rule=f"must contain mesh.factor = {study.mesh.factor:g}, the mesh of the curves",
             hint="the uncertainty is that of the curves' mesh",
         )
     if mesh_study is not None and study.full.factor not in study.full.mesh_study_factors:

@@ -20,7 +20,7 @@ from workbench.questions.question import Question
 from workbench.questions.wheel.graph import mesh_task
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees, orientation_name
-from workbench.study.own_mesh import sized_mesh
+from workbench.study.own_mesh import own_mesh
 from workbench.study.strengths import yield_strengths
 from workbench.verdict.rules import Claim, at_most
 
@@ -32,7 +32,7 @@ def _tasks(study: Study) -> Sequence[Task]:
     tasks = []
     section = stated(study.mesh_study, "mesh_study")
     for factor in section.factors:
-        if factor != sized_mesh(study).factor:
+        if factor != study.mesh.factor:
             mesh = mesh_task(study, f"mesh_x{factor:g}", factor=factor)
             tasks.append(mesh)
             for orientation in section.orientations:
@@ -44,11 +44,12 @@ def _tasks(study: Study) -> Sequence[Task]:
 def mesh_study_inputs(study: Study) -> dict[str, Any]:
     """What `read_mesh_study` needs to know of a study, as JSON values."""
     section = stated(study.mesh_study, "mesh_study")
-    return {
+    refined = {} if own_mesh(study) is None else {"refined_axes": 3}
+    return refined | {
         "orientations_deg": [degrees(orientation) for orientation in section.orientations],
         "deflections": list(section.deflections),
         "factors": list(section.factors),
-        "curves_factor": sized_mesh(study).factor,
+        "curves_factor": study.mesh.factor,
     }
 
 

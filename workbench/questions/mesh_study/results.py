@@ -41,19 +41,22 @@ class MeshRun:
     factor : refinement factor of the mesh [-]
     curve : its curve, solved at the study's deflections
     numbers : how it was computed
+    refined_axes : axes of a cell along which meshes differ: two of our strips, three of a mesh from another program
     """
 
     factor: float
     curve: StiffnessCurve
     numbers: RunNumbers
+    refined_axes: int = 2
 
     @property
     def size(self) -> float:
-        """Representative element size in the surface of the strips, up to a constant [-]: cells^(-1/2).
+        """Representative element size, up to a constant [-]: cells^(-1/2) in the surface of strips, else cells^(-1/3).
 
         Strips have the same number of elements through their thickness on every mesh.
         """
-        return 1.0 / math.sqrt(float(self.numbers.cells))
+        cells = float(self.numbers.cells)
+        return 1.0 / math.sqrt(cells) if self.refined_axes == 2 else cells ** (-1.0 / self.refined_axes)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -219,6 +222,7 @@ def read_mesh_study(
     factors: Sequence[float],
     curves_factor: float,
     folders: Mapping[str, Path],
+    refined_axes: int = 2,
 ) -> MeshStudy:
     """The mesh study from the result folders of its runs."""
     families = []
@@ -227,7 +231,7 @@ def read_mesh_study(
         for factor in factors:
             folder = folders[mesh_run_name(factor, curves_factor, orientation)]
             curve = read_curve(folder / CURVE, model="fe", orientation_deg=orientation)
-            runs.append(MeshRun(factor=factor, curve=curve, numbers=read_run(folder)))
+            runs.append(MeshRun(factor=factor, curve=curve, numbers=read_run(folder), refined_axes=refined_axes))
         families.append(
             MeshFamily(
                 orientation_deg=orientation,

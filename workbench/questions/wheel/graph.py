@@ -47,6 +47,8 @@ def mesh_task(
 
     What it costs, and what is solved on it, is found by `workbench.questions.fe.foresight`.
     """
+    if own_mesh(study) is not None and not changes:
+        return own_mesh_task(study, name, factor)
     mesh = sized_mesh(study)
     options = {
         "element_size": mesh.element_size,
@@ -63,8 +65,10 @@ def mesh_task(
     return Task(name=name, function="workbench.questions.wheel.mesh_task:build", inputs=inputs)
 
 
-def own_mesh_task(study: Study, name: str = MESH) -> Task:
-    """The study's mesh from another program, read and checked; its path and content decide the result.
+def own_mesh_task(study: Study, name: str = MESH, factor: float | None = None) -> Task:
+    """The study's mesh from another program, read, checked, divided by its own or another factor.
+
+    Its path and content decide the result.
 
     Raises
     ------
@@ -76,7 +80,8 @@ def own_mesh_task(study: Study, name: str = MESH) -> Task:
     path = Path(section.file)
     require_ordinary_file(path, "mesh file", LARGEST_FILE)
     densities = {part: material.density for part, material in materials_by_part(study).items()}
-    inputs = {"mesh": section.model_dump(mode="json"), "sha256": file_sha256(path), "densities": densities}
+    divided = section if factor is None else section.model_copy(update={"factor": round(factor)})
+    inputs = {"mesh": divided.model_dump(mode="json"), "sha256": file_sha256(path), "densities": densities}
     return Task(name=name, function="workbench.questions.wheel.own_mesh_task:read", inputs=inputs, cost=5.0)
 
 

@@ -47,7 +47,7 @@ def own_wheel(section: Mapping[str, Any]) -> TaggedMesh:
     path, (placement, roles) = Path(section["file"]), placement_and_roles(dict(section))
     file = read_mesh_file(path)
     try:
-        return wheel_of_file(file, roles, placement)
+        return wheel_of_file(file, roles, placement, section["factor"])
     except InputError as error:
         what, value = (error.what, error.value or path.name) if error.what == "mesh file" else (error.what, error.value)
         place = f"mesh.{error.key}: " if error.key not in ("", "file") else ""
