@@ -63,7 +63,7 @@ def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequ
             "axial_size": section.axial_size,
             "half_width": sized_mesh(study).half_width,
             "ground_spacing": _SPACING[study.fe.obstacle.shape == "plane"],
-            "hub": study.fe.hub,
+            **({} if study.fe.hub == "rigid" else {"hub": study.fe.hub}),
         },
         # Friction depends on the way, and so on the steps.
         "deflections": points if study.fe.friction else every_second(points),
