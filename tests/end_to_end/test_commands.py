@@ -10,6 +10,7 @@ import meshio
 import pytest
 
 from contracts.curves import read_curve
+from contracts.footprint import read_footprint
 from tests.end_to_end.small_study import run, said
 from workbench.cli import _run
 from workbench.execution.load_checks import CHECKS
@@ -96,8 +97,11 @@ def test_stiffness_of_fe_reuses_the_report(
 ) -> None:
     ended = run("stiffness", "study.toml", "--out", tmp_path, "--store", "store", folder=workspace)
     assert ended.returncode == 0, ended.stderr
-    assert "0 tasks computed, 2 reused" in ended.stdout
+    assert "0 tasks computed, 3 reused" in ended.stdout
     assert {p.name for p in (tmp_path / "curves").iterdir()} == {"fe_phi000.csv", "fe_average.csv"}
+    (footprint,) = (tmp_path / "footprints").iterdir()
+    pressed, curve = read_footprint(footprint), read_curve(tmp_path / "curves/fe_phi000.csv")
+    assert curve.load[0] < pressed.load <= curve.load[-1]
 
 
 @pytest.mark.parametrize("options", [("--out", ""), ("--out="), ("--store", " ")], ids=repr)

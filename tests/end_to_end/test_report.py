@@ -36,7 +36,7 @@ TASKS = {
         "ancf_surfaces",
         "metrics",
         "parts_overlap",
-        "footprints",
+        "footprint_phi000",
         "pictures",
     ),
     "environment_-40C",

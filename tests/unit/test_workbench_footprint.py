@@ -19,9 +19,10 @@ def study() -> Study:
 
 def test_it_follows_every_curve_of_the_study(study: Study) -> None:
     curves = fe_curve_tasks(study)
-    (task,) = footprint_tasks(study, curves)
-    assert task.needs == ("mesh", *(curve.name for curve in curves))
-    assert task.inputs["cases"]["fe_phi015"]["orientation_deg"] == 15.0
+    tasks = footprint_tasks(study, curves)
+    assert [task.needs for task in tasks] == [("mesh", curve.name) for curve in curves]
+    assert tasks[1].name == "footprint_phi015"
+    assert tasks[1].inputs["case"]["orientation_deg"] == 15.0
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ from workbench.study.sweep_points import sweep_points
 ENOUGH = {"name", "title", "wheel", "materials", "mesh", "fe"}
 ALWAYS = {"models", "wheel", "fe", "orientations", "strength", "section", "numerics", "crosscheck"}
 """The last one because of the record beside the built-in study's file."""
-OTHERS = {"mesh", "mesh_whole", "metrics", "pictures", "parts_overlap", "footprints"}
+OTHERS = {"mesh", "mesh_whole", "metrics", "pictures", "parts_overlap"}
 ADDED = {
     "ancf": {"ancf", "ancf_mesh", "ancf_dynamics"},
     "brush": set(),
@@ -69,7 +69,7 @@ def test_every_other_section_of_the_built_in_study_is_known_here() -> None:
 def test_the_wheel_alone_is_meshed_and_solved_and_nothing_else() -> None:
     study = _study()
     assert {question.name for question in questions_of(study)} == ALWAYS
-    assert all(name.startswith(("fe_phi", "section_")) for name in _tasks(study) - OTHERS)
+    assert all(name.startswith(("fe_phi", "footprint_phi", "section_")) for name in _tasks(study) - OTHERS)
     assert "ancf" not in section_titles(study)
     assert {group.title for group in chosen_groups(study)} == {"What curves are held against", "Continuum model"}
 

@@ -19,7 +19,7 @@ from contracts.series import TimeSeries, write_series
 from contracts.text import for_json, one_line
 from workbench.execution.store import Entry
 from workbench.questions.fe.field_file import POINTS_FILE
-from workbench.questions.fe.graph import FOOTPRINTS
+from workbench.questions.fe.graph import FOOTPRINT
 from workbench.report.evidence import Evidence
 from workbench.report.placing import new_files
 from workbench.report.series import SERIES_FOLDER, series_files
@@ -55,9 +55,13 @@ def field_files(entries: Mapping[str, Entry]) -> dict[str, Path]:
     """``fields/fe_phi000_200N.vtu``, ``fields/fe_phi000_points.npz``, ``footprints/fe_phi000_200N.csv`` -> the file."""
     patterns = ("fields_*N.vtu", POINTS_FILE)
     found = [(n, path) for n, entry in entries.items() for one in patterns for path in sorted(entry.path.glob(one))]
-    footprints = sorted(entries[FOOTPRINTS].path.glob("*N.csv")) if FOOTPRINTS in entries else []
     fields = {f"fields/{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
-    return fields | {f"footprints/{path.name}": path for path in footprints}
+    footprints = {
+        f"footprints/{name.replace(FOOTPRINT, 'fe', 1)}_{path.name.removeprefix(f'{FOOTPRINT}_')}": path
+        for name, entry in entries.items()
+        for path in sorted(entry.path.glob(f"{FOOTPRINT}_*N.csv"))
+    }
+    return fields | footprints
 
 
 def publish(

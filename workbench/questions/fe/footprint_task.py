@@ -1,4 +1,4 @@
-"""Task: footprints of the curves at the loads at which their fields are kept.
+"""Task: footprints of a curve at the loads at which its fields are kept.
 
 Verified by tests/end_to_end/test_commands.py and tests/unit/test_workbench_footprint.py.
 """
@@ -14,6 +14,7 @@ import numpy as np
 from contracts.footprint import Footprint, write_footprint
 from reference_fe.wheel.footprint import footprint
 from workbench.execution.result_files import read_result, write_result
+from workbench.questions.fe.graph import FOOTPRINT
 from workbench.questions.fe.task import load_case
 from workbench.questions.wheel.mesh_file import MESH, read_mesh
 
@@ -24,22 +25,21 @@ __all__ = ["find"]
 
 
 def find(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``fe_phi015_200N.csv`` of each curve and load, and ``result.json`` with load, centre and length; returns points.
+    """``footprint_200N.csv`` of a curve at each load, ``result.json`` with load, centre and size; returns points.
 
-    Needs the mesh and curves on it; ``cases`` has each curve's own inputs.
+    Needs the mesh and the curve on it, whose own inputs are ``case``.
     """
-    mesh, found, count = read_mesh(needs[inputs["mesh"]] / MESH), dict[str, dict[str, float]](), 0
-    for done, (name, case) in enumerate(inputs["cases"].items(), 1):
-        snapshots = read_result(needs[name])["snapshots"]
-        for snapshot in snapshots:
-            _, wanted = min((abs(load - snapshot["load_N"]), load) for load in case["snapshot_loads"])
-            with np.load(needs[name] / f"fields_{wanted:.0f}N.npz", allow_pickle=False) as fields:
-                one = footprint(mesh, fields["displacement"], load_case(case), snapshot["deflection_m"])
-            source = f"footprint of the solid wheel at {one.load:.6g} N, {1e3 * snapshot['deflection_m']:.6g} mm"
-            write_footprint(one, out / f"{name}_{wanted:.0f}N.csv", source)
-            found[f"{name}_{wanted:.0f}N"] = _numbers(one)
-            count += len(one.force)
-        progress(done / len(inputs["cases"]))
+    case, curve, found, count = inputs["case"], needs[inputs["curve"]], dict[str, dict[str, float]](), 0
+    mesh, snapshots = read_mesh(needs[inputs["mesh"]] / MESH), read_result(curve)["snapshots"]
+    for done, snapshot in enumerate(snapshots, 1):
+        _, wanted = min((abs(load - snapshot["load_N"]), load) for load in case["snapshot_loads"])
+        with np.load(curve / f"fields_{wanted:.0f}N.npz", allow_pickle=False) as fields:
+            one = footprint(mesh, fields["displacement"], load_case(case), snapshot["deflection_m"])
+        source = f"footprint of the solid wheel at {one.load:.6g} N, {1e3 * snapshot['deflection_m']:.6g} mm"
+        write_footprint(one, out / f"{FOOTPRINT}_{wanted:.0f}N.csv", source)
+        found[f"{wanted:.0f}N"] = _numbers(one)
+        count += len(one.force)
+        progress(done / len(snapshots))
     write_result(out, found)
     return count
 

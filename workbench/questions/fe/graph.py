@@ -19,7 +19,7 @@ from workbench.study.own_mesh import materials_by_part, own_mesh
 from workbench.study.own_mesh_section import OwnMeshSection
 
 __all__ = [
-    "FOOTPRINTS",
+    "FOOTPRINT",
     "HUB_PARTS",
     "INNER_STIFFNESS",
     "curve_deflections",
@@ -33,8 +33,8 @@ __all__ = [
 ]
 
 
-FOOTPRINTS = "footprints"
-"""Task that finds them."""
+FOOTPRINT = "footprint"
+"""What a footprint's task and file are called."""
 HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
 """Parts within the springs' welds on the hub, outside to inside."""
 INNER_STIFFNESS = 1e11
@@ -119,7 +119,14 @@ def footprint_tasks(study: Study, curves: Sequence[Task], mesh: str = "mesh") ->
     told = fe.snapshot_loads and fe.obstacle.shape == "plane" and fe.contact_method == "penalty"
     if not told or fe.contact_stiffness is None:
         return []
-    inputs = {"mesh": mesh, "cases": {curve.name: dict(curve.inputs) for curve in curves}}
-    needs = (mesh, *(curve.name for curve in curves))
     function = "workbench.questions.fe.footprint_task:find"
-    return [Task(name=FOOTPRINTS, function=function, inputs=inputs, needs=needs, cost=5.0)]
+    return [
+        Task(
+            name=curve.name.replace("fe", FOOTPRINT, 1),
+            function=function,
+            inputs={"mesh": mesh, "curve": curve.name, "case": dict(curve.inputs)},
+            needs=(mesh, curve.name),
+            cost=1.0,
+        )
+        for curve in curves
+    ]

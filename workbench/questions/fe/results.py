@@ -9,7 +9,7 @@ from pathlib import Path
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.footprint import Footprint, read_footprint
 from workbench.execution.result_files import read_result
-from workbench.questions.fe.graph import FOOTPRINTS
+from workbench.questions.fe.graph import FOOTPRINT
 from workbench.questions.mesh_study.question import mesh_study_of
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves
@@ -82,10 +82,8 @@ def read_continuum(study: Study, folders: Mapping[str, Path]) -> ContinuumCurves
 
 
 def _footprints(study: Study, folders: Mapping[str, Path], orientations: Iterable[float]) -> dict[float, Footprint]:
-    if FOOTPRINTS not in folders:
-        return {}
-    load = study.fe.snapshot_loads[0]
-    files = {o: folders[FOOTPRINTS] / f"{orientation_name('fe', o)}_{load:.0f}N.csv" for o in orientations}
+    tasks = {o: name for o in orientations if (name := orientation_name(FOOTPRINT, o)) in folders}
+    files = {o: folders[name] / f"{FOOTPRINT}_{study.fe.snapshot_loads[0]:.0f}N.csv" for o, name in tasks.items()}
     return {o: read_footprint(path) for o, path in files.items() if path.is_file()}
 
 
