@@ -34,7 +34,7 @@ from workbench.questions.ancf_wheels.cases import (  # noqa: E402
 from workbench.questions.ancf_wheels.results import Agreement, agreement, largest  # noqa: E402
 from workbench.questions.kept import keep  # noqa: E402
 from workbench.questions.model_curves import CURVE  # noqa: E402
-from workbench.questions.travels import travel_curves  # noqa: E402
+from workbench.questions.travel_files import travel_curves  # noqa: E402
 from workbench.study.orientation import orientation_name  # noqa: E402
 from workbench.study.reading import built_in_study  # noqa: E402
 

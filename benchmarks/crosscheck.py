@@ -44,8 +44,8 @@ from workbench.questions.crosscheck.results import COMMAND, NAME, crosscheck_tas
 from workbench.questions.fe.graph import INNER_STIFFNESS  # noqa: E402
 from workbench.questions.kept import keep  # noqa: E402
 from workbench.questions.model_curves import CURVE  # noqa: E402
+from workbench.questions.travel_files import travel_curves, travel_name  # noqa: E402
 from workbench.questions.travel_start import approach  # noqa: E402
-from workbench.questions.travels import travel_curves, travel_name  # noqa: E402
 from workbench.questions.wheel.mesh_file import MESH, read_mesh  # noqa: E402
 from workbench.study.model import Study  # noqa: E402
 from workbench.study.orientation import orientation_name  # noqa: E402

@@ -14,9 +14,11 @@ from numpy.typing import NDArray
 from contracts.csv_table import CsvTable, TableRule, read_table, table_text
 from contracts.errors import InputError
 
-__all__ = ["FOOTPRINT_COLUMNS", "Footprint", "read_footprint", "write_footprint"]
+__all__ = ["FOOTPRINT", "FOOTPRINT_COLUMNS", "Footprint", "read_footprint", "write_footprint"]
 
 Array = NDArray[np.float64]
+FOOTPRINT = "footprint"
+"""What the tasks and files of footprints are called."""
 FOOTPRINT_COLUMNS = "forward_m", "left_m", "force_N", "pressure_Pa"
 _RULE = TableRule(what="footprint file", first=FOOTPRINT_COLUMNS, units="metres, newtons and pascals")
 

@@ -42,7 +42,7 @@ ASKS = ("ancf.thesis_preset",)
 """Keys among those that ask a question of their own."""
 GROUPS = {
     "mesh": ("mesh", "mesh_*"),
-    "FE": ("fe_phi*", "fe_x*", "pictures", "parts_overlap"),
+    "FE": ("fe_phi*", "fe_x*", "footprint_*", "pictures", "parts_overlap"),
     "hub study": ("fe_hub*", "mesh_hub"),
     "penalty study": ("fe_penalty*", "mesh_penalty"),
     "temperature": ("environment_*",),

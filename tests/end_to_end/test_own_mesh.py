@@ -33,6 +33,8 @@ from tests.ring_wheel import ROLES as DISC
 from workbench.study.reading import read_study
 from workbench.study.wheel_design import wheel_design
 
+SPIRAL = ROOT / "studies/spiral.toml"
+
 PAIRS = (
     ("springs_front", "tire_inner"),
     ("springs_front", "outer_hub_outer"),
@@ -213,3 +215,14 @@ def test_tetrahedra_carry_what_hexahedra_do(tmp_path: Path) -> None:
         loads[name] = float(solve_wheel(mesh, dict.fromkeys(("hub", "rim"), rubber), case).curve.load[-1])
     assert loads["order 2"] == pytest.approx(loads["hexahedra"], rel=0.03)
     assert loads["order 1"] < 0.5 * loads["hexahedra"], "a polygon first touches with an edge"
+
+
+def test_a_wrong_unit_is_asked_about(tmp_path: Path) -> None:
+    """Inches for millimetres make a wheel of three metres, which is one, but no rover's."""
+    text = SPIRAL.read_text(encoding="utf-8").replace('units = "mm"', 'units = "in"')
+    (tmp_path / "spiral.inp").write_bytes(SPIRAL.with_suffix(".inp").read_bytes())
+    (tmp_path / "inch.toml").write_text(text, encoding="utf-8")
+    ended = run("check", tmp_path / "inch.toml")
+    assert ended.returncode == 0
+    assert "a radius of 3175 mm is unusual" in " ".join(ended.stderr.split())
+    assert "radius 3175 mm" in " ".join(ended.stdout.split())

@@ -25,8 +25,8 @@ from workbench.questions.ancf_fit.task import evaluate, fit
 from workbench.questions.ancf_fit.travels import fe_travels
 from workbench.questions.model_curves import CURVE
 from workbench.questions.study_graph import report_tasks
+from workbench.questions.travel_files import travel_name
 from workbench.questions.travel_start import TRAVEL
-from workbench.questions.travels import travel_name
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 

@@ -45,7 +45,7 @@ def test_parts_take_the_place_of_the_wheel() -> None:
     assert of_the_file(study) == ()
     assert {question.name for question in questions_of(study)} == {"models", "wheel", "fe", "strength", "numerics"}
     assert {task.name for task in report_tasks(study)} == {
-        *("mesh", "mesh_whole", "fe_phi000", "fe_phi018", "metrics", "pictures")
+        *("mesh", "mesh_whole", "fe_phi000", "fe_phi018", "footprint_phi000", "footprint_phi018", "metrics", "pictures")
     }
     assert [task.name for task in mesh_tasks(study, with_files=True)] == ["mesh", "mesh_files"]
 

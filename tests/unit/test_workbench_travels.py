@@ -12,8 +12,9 @@ from contracts.errors import InputError
 from contracts.hub_travel import Way
 from workbench.execution.task import needed_for
 from workbench.questions.model_curves import CURVE
+from workbench.questions.travel_files import travel_curves
 from workbench.questions.travel_start import APPROACH, approach, hub_travel
-from workbench.questions.travels import FRICTION, STEPS, travel_curves, travel_tasks
+from workbench.questions.travels import FRICTION, STEPS, travel_tasks
 from workbench.study.reading import built_in_study, read_study
 
 STUDY = read_study(built_in_study())

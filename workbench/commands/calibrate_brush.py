@@ -23,7 +23,8 @@ from workbench.questions.model_curves import CURVE
 from workbench.questions.models.driving_brush import RECORD, calibration_tasks
 from workbench.questions.models.wheel_brush import Line, WheelBrush, lines_beside_table_two, wheel_brush
 from workbench.questions.models.wheel_tasks import where_it_moves
-from workbench.questions.travels import WORKING_LOAD, travel_curves
+from workbench.questions.travel_files import travel_curves
+from workbench.questions.travels import WORKING_LOAD
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish
 from workbench.study.full import around

@@ -12,7 +12,15 @@ from typing import Any
 
 from contracts.errors import InputError
 from rover_dynamics.rover.rover_file import read_rover
-from workbench.commands.computing import complain_of_early_ends, computed, console, naming, read_and_warn, tell_kept
+from workbench.commands.computing import (
+    complain_of_early_ends,
+    computed,
+    console,
+    naming,
+    read_and_warn,
+    tell_kept,
+    warn,
+)
 from workbench.execution.result_files import FAILURE, early_ends, read_result
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
@@ -27,6 +35,8 @@ __all__ = ["RollChoices", "run_roll"]
 
 _HEIGHT, _RADIUS, _SPEED = "10 mm", "10 mm", 70.0
 _SERIES = "series.csv"
+_OPEN = 0.02
+"""Share by which an account of energy may be open without a word."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,8 +73,12 @@ class RollChoices:
             case=self.case,
             seconds=CASES.get(self.case, 1.0) if self.seconds is None else self.seconds,
             speed=(_SPEED if self.speed is None else self.speed) / 3600.0,
-            height=above_zero("height", self.height or _HEIGHT, "m", "fe.obstacle.height", _HEIGHT),
-            radius=above_zero("radius", self.radius or _RADIUS, "m", "fe.obstacle.radius", _RADIUS),
+            height=above_zero(
+                "height", _HEIGHT if self.height is None else self.height, "m", "fe.obstacle.height", _HEIGHT
+            ),
+            radius=above_zero(
+                "radius", _RADIUS if self.radius is None else self.radius, "m", "fe.obstacle.radius", _RADIUS
+            ),
             load=rover.static_load if self.load is None else self.load,
             gravity=rover.gravity,
         )
@@ -88,19 +102,22 @@ def run_roll(study_path: Path | None, choices: RollChoices, out: Path, store: Pa
         task = motion_task(study, asked)
     entry = computed(path, [task], store, Computing(workers=1))[task.name]
     tell_kept(put_files(out, {file: (entry.path / _SERIES).read_bytes()}, "roll"))
-    _print(study.title, asked, read_result(entry.path))
+    found = read_result(entry.path)
+    _print(study.title, asked, found)
+    warn(path, _doubts(asked, found))
     console.print(f"series: {out / file}", soft_wrap=True)
     complain_of_early_ends(path, early_ends({task.name: entry.path}))
     return 0
 
 
 def _print(title: str, asked: MotionCase, found: Mapping[str, Any]) -> None:
-    table = empty_table(f"{title}: {_words(asked)}", ("quantity", "value"), texts=["quantity"])
+    table = empty_table(f"{title}: {asked.words}", ("quantity", "value"), texts=["quantity"])
     rows = {
         "weight on the ground": f"{asked.load:.1f} N",
         "simulated": f"{found['end_s']:.3g} s in {found['steps']} steps, {found['dofs']} unknowns",
         "largest load": f"{found['largest_load_N']:.1f} N",
-        "account of energy closes to": f"{100.0 * found['account']:.2g} %",
+        "load at the end": f"{found['last_load_N']:.1f} N",
+        "account of energy is open by": _open(found),
     }
     if found[FAILURE] is None:
         rows["processor time over simulated time"] = f"{found['cpu_s'] / found['end_s']:.3g}"
@@ -109,8 +126,20 @@ def _print(title: str, asked: MotionCase, found: Mapping[str, Any]) -> None:
     console.print(table)
 
 
-def _words(asked: MotionCase) -> str:
-    if asked.case == "drop":
-        return f"dropped by {1e3 * asked.height:g} mm"
-    rolls = f"rolls from rest to {3600.0 * asked.speed:g} m/h"
-    return rolls if asked.case == "rolling" else f"{rolls}, over a half-round of {1e3 * asked.radius:g} mm"
+def _open(found: Mapping[str, Any]) -> str:
+    return f"{100.0 * found['account']:.2g} % of its largest part, {found['account_J']:.2g} J"
+
+
+def _doubts(asked: MotionCase, found: Mapping[str, Any]) -> list[str]:
+    """What a reader of the table would take for more than it is."""
+    doubts = []
+    if not found["reached"]:
+        what = "the half-round" if asked.case == "half_round" else "the ground"
+        doubts.append(f"the wheel did not come to {what} in {found['end_s']:.3g} s: give more --seconds")
+    elif asked.case == "drop" and found["last_load_N"] >= found["largest_load_N"]:
+        doubts.append("the load still rises at the end: its largest lies later, give more --seconds")
+    if found["account"] > _OPEN:
+        doubts.append(
+            f"the account of energy is open by {_open(found)}: the loads are not to be trusted to more than that"
+        )
+    return doubts

@@ -8,12 +8,16 @@ from __future__ import annotations
 import contextlib
 import os
 import uuid
+from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
 import tomlkit
 
 from contracts.errors import InputError
 from contracts.input_file import input_text
+from contracts.mesh import TaggedMesh
+from geometry.own_mesh.wheel_checks import outer_radius
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.disk import STUDY, naming_the_disk
 from workbench.questions.input_uncertainty.samples import require_inputs
@@ -29,6 +33,9 @@ from workbench.study.rewrite import rewritten_study
 from workbench.study.sweep_points import beyond_reach, end_points
 
 __all__ = ["run_check", "run_new"]
+
+_USUAL_RADIUS = 50e-3, 500e-3
+"""Of a rover's wheel [m]: outside it the unit is asked about."""
 
 
 def run_new(path: Path, like: str) -> int:
@@ -74,6 +81,16 @@ def _write_new(path: Path, text: str) -> None:
             aside.unlink()
 
 
+def _tell_size(path: Path, mesh: TaggedMesh, ground: Sequence[str]) -> None:
+    """Size of a wheel whose mesh is its own, which shows a wrong unit."""
+    radius, width = outer_radius(mesh, ground), float(np.ptp(mesh.points[:, 1]))
+    console.print(f"{path}: {len(mesh.cells)} cells, radius {1e3 * radius:.4g} mm, width {1e3 * width:.4g} mm")
+    low, high = _USUAL_RADIUS
+    if not low <= radius <= high:
+        usual = f"a rover's wheel has {1e3 * low:g} to {1e3 * high:g} mm"
+        warn(path, [f"mesh.units: a radius of {1e3 * radius:.4g} mm is unusual ({usual}): is the unit right?"])
+
+
 def run_check(path: Path) -> int:
     """Read a study as every command does, with its own mesh, plan its reports, its sweep, its samples; what is unusual
     goes to stderr."""
@@ -82,7 +99,7 @@ def run_check(path: Path) -> int:
     warn(path, beyond_reach(study, points))
     with naming(path):
         if (mesh := own_mesh(study)) is not None:
-            own_wheel(mesh.model_dump(mode="json"))
+            _tell_size(path, own_wheel(mesh.model_dump(mode="json")), mesh.ground)
         tasks = report_tasks(study)
         if "full" in study.model_fields_set:
             full_study(study)

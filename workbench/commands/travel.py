@@ -24,7 +24,8 @@ from workbench.commands.stiffness import check_orientation
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
-from workbench.questions.travels import WORKING_LOAD, travel_curves, travel_tasks
+from workbench.questions.travel_files import travel_curves
+from workbench.questions.travels import WORKING_LOAD, travel_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish
 from workbench.study.orientation import degrees, orientation_name

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 from contracts.errors import InputError
 from contracts.hub_travel import Way
-from contracts.travel_curve import TravelCurve, read_travel
 from workbench.execution.task import Task
 from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks
 from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import fe_curve_tasks, fe_inputs, without_fields
-from workbench.questions.travel_start import TRAVEL
+from workbench.questions.travel_files import travel_name
 from workbench.questions.wheel.graph import MESH, mesh_task, wheel_meshes
 from workbench.study.full import require_level
 from workbench.study.model import Study
-from workbench.study.orientation import degrees, orientation_name
+from workbench.study.orientation import degrees
 
-__all__ = ["FRICTION", "STEPS", "WORKING_LOAD", "travel_curves", "travel_name", "travel_tasks"]
+__all__ = ["FRICTION", "STEPS", "WORKING_LOAD", "travel_tasks"]
 
 MESH_FULL = "mesh_full"
 """Name of the task."""
@@ -56,19 +54,6 @@ def travel_tasks(
     asked = tuple(orientations_deg) or tuple(degrees(o) for o in study.fe.orientations)
     make = _fe_tasks if model == "fe" else _ancf_wheel_tasks
     return make(study, ways, load, asked)
-
-
-def travel_curves(
-    model: str, ways: Sequence[Way], orientations_deg: Sequence[float], folders: Mapping[str, Path]
-) -> list[TravelCurve]:
-    """What the tasks found; a run that ended before its first step has none."""
-    named = [(way, o, folders[travel_name(model, way, o)] / TRAVEL) for o in orientations_deg for way in ways]
-    return [read_travel(path, model, way, o) for way, o, path in named if path.exists()]
-
-
-def travel_name(model: str, way: Way, orientation_deg: float) -> str:
-    """Name of the task of one travel."""
-    return orientation_name(f"{model}_{way}", orientation_deg)
 
 
 def _friction(study: Study) -> float:

@@ -14,12 +14,12 @@ from typing import Any
 from xml.etree import ElementTree
 
 from contracts.curves import StiffnessCurve, write_curve
+from contracts.footprint import FOOTPRINT
 from contracts.records import Check, Timing
 from contracts.series import TimeSeries, write_series
 from contracts.text import for_json, one_line
 from workbench.execution.store import Entry
 from workbench.questions.fe.field_file import POINTS_FILE
-from workbench.questions.fe.graph import FOOTPRINT
 from workbench.report.evidence import Evidence
 from workbench.report.placing import new_files
 from workbench.report.series import SERIES_FOLDER, series_files

@@ -7,7 +7,8 @@ from dataclasses import asdict
 
 from contracts.hub_travel import Way
 from workbench.execution.task import Task
-from workbench.questions.travels import MESH_FULL, travel_name, travel_tasks
+from workbench.questions.travel_files import travel_name
+from workbench.questions.travels import MESH_FULL, travel_tasks
 from workbench.study.fit import FittedTireSection
 from workbench.study.full import around, is_mirrored
 from workbench.study.model import Study

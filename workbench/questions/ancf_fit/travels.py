@@ -19,7 +19,7 @@ from ancf_reduced.tire.static import solve_tire
 from contracts.errors import ConvergenceError, InputError
 from contracts.hub_travel import Way
 from workbench.questions.ancf_fit.records import TravelRow
-from workbench.questions.travels import travel_curves
+from workbench.questions.travel_files import travel_curves
 
 __all__ = ["fe_travels", "travel_rows"]
 

@@ -63,6 +63,15 @@ class MotionCase:
                 rule = f"must lie between {least:g} and {most:g} {unit}"
                 raise InputError(what, f"{value:g} {unit}", rule, hint)
 
+    @property
+    def words(self) -> str:
+        """Title of the motion."""
+        under = f"under {self.load:g} N"
+        if self.case == "drop":
+            return f"dropped by {1e3 * self.height:g} mm {under}"
+        rolls = f"rolls from rest to {3600.0 * self.speed:g} m/h {under}"
+        return rolls if self.case == "rolling" else f"{rolls}, over a half-round of {1e3 * self.radius:g} mm"
+
 
 def motion_task(study: Study, asked: MotionCase) -> Task:
     """The task ``roll_{case}`` of a study's wheel as thin plates of the sizes of [ancf_wheel], on its [ground].
@@ -89,6 +98,7 @@ def motion_task(study: Study, asked: MotionCase) -> Task:
         "contact_stiffness": study.fe.contact_stiffness,
         "inner_contact_stiffness": INNER_STIFFNESS if study.fe.inner_contact else 0.0,
         "friction": FRICTION if ground is None else ground,
+        "title": f"{study.name}, {asked.words}",
         **asdict(asked),
     }
     function = "workbench.questions.ancf_wheel.motion_task:move"

@@ -74,7 +74,7 @@ class _Watched:
 def move(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """``series.csv`` and ``result.json``: largest load, account, processor time; returns the unknowns."""
     wheel = build_ancf_wheel(design_from(inputs["wheel"]), **inputs["options"])
-    rolling, start = _begun(wheel, inputs)
+    rolling, start, ahead = _begun(wheel, inputs)
     watched, seconds = _Watched(rolling), inputs["seconds"]
     watched(start)
     begun, failure = time.process_time(), None
@@ -89,7 +89,7 @@ def move(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     except ConvergenceError as error:
         failure = str(error)
     spent, unknowns = time.process_time() - begun, rolling.size
-    source = f"{inputs['case']}: thin ANCF plates of the wheel, {unknowns} unknowns, hub at x, z above level ground"
+    source = f"{inputs['title']}: thin ANCF plates, {unknowns} unknowns, hub at x, z above level ground"
     series = watched.series(inputs["case"], source, partial=failure is not None)
     write_series(series, out / SERIES)
     numbers = {
@@ -97,7 +97,10 @@ def move(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
         "steps": len(series.time) - 1,
         "end_s": float(series.time[-1]),
         "largest_load_N": float(series["load_z_N"].max()),
+        "last_load_N": float(series["load_z_N"][-1]),
         "account": watched.account.closure(),
+        "account_J": float(np.ptp(watched.account.totals)),
+        "reached": bool(series["load_z_N"].max() > 0.0 and (ahead is None or series["hub_x_m"].max() >= ahead)),
         "cpu_s": spent,
         FAILURE: failure,
     }
@@ -105,22 +108,22 @@ def move(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     return unknowns
 
 
-def _begun(wheel: AncfWheel, inputs: Mapping[str, Any]) -> tuple[RollingWheel, Motion]:
-    """The wheel and its state of rest: above the ground for a drop, else under its weight."""
+def _begun(wheel: AncfWheel, inputs: Mapping[str, Any]) -> tuple[RollingWheel, Motion, float | None]:
+    """The wheel; at rest, above the ground for a drop, else under its weight; where a half-round stands [m]."""
     rolling = _rolling(wheel, inputs, Plane())
     if inputs["case"] == "drop":
-        return rolling, above(rolling, inputs["height"])
+        return rolling, above(rolling, inputs["height"]), None
     start = standing(rolling)
     if inputs["case"] == "rolling":
-        return rolling, start
+        return rolling, start, None
     rock, outer = inputs["radius"], float(np.linalg.norm(wheel.plates.reference[:, 0, [0, 2]], axis=1).max())
     if not rock < 0.5 * outer:
-        rule = f"must be below half of the wheel's, {1e3 * outer:g} mm"
+        rule = f"must be below {500.0 * outer:.4g} mm, half of the wheel's radius"
         raise InputError("radius", f"{1e3 * rock:g} mm", rule, "10 mm is usual")
     touch = float(np.sqrt((outer + rock) ** 2 - float(start.y[-2]) ** 2))
     ground = TerrainUnion(parts=(Plane(), HalfRound(radius=rock, position=touch + _BEFORE)))
     rolling = _rolling(wheel, inputs, ground)
-    return rolling, standing(rolling)
+    return rolling, standing(rolling), touch + _BEFORE
 
 
 def _rolling(wheel: AncfWheel, inputs: Mapping[str, Any], terrain: Terrain) -> RollingWheel:

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contracts.footprint import Footprint, write_footprint
+from contracts.footprint import FOOTPRINT, Footprint, write_footprint
 from reference_fe.wheel.footprint import footprint
 from workbench.execution.result_files import read_result, write_result
-from workbench.questions.fe.graph import FOOTPRINT
 from workbench.questions.fe.task import load_case
 from workbench.questions.wheel.mesh_file import MESH, read_mesh
 

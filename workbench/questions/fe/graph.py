@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from contracts.footprint import FOOTPRINT
 from contracts.materials import Material
 from workbench.execution.task import Task
 from workbench.study.model import Study
@@ -19,7 +20,6 @@ from workbench.study.own_mesh import materials_by_part, own_mesh
 from workbench.study.own_mesh_section import OwnMeshSection
 
 __all__ = [
-    "FOOTPRINT",
     "HUB_PARTS",
     "INNER_STIFFNESS",
     "curve_deflections",
@@ -33,8 +33,6 @@ __all__ = [
 ]
 
 
-FOOTPRINT = "footprint"
-"""What a footprint's task and file are called."""
 HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
 """Parts within the springs' welds on the hub, outside to inside."""
 INNER_STIFFNESS = 1e11

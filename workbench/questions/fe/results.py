@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from contracts.curves import StiffnessCurve, read_curve
-from contracts.footprint import Footprint, read_footprint
+from contracts.footprint import FOOTPRINT, Footprint, read_footprint
 from workbench.execution.result_files import read_result
-from workbench.questions.fe.graph import FOOTPRINT
 from workbench.questions.mesh_study.question import mesh_study_of
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves

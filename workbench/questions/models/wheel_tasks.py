@@ -15,7 +15,8 @@ from workbench.execution.task import Task
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import without_end, without_fields
-from workbench.questions.travels import WORKING_LOAD, travel_name, travel_tasks
+from workbench.questions.travel_files import travel_name
+from workbench.questions.travels import WORKING_LOAD, travel_tasks
 from workbench.study.contact import RockSection
 from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
 from workbench.study.model import Study
