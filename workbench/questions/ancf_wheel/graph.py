@@ -15,7 +15,7 @@ from workbench.study.orientation import degrees, orientation_name
 from workbench.study.own_mesh import sized_mesh
 from workbench.study.sections import AncfWheelSection
 
-__all__ = ["ancf_wheel_curve_tasks", "ancf_wheel_tasks", "every_second"]
+__all__ = ["ancf_wheel_curve_tasks", "ancf_wheel_tasks", "every_second", "require_ancf_wheel"]
 
 
 _SPACING = {True: 1.5e-3, False: 0.5e-3}
@@ -47,11 +47,16 @@ def ancf_wheel_curve_tasks(study: Study, orientations_deg: Sequence[float] = ())
     InputError
         If the study has what the model has not.
     """
+    require_ancf_wheel(study)
+    asked = orientations_deg or [degrees(o) for o in study.fe.orientations]
+    return _curve_tasks(study, study.ancf_wheel or AncfWheelSection(), asked)
+
+
+def require_ancf_wheel(study: Study) -> None:
+    """Raise InputError for a study with what the ANCF model of its wheel has not."""
     if (lacking := without_ancf_wheel(study)) is not None:
         rule = "is not in the ANCF model of the wheel"
         raise InputError(f"{study.name}: {lacking}", "", rule, "take it out of the study, or ask for another model")
-    asked = orientations_deg or [degrees(o) for o in study.fe.orientations]
-    return _curve_tasks(study, study.ancf_wheel or AncfWheelSection(), asked)
 
 
 def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequence[float]) -> list[Task]:

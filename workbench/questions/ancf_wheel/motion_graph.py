@@ -6,10 +6,10 @@ from dataclasses import asdict, dataclass
 
 from contracts.errors import InputError
 from workbench.execution.task import Task
+from workbench.questions.ancf_wheel.graph import require_ancf_wheel
 from workbench.questions.fe.graph import INNER_STIFFNESS
 from workbench.questions.travels import FRICTION
 from workbench.questions.wheel.graph import wheel_inputs
-from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.model import Study
 from workbench.study.sections import AncfWheelSection
 
@@ -81,9 +81,7 @@ def motion_task(study: Study, asked: MotionCase) -> Task:
     InputError
         If the study has what the model has not.
     """
-    if (lacking := without_ancf_wheel(study)) is not None:
-        rule = "is not in the ANCF model of the wheel"
-        raise InputError(f"{study.name}: {lacking}", "", rule, "take it out of the study")
+    require_ancf_wheel(study)
     section = study.ancf_wheel or AncfWheelSection()
     ground = None if study.ground is None else study.ground.friction
     inputs = {
