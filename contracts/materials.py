@@ -1,4 +1,4 @@
-"""Elastic materials as numbers with their source."""
+"""Materials as numbers with their source."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Annotated
 
 from contracts.declared import In, PositiveDensity, PositivePressure, require_declared
 from contracts.errors import InputError
+from contracts.material_laws import Law
 from contracts.materials_temperature import REFERENCE_TEMPERATURE, temperature_data
 
 __all__ = ["AISI_301", "SPRING_STEEL", "TI_6AL_4V", "TI_6AL_4V_AGED", "Material"]
@@ -14,7 +15,7 @@ __all__ = ["AISI_301", "SPRING_STEEL", "TI_6AL_4V", "TI_6AL_4V_AGED", "Material"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Material:
-    """Isotropic elastic material at one temperature.
+    """Isotropic material at one temperature.
 
     Attributes
     ----------
@@ -27,6 +28,7 @@ class Material:
     temperature_data : name of its data in `contracts.materials_temperature`; None if its change is not known
     temperature : temperature of these values [K]
     thermal_strain : relative change of length from 20 C, free of stress [-]
+    law : how stress follows from deformation; None is the law that the solver is asked for elsewhere
 
     Raises
     ------
@@ -45,6 +47,7 @@ class Material:
     temperature_data: str | None = None
     temperature: Annotated[float, In("K", above=0.0)] = REFERENCE_TEMPERATURE
     thermal_strain: Annotated[float, In("", above=-1.0)] = 0.0
+    law: Law | None = None
 
     def __post_init__(self) -> None:
         if self.temperature_data is not None:

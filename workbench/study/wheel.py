@@ -105,7 +105,7 @@ class WheelSection(Section):
     """Ring on the axle; none without it."""
 
 
-@reads(Material, "name", "temperature", "thermal_strain")
+@reads(Material, "name", "temperature", "thermal_strain", "law")
 class MaterialSection(Section):
     """One material at 20 C, and the name of its data against temperature, if any."""
 
