@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from contracts.footprint import FOOTPRINT
+from contracts.material_laws import law_values
 from contracts.materials import Material
 from workbench.execution.task import Task
 from workbench.study.model import Study
@@ -39,13 +40,17 @@ INNER_STIFFNESS = 1e11
 """Penalty stiffness between the wheel's own parts [N/m^3]."""
 
 
-def material_inputs(materials: Mapping[str, Material]) -> dict[str, dict[str, float]]:
-    """Numbers of the material of each part, without its name and where they come from."""
-    words = ("name", "source", "temperature_data")
+def material_inputs(materials: Mapping[str, Material]) -> dict[str, dict[str, Any]]:
+    """Numbers of the material of each part, without its name and where they come from; ``law`` where it has one."""
+    words = ("name", "source", "temperature_data", "law")
     return {
-        part: {name: value for name, value in asdict(material).items() if name not in words}
+        part: {name: value for name, value in asdict(material).items() if name not in words} | _law(material)
         for part, material in materials.items()
     }
+
+
+def _law(material: Material) -> dict[str, Any]:
+    return {} if material.law is None else {"law": law_values(material.law)}
 
 
 def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]) -> dict[str, Any]:
