@@ -1,4 +1,4 @@
-"""Deformable cells of St. Venant-Kirchhoff material, assembled by the compiled loops of `cells.kernels`.
+"""Deformable cells assembled by compiled loops, whatever their law.
 
 Each process assembles its own cells into its own CSR matrix. On one process PETSc shares the values: assembling writes
 them in place and nothing is copied. On several, rows of nodes that belong to a neighbour are sent there.
@@ -6,14 +6,15 @@ them in place and nothing is copied. On several, rows of nodes that belong to a 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe import dolfinx_api as api
 from reference_fe.cells import kernels as cell_kernels
-from reference_fe.cells import reference_cell
+from reference_fe.cells.cell_group import CellGroup
 from reference_fe.contact.surface_assembly import SurfaceAssembly
-from reference_fe.problem.domain import Domain
 from reference_fe.solver import process_sums
 
 __all__ = ["CompiledCells"]
@@ -24,41 +25,28 @@ class CompiledCells:
 
     Parameters
     ----------
-    domain : mesh with tags
     V : displacement space of scalar functions times three, Lagrange or serendipity
-    cells : (n_cells,) local numbers of the deformable cells
-    moduli : (n_cells, 3) lambda, mu and thermal stress offset of each, see `hyperelastic.thermal_moduli` [Pa]
-    gauss_points : Gauss points along the cell's local axes
+    groups : the cells, by the loops that assemble them
 
     Verified by tests/verification/test_fe_cells.py against the UFL forms.
     """
 
-    def __init__(
-        self,
-        domain: Domain,
-        V: api.Expr,
-        cells: NDArray[np.int32],
-        moduli: NDArray[np.float64],
-        gauss_points: tuple[int, ...],
-    ) -> None:
-        self._moduli = moduli
-        nodes = V.dofmap.list[cells]
-        self._dofs = np.ascontiguousarray(3 * nodes[:, :, None] + np.arange(3), dtype=np.int32)
-        self._gradients, self._weights = _gradients(domain, V, cells, gauss_points)
-        self._stress = np.zeros((*self._weights.shape, 3, 3))
-        self._V, self._nodes = V, nodes
+    def __init__(self, V: api.Expr, groups: Sequence[CellGroup]) -> None:
+        self._V, self._groups = V, tuple(groups)
         self._force = api.fem.Function(V)
 
     def internal_force(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
         """int S(E(u)) : DE(u)[v] dV, (n_own_dofs,) [N]; u (n_dofs,) [m], neighbours' nodes included."""
         out = self._force.x.array
         out[:] = 0.0
-        cell_kernels.internal_force(u, self._gradients, self._weights, self._moduli, self._dofs, out)
+        for group in self._groups:
+            group.add_force(u, out)
         return process_sums.sum_shared(self._force)
 
     def store_stress(self, u: NDArray[np.float64], du: NDArray[np.float64]) -> None:
         """Store S(E(u)) + CC : DE(u)[du] at the Gauss points."""
-        cell_kernels.point_stress(u, du, self._gradients, self._moduli, self._dofs, self._stress)
+        for group in self._groups:
+            group.store_stress(u, du)
 
     def prepare_matrix(self, supported: NDArray[np.int32], surfaces: SurfaceAssembly) -> None:
         """Lay out the matrix: pattern, place of each cell's blocks, entries that the supports fix.
@@ -66,8 +54,8 @@ class CompiledCells:
         supported : (n,) int, held unknowns this process knows, in its own numbers
         surfaces : couple further groups of nodes, with room for a full block each
         """
-        groups = [*self._nodes, *surfaces.couplings()]
-        self._csr = api.cell_matrix(self._V, groups, np.unique(supported // 3).astype(np.int32))
+        coupled = [*(nodes for group in self._groups for nodes in group.nodes), *surfaces.couplings()]
+        self._csr = api.cell_matrix(self._V, coupled, np.unique(supported // 3).astype(np.int32))
         indptr, indices = self._csr.indptr, self._csr.indices
         self._indptr = np.ascontiguousarray(indptr, dtype=np.int32)
         self._indices = np.ascontiguousarray(indices, dtype=np.int32)
@@ -76,7 +64,8 @@ class CompiledCells:
         self._fixed = np.flatnonzero(np.repeat(held, np.diff(indptr)) | held[indices])
         own = supported[supported < 3 * self._V.dofmap.index_map.size_local]
         self._fixed_diagonal = cell_kernels.diagonal_places(own, self._indptr, self._indices)
-        self._blocks = cell_kernels.block_places(self._nodes, self._indptr, self._indices)
+        places = cell_kernels.block_places
+        self._blocks = [places(group.nodes, self._indptr, self._indices) for group in self._groups]
         self._whole = surfaces.whole
         if api.COMM.size == 1:
             self._matrix = api.shared_matrix(self._csr)
@@ -92,8 +81,8 @@ class CompiledCells:
         self._csr.data[:] = 0.0
         if boundary is not None:
             api.fem.assemble_matrix(self._csr, boundary)
-        values = (self._gradients, self._weights, self._moduli, self._dofs, self._indptr, self._blocks, self._csr.data)
-        cell_kernels.add_tangent(u, self._stress, *values)
+        for group, blocks in zip(self._groups, self._blocks, strict=True):
+            group.add_tangent(u, self._indptr, blocks, self._csr.data)
         surfaces.add_to_csr(self._indptr, self._indices, self._csr.data)
 
     def supported_matrix(self) -> api.PETSc.Mat:
@@ -115,16 +104,3 @@ class CompiledCells:
         else:
             far = np.zeros(0) if self._whole is None else self._whole.own_stiffness(supported=supported)
             api.distributed_values(self._matrix, np.concatenate([self._csr.data, far]))
-
-
-def _gradients(
-    domain: Domain, V: api.Expr, cells: NDArray[np.int32], gauss_points: tuple[int, ...]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Reference gradients (n_cells, n_points, 3, n_nodes) [1/m] and weights (n_cells, n_points) [m^3]."""
-    points, weights = api.gauss_rule(gauss_points)
-    geometry = reference_cell.lagrange_gradients(domain.tagged.order, points)
-    shape = V.element.basix_element.tabulate(1, points)[1:, :, :, 0]
-    positions = domain.mesh.geometry.x[api.cell_nodes(domain.mesh)[cells]]
-    jacobian = np.einsum("cni,kqn->cqik", positions, geometry)
-    gradients = np.einsum("cqkj,kqn->cqjn", np.linalg.inv(jacobian), shape)
-    return np.ascontiguousarray(gradients), weights * np.abs(np.linalg.det(jacobian))

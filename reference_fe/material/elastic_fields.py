@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from contracts.material_laws import Law, StVenantKirchhoff, law_values
 from contracts.materials import Material
 from reference_fe import dolfinx_api as api
-from reference_fe.material.hyperelastic import MaterialLaw, thermal_moduli
+from reference_fe.material.hyperelastic import thermal_moduli
+from reference_fe.material.law_constants import small_strain_lame
 from reference_fe.material.plane_state import PLANE_STRAIN, planar_lambda
 from reference_fe.problem.domain import Domain
 
@@ -35,11 +37,12 @@ class ElasticFields:
 
 
 def elastic_fields(
-    domain: Domain, materials: Mapping[str, Material], constraint: Mapping[str, float], law: MaterialLaw
+    domain: Domain, materials: Mapping[str, Material], constraint: Mapping[str, float], laws: Mapping[str, Law]
 ) -> ElasticFields:
     """Fields of the named parts' materials; ``constraint`` says how a planar part is held across the plane.
 
-    It runs from 0, plane stress, to 1, plane strain [-], see `plane_state`; parts left out are in plane strain.
+    It runs from 0, plane stress, to 1, plane strain [-], see `plane_state`; parts left out are in plane strain. Of laws
+    other than St. Venant-Kirchhoff the constants are those at small strain.
 
     Raises
     ------
@@ -51,14 +54,16 @@ def elastic_fields(
     domain.part_tags(constraint)
     if constraint and domain.dim == 3:
         raise InputError("transverse constraint", "given", "belongs to a planar mesh", "leave it out")
-    if domain.dim == 2 and law is not MaterialLaw.ST_VENANT_KIRCHHOFF:
-        raise InputError("material law", law, "has no planar form here", "use st_venant_kirchhoff or a solid mesh")
+    for part, law in laws.items():
+        if domain.dim == 2 and not isinstance(law, StVenantKirchhoff):
+            rule = "has no planar form here: only St. Venant-Kirchhoff keeps its form between plane stress and strain"
+            raise InputError(f"law of {part}", law_values(law)["kind"], rule, "use st_venant_kirchhoff or a solid mesh")
     space = api.fem.functionspace(domain.mesh, ("DG", 0))
     lam, mu, transverse = (api.fem.Function(space) for _ in range(3))
     for part, material in materials.items():
-        cells, solid = domain.cells_of([part]), material.lame_lambda
+        cells, (solid, shear) = domain.cells_of([part]), small_strain_lame(material, laws[part])
         planar = planar_lambda(material, constraint.get(part, PLANE_STRAIN)) if domain.dim == 2 else solid
-        lam.x.array[cells], mu.x.array[cells] = planar, material.lame_mu
+        lam.x.array[cells], mu.x.array[cells] = planar, shear
         transverse.x.array[cells] = planar / solid - 1.0 if solid else 0.0
     stretch = _stretch(domain, materials, space)
     return ElasticFields(lame=(lam, mu), stretch=stretch, transverse=transverse if domain.dim == 2 else None)

@@ -30,8 +30,8 @@ from scipy.spatial import cKDTree
 
 from contracts.mesh import TaggedMesh
 from reference_fe import dolfinx_api as api
-from reference_fe.material.hyperelastic import cauchy_stress
 from reference_fe.material.point_evaluation import PointEvaluation
+from reference_fe.material.point_stress import PointStress
 from reference_fe.problem.static_problem import StaticProblem
 
 __all__ = ["LinearisedStress"]
@@ -75,9 +75,7 @@ class LinearisedStress:
         self._own = np.arange(domain.mesh.topology.index_map(domain.dim).size_local, dtype=np.int32)
         self._original = domain.mesh.topology.original_cell_index[self._own].astype(np.int64)
         along = np.sort(api.gauss_rule((problem.discretisation.gauss_points[0],))[0].ravel())
-        law = problem.discretisation.law
-        stress = cauchy_stress(law, problem.u, problem.lame, problem.stretch, problem.transverse_strain)
-        self._stress = PointEvaluation(stress, _points(along, domain.dim))
+        self._stress = PointStress(problem, _points(along, domain.dim))
         ends = PointEvaluation(api.ufl.SpatialCoordinate(domain.mesh), _points(np.array([0.0, 1.0]), domain.dim))
         places = self._of_all(ends(domain.mesh, self._own))
         self._lines = {
@@ -86,8 +84,7 @@ class LinearisedStress:
 
     def largest_by_part(self) -> dict[str, float]:
         """Largest linearised von Mises stress [Pa]; 0 for a part all of whose lines are left out."""
-        stress = self._of_all(self._stress(self._mesh, self._own))
-        stress = stress.reshape(-1, 3, 3)
+        stress = self._of_all(self._stress()).reshape(-1, 3, 3)
         return {part: max((one.largest(stress) for one in lines), default=0.0) for part, lines in self._lines.items()}
 
     def _of_all(self, mine: Array) -> Array:

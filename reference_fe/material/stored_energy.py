@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reference_fe import dolfinx_api as api
+from reference_fe.cells.choice import form_laws
 from reference_fe.dolfinx_api import ufl
 from reference_fe.material.hyperelastic import stored_energy_density
 from reference_fe.material.point_evaluation import PointEvaluation
@@ -17,20 +18,32 @@ class StoredEnergy:
     """Energy of the deformable cells at the problem's present displacement.
 
     It is summed at the Gauss points of the problem's own rule: the discrete equilibrium is stationary in this sum, so
-    that work done and energy stored differ by no discretisation error.
+    that work done and energy stored differ by no discretisation error. Work of plastic flow is counted apart.
 
-    Verified by tests/verification/test_fe_energy.py.
+    Verified by tests/verification/test_fe_energy.py and tests/verification/test_fe_laws_plastic.py.
     """
 
     def __init__(self, problem: StaticProblem) -> None:
-        domain, choice = problem.domain, problem.discretisation
-        points, self._weights = api.gauss_rule(choice.gauss_points)
-        density = stored_energy_density(choice.law, problem.u, problem.lame, problem.stretch)
+        self._problem, domain = problem, problem.domain
+        points, self._weights = api.gauss_rule(problem.discretisation.gauss_points)
         volume = domain.width * abs(ufl.JacobianDeterminant(domain.mesh))
-        self._at_points = PointEvaluation(density * volume, points)
-        self._mesh, self._cells = domain.mesh, domain.cells_of(problem.materials)
+        laws = form_laws({part: law for part, law in problem.laws.items() if part not in problem.general_laws})
+        self._forms = list[tuple[list[str], PointEvaluation]]()
+        for law in sorted(set(laws.values())):
+            density = stored_energy_density(law, problem.u, problem.lame, problem.stretch)
+            self._forms.append(([p for p in laws if laws[p] is law], PointEvaluation(density * volume, points)))
 
     def value(self) -> float:
-        """Energy of the meshed body [J]; a half width is not doubled."""
-        values = self._at_points(self._mesh, self._cells).reshape(len(self._cells), -1)
-        return float(self._mesh.comm.allreduce(float(np.sum(values @ self._weights))))
+        """Elastic energy of the meshed body [J]; a half width is not doubled."""
+        total, domain, general = 0.0, self._problem.domain, self._problem.general
+        for parts, at_points in self._forms:
+            cells = domain.cells_of(parts)
+            total += float(np.sum(at_points(domain.mesh, cells).reshape(len(cells), -1) @ self._weights))
+        if general is not None:
+            total += general.stored_energy(self._problem.u.x.array)
+        return float(domain.mesh.comm.allreduce(total))
+
+    def plastic_dissipation(self) -> float:
+        """Work of plastic flow up to the last accepted state [J], what hardening keeps of it included."""
+        general = self._problem.general
+        return float(api.COMM.allreduce(0.0 if general is None else general.plastic_dissipation()))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.material_laws import J2Plasticity
 from reference_fe import dolfinx_api as api
 from reference_fe.cells import reference_cell
-from reference_fe.material.hyperelastic import von_mises_cauchy
-from reference_fe.material.point_evaluation import PointEvaluation
+from reference_fe.material.point_stress import PointStress
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.solver import process_sums
 
@@ -23,6 +25,7 @@ class StressRecovery:
     Gauss points of this axis, at the node positions of the two others (faces included), and extrapolated to the nodes
     along it.
 
+    Make it with the problem: where a part yields, the stations have a history of their own.
     Verified by tests/verification/test_fe_patch.py (uniaxial stress) and tests/verification/test_fe_ring.py (bending).
     """
 
@@ -30,22 +33,28 @@ class StressRecovery:
         self.problem = problem
         domain = problem.domain
         self._cells = domain.cells_of(problem.materials)
-        law = problem.discretisation.law
-        expression = von_mises_cauchy(law, problem.u, problem.lame, problem.stretch, problem.transverse_strain)
         points, self._to_nodes = _stations(domain.tagged.order, domain.dim, problem.discretisation.gauss_points[0])
-        self._at_stations = PointEvaluation(expression, points)
+        self._at_stations = PointStress(problem, points, equivalent=True)
         self._rows = {part: np.searchsorted(self._cells, domain.cells_of([part])) for part in problem.materials}
 
     def cell_stations(self) -> NDArray[np.float64]:
         """Von Mises stress at the stations of each deformable cell, (n_cells, n_stations) [Pa]."""
-        values = self._at_stations(self.problem.domain.mesh, self._cells)
-        return values.reshape(len(self._cells), -1)
+        return self._at_stations()[self._cells]
 
     def largest_by_part(self) -> dict[str, float]:
         """Largest von Mises stress of each deformable part at the stations [Pa]."""
-        values = self.cell_stations()
-        largest = np.array([values[rows].max(initial=0.0) for rows in self._rows.values()])
-        return dict(zip(self._rows, process_sums.largest_of_all(largest).tolist(), strict=True))
+        return self._largest(self.cell_stations(), self._rows)
+
+    def largest_plastic_strain(self) -> dict[str, float]:
+        """Largest equivalent plastic strain at the stations of each part that can yield [-], last accepted state."""
+        laws = self.problem.laws
+        rows = {part: at for part, at in self._rows.items() if isinstance(laws[part], J2Plasticity)}
+        return self._largest(self._at_stations.plastic_strain()[self._cells], rows)
+
+    @staticmethod
+    def _largest(values: NDArray[np.float64], parts: Mapping[str, NDArray[np.int64]]) -> dict[str, float]:
+        largest = np.array([values[rows].max(initial=0.0) for rows in parts.values()])
+        return dict(zip(parts, process_sums.largest_of_all(largest).tolist(), strict=True))
 
     def nodal_von_mises(self) -> NDArray[np.float64]:
         """Stress extrapolated to and averaged at each node of the tagged mesh, (n_points,) [Pa]; 0 on rigid parts."""

@@ -1,4 +1,4 @@
-"""Nonlinear statics of a tagged mesh, solid or planar: total Lagrangian, hyperelastic, supports, loads, contact.
+"""Nonlinear statics of a tagged mesh, solid or planar: total Lagrangian, a law for each part, supports, loads, contact.
 
 Weak form (Bonet & Wood 2008, ch. 8): find u with
     int S(E(u)) : DE(u)[v] dV - W(u)[v] - C(u)[v] = 0  for every v that vanishes on the supports,
@@ -11,7 +11,6 @@ the solution, stay the same. docs/theory.md has the derivation. Verified by test
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,39 +18,28 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from contracts.materials import Material
 from reference_fe import dolfinx_api as api
+from reference_fe.cells.choice import compiled_groups, form_laws
 from reference_fe.cells.compiled_assembly import CompiledCells
 from reference_fe.cells.discretisation import Discretisation, ElementFamily
 from reference_fe.cells.form_assembly import FormCells
+from reference_fe.cells.histories import Histories
 from reference_fe.contact.obstacle import ObstacleContact, ObstacleTerm
 from reference_fe.contact.surface_assembly import SurfaceAssembly
-from reference_fe.contact.surface_term import SurfaceDescription, TermState
+from reference_fe.contact.surface_term import SurfaceDescription
 from reference_fe.contact.touch import check_touch
 from reference_fe.dolfinx_api import fem, fem_petsc, ufl
 from reference_fe.material import hyperelastic as law_of
-from reference_fe.material.elastic_fields import cell_moduli, elastic_fields
-from reference_fe.material.hyperelastic import MaterialLaw
+from reference_fe.material.elastic_fields import elastic_fields
+from reference_fe.material.law_constants import laws_of
 from reference_fe.material.point_evaluation import PointEvaluation
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.loads import edge_force, virtual_work
+from reference_fe.problem.problem_state import ProblemState
 from reference_fe.problem.support_dofs import build_supports
 from reference_fe.problem.supports import EdgeLoad, EndMoment, Load, Support
 from reference_fe.solver import process_sums
 
 __all__ = ["Discretisation", "ElementFamily", "ProblemState", "StaticProblem"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ProblemState:
-    """What an increment starts from.
-
-    Attributes
-    ----------
-    displacement : (n_dofs,) [m]
-    surfaces : committed history of each surface term
-    """
-
-    displacement: NDArray[np.float64]
-    surfaces: tuple[TermState, ...]
 
 
 class StaticProblem:
@@ -60,7 +48,8 @@ class StaticProblem:
     Parameters
     ----------
     domain : mesh with tags
-    materials : part name -> material, for every part that deforms; parts left out are rigid and must be supported
+    materials : part name -> material, for every part that deforms; parts left out are rigid and must be supported. A
+        part's law is its material's, or where that leaves it open the discretisation's
     supports, loads : boundary conditions
     contact : an obstacle that just touches the undeformed body at control parameter 0
     surfaces : further contacts, see `surface_term`
@@ -74,7 +63,11 @@ class StaticProblem:
     du : last Newton step [m]
     bcs : Dirichlet conditions of the supports (DOLFINx)
     supported : unknowns held by a support, ascending
+    laws : part name -> its law
     lame, stretch, transverse_strain : constants on each cell, see `elastic_fields.ElasticFields`
+    general, general_laws : cells of other laws than St. Venant-Kirchhoff and these laws by part, where compiled loops
+        assemble them, else None and empty
+    histories : what material points remember; `accept` commits it
     """
 
     def __init__(
@@ -96,9 +89,9 @@ class StaticProblem:
         mesh = domain.mesh
         self.V = fem.functionspace(mesh, (str(self.discretisation.family), self.discretisation.degree, (domain.dim,)))
         self.u, self.du = fem.Function(self.V, name="displacement"), fem.Function(self.V)
-        fields = elastic_fields(domain, materials, transverse_constraint or {}, self.discretisation.law)
+        self.laws = laws_of(materials, self.discretisation.law)
+        fields = elastic_fields(domain, materials, transverse_constraint or {}, self.laws)
         self.lame, self.stretch, self.transverse_strain = fields.lame, fields.stretch, fields.transverse
-        self._flexible_cells = domain.cells_of(materials)
         self.load_factor = fem.Constant(mesh, 0.0)
         self._build_forms(loads)
         self._edge_force = edge_force(domain, self.V, loads)
@@ -183,19 +176,29 @@ class StaticProblem:
 
     def _assemble_compiled(self) -> None:
         assert self._compiled is not None
+        if not self.discretisation.mixed_integration_points:
+            self.store_stress(extrapolate=False)
         if self._pattern_version != self.surfaces.pattern_version:
             self._pattern_version = self.surfaces.pattern_version
             self._compiled.prepare_matrix(self.supported, self.surfaces)
         self._compiled.assemble(self.u.x.array, self._tangent_form, self.surfaces)
 
     def state(self) -> ProblemState:
-        """Displacement and committed history of the surface terms, to come back to."""
-        return ProblemState(displacement=self.u.x.array.copy(), surfaces=self.surfaces.state())
+        """Displacement and committed history of surface terms and material points, to come back to."""
+        return ProblemState(
+            displacement=self.u.x.array.copy(), surfaces=self.surfaces.state(), histories=self.histories.state()
+        )
 
     def restore(self, state: ProblemState) -> None:
         """Go back to a state; the control parameter is the caller's."""
         self.u.x.array[:] = state.displacement
         self.surfaces.restore(state.surfaces)
+        self.histories.restore(state.histories)
+
+    def accept(self) -> None:
+        """Commit the step to the present displacement: slip of the surface terms, flow of the material."""
+        self.surfaces.accept()
+        self.histories.accept(self.u.x.array)
 
     def contact_force(self) -> NDArray[np.float64]:
         """Force of the obstacles on the body, integral of the contact tractions, (dim,) [N]."""
@@ -216,9 +219,12 @@ class StaticProblem:
         assert self._forms is not None
         self._forms.store_stress(extrapolate=extrapolate)
 
-    def smallest_stretch(self) -> float:
-        """Smallest principal stretch at any Gauss point [-]; zero or less where a cell is turned inside out."""
-        F = self._deformation_gradient(self.domain.mesh, self._flexible_cells)
+    def smallest_stretch(self, parts: Sequence[str] | None = None) -> float:
+        """Smallest principal stretch at any Gauss point of some or all parts that deform [-].
+
+        Zero or less where a cell is turned inside out, infinite without a part.
+        """
+        F = self._deformation_gradient(self.domain.mesh, self.domain.cells_of(self.laws if parts is None else parts))
         squared = np.linalg.eigvalsh(np.swapaxes(F, -1, -2) @ F)[..., 0]
         stretch = np.sqrt(np.maximum(squared, 0.0)) * np.sign(np.linalg.det(F))
         return -float(process_sums.largest_of_all(np.max(-stretch, keepdims=True, initial=-np.inf).ravel())[0])
@@ -251,13 +257,13 @@ class StaticProblem:
         v, w = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
         residual, tangent = None, None
         self._compiled, self._forms = None, None
-        suits = choice.law is MaterialLaw.ST_VENANT_KIRCHHOFF and choice.mixed_integration_points
-        if choice.compiled and suits and domain.dim == 3:
-            cells = self._flexible_cells
-            moduli = cell_moduli(domain, self.materials, cells)
-            self._compiled = CompiledCells(domain, self.V, cells, moduli, choice.gauss_points)
+        elastic, self.general = compiled_groups(domain, self.V, self.materials, self.laws, choice)
+        self.general_laws = self.general.laws if self.general else {}
+        self.histories = Histories(self.general)
+        if elastic or self.general:
+            self._compiled = CompiledCells(self.V, [group for group in (elastic, self.general) if group])
         else:
-            self._forms = FormCells(domain, tuple(self.materials), (u, self.du), self.lame, choice, self.stretch)
+            self._forms = FormCells(domain, form_laws(self.laws), (u, self.du), self.lame, choice, self.stretch)
             residual, tangent = self._forms.residual, self._forms.tangent
         for load in loads:
             if isinstance(load, EdgeLoad):

@@ -86,7 +86,7 @@ def solve_increments(
             if on_attempt is not None:
                 on_attempt(record)
             if outcome.converged:
-                problem.surfaces.accept()
+                problem.accept()
                 reached, good, step = goal, problem.state(), 2.0 * step
                 yield ConvergedState(
                     control=goal,
@@ -110,7 +110,7 @@ def _kept(state: ProblemState, progress: tuple[float, float], history: Sequence[
     arrays |= {"history": packed([asdict(record) for record in history])}
     for i, term in enumerate(state.surfaces):
         arrays |= {f"surface{i}/{name}": values for name, values in term.items()}
-    return arrays
+    return arrays | {f"history{i}": past for i, past in enumerate(state.histories)}
 
 
 def _resumed(
@@ -121,7 +121,8 @@ def _resumed(
     if arrays is None:
         return None
     terms = tuple(below(f"surface{i}", arrays) for i in range(len(problem.surfaces.terms)))
-    problem.restore(ProblemState(displacement=arrays["displacement"], surfaces=terms))
+    histories = tuple(arrays[f"history{i}"] for i in range(len(problem.histories.state())))
+    problem.restore(ProblemState(displacement=arrays["displacement"], surfaces=terms, histories=histories))
     records = unpacked(arrays["history"])
     history[:] = [IncrementRecord(**{**values, "residuals": tuple(values["residuals"])}) for values in records]
     reached, step = (float(value) for value in arrays["progress"])

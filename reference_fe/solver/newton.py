@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from contracts.material_laws import StVenantKirchhoff
 from reference_fe import dolfinx_api as api
 from reference_fe.contact.newton_step import settle_contact
 from reference_fe.contact.two_sides import WildIterateError
-from reference_fe.material.hyperelastic import SMALLEST_STRETCH, MaterialLaw
+from reference_fe.material.hyperelastic import SMALLEST_STRETCH
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.solver import process_sums
 from reference_fe.solver.direct import DirectSolver, SingularMatrixError, direct_solver
@@ -151,8 +152,11 @@ class NewtonSolver:
 
     def _is_spurious(self) -> bool:
         """Whether some point is compressed beyond what St. Venant-Kirchhoff material can mean, or inside out."""
-        limit = SMALLEST_STRETCH if self.problem.discretisation.law is MaterialLaw.ST_VENANT_KIRCHHOFF else 0.0
-        return self.problem.smallest_stretch() <= limit
+        laws = self.problem.laws
+        kirchhoff = [part for part, law in laws.items() if isinstance(law, StVenantKirchhoff)]
+        others = [part for part in laws if part not in kirchhoff]
+        limits = ((kirchhoff, SMALLEST_STRETCH), (others, 0.0))
+        return any(parts and self.problem.smallest_stretch(parts) <= limit for parts, limit in limits)
 
     def _step(
         self, residual: NDArray[np.float64], force: NDArray[np.float64], offset: NDArray[np.float64]

@@ -78,7 +78,7 @@ def dragged_block(friction: float = FRICTION, direction_deg: float = 0.0) -> Dra
         outcome = solver.solve()
         if not outcome.converged:
             raise ConvergenceError(f"the block dragged by {factor * DRAG:g} m does not converge", [])
-        problem.surfaces.accept()
+        problem.accept()
         forces.append(problem.contact_force())
         energies.append(term.friction_energy())
         iterations.append(outcome.iterations)

@@ -86,7 +86,7 @@ def wheel_problem(mesh: TaggedMesh, materials: Mapping[str, Material], load_case
     if expanded is not None:
         problem.u.x.array[:] = expanded.u.x.array
         problem.residual()
-        problem.surfaces.accept()  # friction counts slip from here
+        problem.accept()  # friction counts slip from here
     axes, down = _axes(mesh), ground_direction_h(np.deg2rad(load_case.orientation_deg))
     return WheelProblem(
         mesh=mesh,
