@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, astuple, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,8 @@ from reference_fe.solver.newton import NewtonOutcome, NewtonSolver
 
 __all__ = ["ConvergedState", "solve_increments"]
 
+type NextTarget = Callable[[float], float | None]
+"""Control parameter reached -> the next target; None at the end."""
 SMALLEST_FRACTION = 1.0 / 1024.0
 """An increment cut below this fraction of the first wanted step ends the run."""
 
@@ -41,7 +44,7 @@ class ConvergedState:
 
 def solve_increments(
     solver: NewtonSolver,
-    targets: Sequence[float],
+    targets: Sequence[float] | NextTarget,
     history: list[IncrementRecord],
     attempt_limit: int = 400,
     on_attempt: Callable[[IncrementRecord], None] | None = None,
@@ -50,6 +53,8 @@ def solve_increments(
     """Yield each converged state on the way through ``targets`` from an unloaded start; the caller may stop early.
 
     Targets are values of the control parameter, ascending from above zero [m for a raised plane, - for a load factor].
+    A path that is not known before it is gone, such as one that turns back, is a function instead: from the control
+    parameter reached it tells the next target, whenever it is asked.
 
     An increment that does not converge is halved from the last converged state; after a success the step doubles, up to
     the distance to the next target. Every attempt is appended to ``history``. With a ``checkpoint``, each converged
@@ -62,61 +67,82 @@ def solve_increments(
         When the residual stalls at round-off, when the increment falls below 1/1024 of the first step, or after
         ``attempt_limit`` attempts; carries history.
 
-    Verified by tests/unit/test_fe_increments.py, tests/verification/test_fe_resume.py and
-    tests/verification/test_fe_ring.py.
+    Verified by tests/unit/test_fe_increments.py, tests/verification/test_fe_resume.py,
+    tests/verification/test_fe_unloading.py and tests/verification/test_fe_ring.py.
     """
+    next_target = targets if callable(targets) else _in_order(targets)
+    problem = solver.problem
+    smallest = SMALLEST_FRACTION * float(next_target(0.0) or 0.0)
+    place = _resumed(problem, history, checkpoint) or _Place(reached=0.0, step=0.0, target=0.0)
+    good = problem.state()
+    while (target := next_target(place.reached)) is not None:
+        place = place.towards(float(target))
+        goal, rise = place.next()
+        problem.set_control(goal)
+        outcome = solver.solve(rise=_lag(problem, rise, first=place.reached == 0.0 and rise > 0.0))
+        record = IncrementRecord(target=goal, step=rise, converged=outcome.converged, residuals=outcome.residuals)
+        history.append(record)
+        if on_attempt is not None:
+            on_attempt(record)
+        if outcome.converged:
+            problem.accept()
+            place, good = replace(place, reached=goal, step=2.0 * abs(rise)), problem.state()
+            yield ConvergedState(
+                control=goal,
+                wanted=goal == place.target,
+                outcome=outcome,
+                contact_force=problem.contact_force(),
+                reaction=problem.reaction(outcome.residual),
+            )
+            if checkpoint is not None:
+                checkpoint.write(_kept(good, place, history))
+            continue
+        problem.restore(good)
+        place = replace(place, step=0.5 * abs(rise))
+        if outcome.stalled or place.step < smallest or len(history) >= attempt_limit:
+            raise ConvergenceError(_message(place.reached, goal, place.step, outcome), history)
+
+
+def _in_order(targets: Sequence[float]) -> NextTarget:
+    """The next of ascending targets; raises InputError for others."""
     if not len(targets) or np.any(np.diff([0.0, *targets]) <= 0.0) or not np.all(np.isfinite(targets)):
         raise InputError("targets", list(targets), "must increase from above zero", "sort them and drop repeats")
-    problem = solver.problem
-    reached, step = _resumed(problem, history, checkpoint) or (0.0, float(targets[0]))
-    good, smallest = problem.state(), SMALLEST_FRACTION * float(targets[0])
-    for target in targets:
-        if reached in (0.0, *targets):  # a resumed run may stand between two targets
-            step = max(step, float(target) - reached)
-        while reached < target:
-            remaining = float(target) - reached
-            step = min(step, remaining)
-            goal = float(target) if step >= remaining * (1.0 - 1e-9) else reached + step
-            problem.set_control(goal)
-            outcome = solver.solve(rise=_lag(problem, goal - reached, first=reached == 0.0))
-            record = IncrementRecord(
-                target=goal, step=goal - reached, converged=outcome.converged, residuals=outcome.residuals
-            )
-            history.append(record)
-            if on_attempt is not None:
-                on_attempt(record)
-            if outcome.converged:
-                problem.accept()
-                reached, good, step = goal, problem.state(), 2.0 * step
-                yield ConvergedState(
-                    control=goal,
-                    wanted=goal == float(target),
-                    outcome=outcome,
-                    contact_force=problem.contact_force(),
-                    reaction=problem.reaction(outcome.residual),
-                )
-                if checkpoint is not None:
-                    checkpoint.write(_kept(good, (reached, step), history))
-                continue
-            problem.restore(good)
-            step *= 0.5
-            if outcome.stalled or step < smallest or len(history) >= attempt_limit:
-                raise ConvergenceError(_message(reached, goal, step, outcome), history)
+    return lambda reached: next((target for target in targets if target > reached), None)
 
 
-def _kept(state: ProblemState, progress: tuple[float, float], history: Sequence[IncrementRecord]) -> Arrays:
-    """A converged state, (control reached, next step) and the attempts so far, as arrays."""
-    arrays = {"displacement": state.displacement, "progress": np.array(progress)}
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Place:
+    """Where a run stands: control parameter ``reached``, length of its next ``step``, the ``target`` it makes for."""
+
+    reached: float
+    step: float
+    target: float
+
+    def towards(self, target: float) -> _Place:
+        """Making for a target: one step may reach it, unless it was made for already, with smaller ones."""
+        step = self.step if target == self.target else max(self.step, abs(target - self.reached))
+        return replace(self, step=step, target=target)
+
+    def next(self) -> tuple[float, float]:
+        """Control parameter of the next attempt, and how far that is, negative on the way back."""
+        remaining = self.target - self.reached
+        if self.step >= abs(remaining) * (1.0 - 1e-9):
+            return self.target, remaining
+        goal = self.reached + math.copysign(self.step, remaining)
+        return goal, goal - self.reached
+
+
+def _kept(state: ProblemState, place: _Place, history: Sequence[IncrementRecord]) -> Arrays:
+    """A converged state, where it stands and the attempts so far, as arrays."""
+    arrays = {"displacement": state.displacement, "progress": np.array(astuple(place))}
     arrays |= {"history": packed([asdict(record) for record in history])}
     for i, term in enumerate(state.surfaces):
         arrays |= {f"surface{i}/{name}": values for name, values in term.items()}
     return arrays | {f"history{i}": past for i, past in enumerate(state.histories)}
 
 
-def _resumed(
-    problem: StaticProblem, history: list[IncrementRecord], checkpoint: Checkpoint | None
-) -> tuple[float, float] | None:
-    """Put the problem where the checkpoint left it; control reached and next step, or None without a checkpoint."""
+def _resumed(problem: StaticProblem, history: list[IncrementRecord], checkpoint: Checkpoint | None) -> _Place | None:
+    """Put the problem where the checkpoint left it, and say where that is; None without a checkpoint."""
     arrays = None if checkpoint is None else checkpoint.read()
     if arrays is None:
         return None
@@ -125,9 +151,10 @@ def _resumed(
     problem.restore(ProblemState(displacement=arrays["displacement"], surfaces=terms, histories=histories))
     records = unpacked(arrays["history"])
     history[:] = [IncrementRecord(**{**values, "residuals": tuple(values["residuals"])}) for values in records]
-    reached, step = (float(value) for value in arrays["progress"])
-    problem.set_control(reached)
-    return reached, step
+    reached, step, target = (float(value) for value in arrays["progress"])
+    place = _Place(reached=reached, step=step, target=target)
+    problem.set_control(place.reached)
+    return place
 
 
 def _lag(problem: StaticProblem, step: float, *, first: bool) -> float:

@@ -89,11 +89,11 @@ class NewtonSolver:
     """Solves a `StaticProblem` at its present control parameter; keeps matrix, pattern and symbolic analysis.
 
     ``inner_force`` is added to the support and contact forces that residuals are held against [N]: free expansion has
-    neither.
+    neither, nor has a wheel that the ground has left.
     """
 
     def __init__(self, problem: StaticProblem, settings: NewtonSettings, inner_force: float = 0.0) -> None:
-        self.problem, self.settings, self._inner_force = problem, settings, inner_force
+        self.problem, self.settings, self.inner_force = problem, settings, inner_force
         self._matrix: api.PETSc.Mat | None = None
         self._direct: DirectSolver | None = None
         self._free = np.ones(problem.own_dofs, dtype=bool)
@@ -230,7 +230,7 @@ class NewtonSolver:
             return 1.0 if np.isfinite(process_sums.global_norm(residual)) else float("inf")
         out_of_balance = process_sums.global_norm(residual[self._free])
         applied = process_sums.global_norm(residual[~self._free]) + float(np.linalg.norm(self.problem.contact_force()))
-        applied += self._inner_force
+        applied += self.inner_force
         if not np.isfinite(applied + out_of_balance):
             return float("inf")
         if applied == 0.0:

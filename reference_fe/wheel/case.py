@@ -58,6 +58,7 @@ class WheelLoadCase:
     contact_method : penalty or augmented Lagrangian, see `contact.obstacle.ContactMethod`
     contact_stiffness : penalty stiffness per undeformed area [N/m^3]; None is `contact.facets.local_stiffness`
     friction : Coulomb coefficient on the obstacle [-]
+    unload : whether the ground then goes back, through the same deflections until it leaves the wheel
     travel : what follows the last deflection, if anything does; it needs friction, and the whole width but fore and aft
     inner_contact_stiffness : the same between the wheel's own parts [N/m^3]
     contact_ramp : gap at which the contact pressure begins [m], see `contact.law.ramped_pressure`
@@ -81,6 +82,7 @@ class WheelLoadCase:
     contact_method: ContactMethod = ContactMethod.PENALTY
     contact_stiffness: float | None = 1e11
     friction: float = 0.0
+    unload: bool = False
     travel: HubTravel | None = None
     inner_contact_stiffness: float = 1e11
     contact_ramp: float = 5e-6
@@ -102,6 +104,8 @@ class WheelLoadCase:
         if self.travel is not None and self.travel.start != self.deflections[-1]:
             rule = f"must be the last deflection, {1e3 * self.deflections[-1]:g} mm"
             raise InputError("start of a travel", f"{1e3 * self.travel.start:g} mm", rule, "press it to there")
+        if self.travel is not None and self.unload:
+            raise InputError("unloading", "", "does not go with a travel of the hub", "ask for one of them")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,6 +133,8 @@ class WheelResult:
     Attributes
     ----------
     curve : load of the full wheel against the plane's rise from first touch; columns as in `solve_wheel`
+    unloading : curve of the way back, if the load case has one and came to turn: from the permanent set, the deflection
+        at which no load is left, or partial
     travelled : rows behind it, if the load case has a travel: ``travel`` [m; rad of a turn] and the curve's columns
     increments : every attempted increment, in order
     snapshots : fields at the chosen loads that were reached
@@ -139,6 +145,7 @@ class WheelResult:
     """
 
     curve: StiffnessCurve
+    unloading: StiffnessCurve | None = None
     travelled: tuple[Mapping[str, float], ...] = ()
     increments: tuple[IncrementRecord, ...]
     snapshots: tuple[FieldSnapshot, ...]

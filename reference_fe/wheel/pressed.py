@@ -31,6 +31,7 @@ from reference_fe.solver.increments import ConvergedState, solve_increments
 from reference_fe.solver.newton import NewtonSolver
 from reference_fe.wheel.case import HUB_PARTS, FieldSnapshot, WheelLoadCase, WheelResult
 from reference_fe.wheel.problem import wheel_problem
+from reference_fe.wheel.unloading import FORCE_SHARE, at_end, next_deflection, permanent_set, unloading_curve
 from reference_fe.wheel.wrench import wrench
 
 __all__ = ["FieldSnapshot", "WheelLoadCase", "WheelResult", "solve_wheel"]
@@ -86,12 +87,10 @@ def solve_wheel(
         key = problem_key(mesh, sorted(materials.items()), load_case)
         kept = Checkpoint(path=checkpoint, key=key, recorder=run)
     try:
-        for state in solve_increments(run.solver, run.targets(), run.history, checkpoint=kept):
+        for state in solve_increments(run.solver, run.next_target, run.history, checkpoint=kept):
             load = run.record(state)
             if progress is not None:
                 progress(state.control, load)
-            if load >= load_case.maximum_load and load_case.travel is None:
-                break
     except ConvergenceError as error:
         where = f"orientation {load_case.orientation_deg:g} deg, {run.reach()}: "
         raise ConvergenceError(where + str(error), error.history, run.result(partial=True)) from error
@@ -119,6 +118,7 @@ class _WheelRun:
         self.rows: list[dict[str, float]] = [self._row(0.0, 0.0, ContactPatch(area=0.0, length=0.0, penetration=0.0))]
         self.rows[0] |= self._energies()
         self.travelled: list[dict[str, float]] = []
+        self.returned: list[dict[str, float]] = []
         self.fields: dict[str, list[FieldSnapshot]] = {"snapshot": [], "point": []}
 
     @property
@@ -129,16 +129,24 @@ class _WheelRun:
     def _obstacle_term(self) -> ObstacleTerm:
         return next(term for term in self.problem.surfaces.terms if isinstance(term, ObstacleTerm))
 
-    def targets(self) -> list[float]:
-        """Values of the control parameter: the curve's deflections, what follows them behind."""
-        travel = self.load_case.travel
-        return [*self.load_case.deflections, *(travel.controls if travel is not None else ())]
+    def next_target(self, reached: float) -> float | None:
+        """The next value of the control parameter, see `next_deflection`."""
+        found = next_deflection(self.load_case, self.rows, self.returned, reached)
+        if found is not None and found < reached:
+            largest = max(row["load_N"] for row in self.rows) / self.wheel.sides
+            self.solver.inner_force = FORCE_SHARE * largest
+        return found
 
     def record(self, state: ConvergedState) -> float:
         """Add one converged state to the curve, with the snapshots passed on the way; returns its load [N]."""
         row, travel = self._measured(state), self.load_case.travel
         if travel is not None and state.control > travel.start:
             self.travelled.append({"travel": travel.at(state.control)} | row | {"deflection_m": travel.start})
+            return row["load_N"]
+        if state.control < self.rows[-1]["deflection_m"]:
+            if row["load_N"] == 0.0:
+                row["deflection_m"] = permanent_set(self.wheel, self.load_case)
+            self.returned.append(row)
             return row["load_N"]
         self.rows.append(row)
         load = row["load_N"]
@@ -193,10 +201,11 @@ class _WheelRun:
             load=table.pop("load_N"),
             columns=table,
             source=f"{kind} finite elements, {self.problem.dofs} unknowns, deflection from first touch",
-            partial=partial,
+            partial=partial and not at_end(self.load_case, self.rows),
         )
         return WheelResult(
             curve=curve,
+            unloading=unloading_curve(curve, self.rows[-1], self.returned, self.load_case.contact_ramp),
             travelled=tuple(self.travelled),
             increments=tuple(self.history),
             snapshots=tuple(self.fields["snapshot"]),
@@ -217,6 +226,7 @@ class _WheelRun:
         arrays = {
             "rows": packed(self.rows),
             "travelled": packed(self.travelled),
+            "returned": packed(self.returned),
             "wall_s": np.array(time.perf_counter() - self.started),
         }
         for kind, kept in self.fields.items():
@@ -227,6 +237,7 @@ class _WheelRun:
     def resume(self, arrays: Arrays) -> None:
         """Take up the rows, fields and time of a run that was killed."""
         self.rows, self.travelled = unpacked(arrays["rows"]), unpacked(arrays["travelled"])
+        self.returned = unpacked(arrays["returned"])
         self.started -= float(arrays["wall_s"])
         for kind, kept in self.fields.items():
             while part := below(f"{kind}{len(kept)}", arrays):

@@ -117,3 +117,31 @@ def test_a_residual_at_round_off_is_not_cut_back() -> None:
 def test_bad_targets_are_refused(targets: list[float]) -> None:
     with pytest.raises(InputError):
         drive(1.0, targets)
+
+
+def test_a_path_may_turn_back_at_what_was_found() -> None:
+    """Targets as a function of what is reached, that ends with None."""
+    turned = False
+
+    def there_and_back(reached: float) -> float | None:
+        nonlocal turned
+        turned = turned or reached == 1.5
+        if not turned:
+            return 1.0 if reached < 1.0 else 1.5
+        return -0.5 if reached > -0.5 else None
+
+    class Both(ScriptedSolver):
+        def solve(self, rise: float = 0.0) -> NewtonOutcome:
+            converged = abs(self.control - self.u.x.array[0]) <= self.limit
+            self.u.x.array[0] = self.control if converged else 1e9
+            return NewtonOutcome(converged=converged, residuals=(1.0, 0.0), residual=np.zeros(1))
+
+    solver: Any = Both(0.7)
+    history: list[IncrementRecord] = []
+    states = list(solve_increments(solver, there_and_back, history))
+    controls = [state.control for state in states]
+    assert controls[-1] == -0.5
+    assert max(controls) == 1.5
+    assert [state.control for state in states if state.wanted] == [1.0, 1.5, -0.5]
+    assert any(record.step < 0.0 and not record.converged for record in history)  # cut back on the way back
+    assert controls.index(1.5) == len([record for record in history if record.converged and record.step > 0.0]) - 1
