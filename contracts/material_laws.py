@@ -13,13 +13,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Annotated, Any
 
 from contracts.declared import In, PositivePressure, require_declared
 from contracts.errors import InputError
 
-__all__ = ["J2Plasticity", "Law", "MooneyRivlin", "NeoHookean", "Ogden", "StVenantKirchhoff", "law_from", "law_values"]
+__all__ = [
+    "J2Plasticity",
+    "Law",
+    "MooneyRivlin",
+    "NeoHookean",
+    "Ogden",
+    "Rubber",
+    "StVenantKirchhoff",
+    "elastic_constants",
+    "law_from",
+    "law_values",
+]
 
 Modulus = Annotated[float, In("Pa")]
 NotNegative = Annotated[float, In("Pa", least=0.0)]
@@ -115,8 +126,15 @@ class J2Plasticity:
             hint = "give both, or neither"
             raise InputError("saturation rate", f"{self.saturation_rate:g}", rule, hint, key="saturation_rate")
 
+    def scaled(self, factor: float) -> J2Plasticity:
+        """The same hardening at stresses that are all ``factor`` [-] as large, as another temperature makes them."""
+        saturation = None if self.saturation_stress is None else factor * self.saturation_stress
+        return replace(self, hardening_modulus=factor * self.hardening_modulus, saturation_stress=saturation)
 
-Law = StVenantKirchhoff | NeoHookean | MooneyRivlin | Ogden | J2Plasticity
+
+Rubber = MooneyRivlin | Ogden
+"""Laws that bring their own stiffness and know no yield."""
+Law = StVenantKirchhoff | NeoHookean | Rubber | J2Plasticity
 
 _KINDS: dict[str, type[Law]] = {
     "st_venant_kirchhoff": StVenantKirchhoff,
@@ -143,6 +161,14 @@ def law_values(law: Law) -> dict[str, Any]:
     """The JSON of a law, see `law_from`."""
     name = next(name for name, kind in _KINDS.items() if type(law) is kind)
     return {"kind": name} | asdict(law)
+
+
+def elastic_constants(law: Rubber) -> tuple[float, float]:
+    """Young's modulus [Pa] and Poisson's ratio [-] of rubber at small strain, 9 K mu / (3 K + mu) and
+    (3 K - 2 mu) / (2 (3 K + mu)).
+    """
+    mu, bulk = law.shear_modulus, law.bulk_modulus
+    return 9.0 * bulk * mu / (3.0 * bulk + mu), (3.0 * bulk - 2.0 * mu) / (2.0 * (3.0 * bulk + mu))
 
 
 def _require_stiff(shear_modulus: float) -> None:

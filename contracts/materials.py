@@ -7,7 +7,7 @@ from typing import Annotated
 
 from contracts.declared import In, PositiveDensity, PositivePressure, require_declared
 from contracts.errors import InputError
-from contracts.material_laws import Law
+from contracts.material_laws import J2Plasticity, Law, MooneyRivlin, Ogden
 from contracts.materials_temperature import REFERENCE_TEMPERATURE, temperature_data
 
 __all__ = ["AISI_301", "SPRING_STEEL", "TI_6AL_4V", "TI_6AL_4V_AGED", "Material"]
@@ -23,7 +23,7 @@ class Material:
     young_modulus : E > 0 [Pa]
     poisson_ratio : nu, -1 < nu < 0.5 [-]
     density : rho > 0 [kg/m^3]
-    yield_strength : R_p0.2 > 0 [Pa]
+    yield_strength : R_p0.2 > 0 [Pa]; None for what does not yield, such as rubber
     source : where the numbers come from
     temperature_data : name of its data in `contracts.materials_temperature`; None if its change is not known
     temperature : temperature of these values [K]
@@ -42,7 +42,7 @@ class Material:
     young_modulus: PositivePressure
     poisson_ratio: Annotated[float, In("", above=-1.0, below=0.5)]
     density: PositiveDensity
-    yield_strength: PositivePressure
+    yield_strength: PositivePressure | None
     source: str
     temperature_data: str | None = None
     temperature: Annotated[float, In("K", above=0.0)] = REFERENCE_TEMPERATURE
@@ -53,6 +53,11 @@ class Material:
         if self.temperature_data is not None:
             temperature_data(self.temperature_data)
         require_declared(self, f"{self.name}:")
+        if isinstance(self.law, J2Plasticity) and self.yield_strength is None:
+            hint = "give it, or take another law"
+            raise InputError(
+                f"{self.name}: yield strength", "", "is where plasticity begins", hint, key="yield_strength"
+            )
 
     def at(self, temperature: float) -> Material:
         """The material at another temperature [K], from its values at 20 C and its temperature data.
@@ -71,12 +76,16 @@ class Material:
         if self.temperature != REFERENCE_TEMPERATURE:
             rule = "must be that at 20 C, from which the data count"
             raise InputError("material", f"{self.name} at {self.temperature:g} K", rule, "start from 20 C")
-        data = temperature_data(self.temperature_data)
+        data, law, strength = temperature_data(self.temperature_data), self.law, self.yield_strength
+        if isinstance(law, MooneyRivlin | Ogden):
+            rule = f"has no temperature data: those of {self.temperature_data} are of a metal, its law is of rubber"
+            raise InputError("material", self.name, rule, "leave temperature_data out")
         yielding = 1.0 if data.yield_ratio is None else data.yield_ratio.at(temperature)
         return replace(
             self,
             young_modulus=self.young_modulus * data.modulus_ratio.at(temperature),
-            yield_strength=self.yield_strength * yielding,
+            yield_strength=None if strength is None else strength * yielding,
+            law=law.scaled(yielding) if isinstance(law, J2Plasticity) else law,
             temperature=temperature,
             thermal_strain=data.thermal_strain.at(temperature),
         )

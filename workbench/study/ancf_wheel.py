@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from workbench.study.laws import other_law
 from workbench.study.own_mesh import own_mesh
 
 if TYPE_CHECKING:
@@ -18,11 +19,12 @@ __all__ = ["without_ancf_wheel"]
 def without_ancf_wheel(study: Study) -> str | None:
     """Which part of the study its ANCF wheel does not have; None where it has all."""
     fe, springs = study.fe, study.wheel.springs if study.wheel is not None else ()
+    key, kind = other_law(study) or ("", "")
     lacks = (
         ("mesh.file", own_mesh(study) is not None),
         (f"fe.hub = {fe.hub} without springs between rim and hub", fe.hub != "rigid" and not springs),
         ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
         (f"fe.contact_method = {fe.contact_method}", fe.contact_method != "penalty"),
-        (f"fe.material_law = {fe.material_law}", fe.material_law != "st_venant_kirchhoff"),
+        (f"{key} = {kind}", bool(kind)),
     )
     return next((name for name, stands in lacks if stands), None)

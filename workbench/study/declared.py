@@ -26,15 +26,20 @@ __all__ = ["meanings", "reads"]
 _ATTRIBUTE = re.compile(r"^([\w, ]+?) : (.*(?:\n    .*)*)", re.MULTILINE)
 
 
-def reads[S: Section](kind: type, *left_out: str) -> Callable[[type[S]], type[S]]:
-    """Decorator of a section that has the attributes of a dataclass, but for those ``left_out`` and its own."""
+def reads[S: Section](kind: type, *left_out: str, optional: tuple[str, ...] = ()) -> Callable[[type[S]], type[S]]:
+    """Decorator of a section that has the attributes of a dataclass, but for those ``left_out`` and its own.
+
+    Those that are ``optional`` may be missing and are None then, whatever the dataclass says.
+    """
 
     def with_attributes(section: type[S]) -> type[S]:
         types, texts, found = declared_types(kind), meanings(kind), dict[str, Any]()
         for one in fields(kind):
             if one.name not in (*left_out, *section.model_fields):
-                default = ... if one.default is MISSING else one.default
-                found[one.name] = (_in_file(types[one.name]), Field(default, description=texts.get(one.name)))
+                default, declared = ... if one.default is MISSING else one.default, _in_file(types[one.name])
+                if one.name in optional:
+                    default, declared = None, declared | None
+                found[one.name] = (declared, Field(default, description=texts.get(one.name)))
         text = section.__doc__ or inspect.getdoc(kind)
         return create_model(section.__name__, __base__=section, __module__=section.__module__, __doc__=text, **found)
 

@@ -19,6 +19,7 @@ from contracts.errors import InputError
 from contracts.ranges import Key, Oddity, RangeTable, dotted, oddities, range_table
 from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.key_units import nameless
+from workbench.study.laws import other_law
 from workbench.study.model import DATA, Study
 from workbench.study.own_mesh import material_names
 from workbench.study.quantities import to_si
@@ -137,6 +138,8 @@ def _idle(study: Study) -> Iterator[str]:
             yield f"tolerances.{key} has no effect: its check needs {_NEEDED[key]}"
     if study.ancf_wheel is not None and (lacking := without_ancf_wheel(study)) is not None:
         yield f"[ancf_wheel] has no effect: its model does not have {lacking}; remove it, or the other"
+    if study.input_uncertainty is not None and (other := other_law(study)) is not None:
+        yield f"[input_uncertainty] has no effect: the section model that samples it does not have {' = '.join(other)}"
     tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None
     if study.of_the_thesis and not (tires and len(study.parametric.springs) > 1):
         needs = "[ancf] with thesis_preset, [brush] and two sets of springs"

@@ -13,6 +13,7 @@ from contracts.errors import InputError
 from workbench.study.broken_rule import BrokenRule
 from workbench.study.fit import AncfFitSection
 from workbench.study.key_units import absent, as_written, is_table, parts_of
+from workbench.study.laws import other_law, plastic_parts
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, fit_start, rover_radius
 from workbench.study.own_mesh import own_mesh, sized_mesh
@@ -89,6 +90,10 @@ def _of_the_sweep(study: Study) -> Iterator[BrokenRule]:
     if study.sweep is None:
         return
     asked = {model: f"sweep.models, {model}" for model in study.sweep.models}
+    if (other := other_law(study)) is not None:
+        for model in sorted({"section", "ancf_wheel"}.intersection(asked)):
+            rule, hint = f"has no law of {' = '.join(other)}", "sweep fe, or take another law"
+            yield BrokenRule(key="sweep.models", value=model, rule=rule, hint=hint)
     if "plates" in study.sweep.parameters:
         asked["ancf"] = "sweep.plates"
     for name, section in (("ancf", study.ancf), ("brush", study.brush)):
@@ -207,6 +212,10 @@ def _of_the_fit(study: Study) -> Iterator[BrokenRule]:
     section = study.ancf_fit
     if section is None:
         return
+    if plastic := plastic_parts(study):
+        rule = f"makes elastic tires, which cannot follow {plastic[0]}, whose law.kind is j2_plasticity"
+        hint = "remove it, or give the material another law"
+        yield BrokenRule(key="ancf_fit", value="a table", rule=rule, hint=hint)
     yield from _of_the_travels(study, section)
     freed = {name for tire in section.tires for name in tire.free}
     for name in sorted(section.bounds.model_fields_set - freed):

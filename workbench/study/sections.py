@@ -106,13 +106,15 @@ class FeSection(Section):
     keep_points: StrictBool = False
     """Whether fields are kept at every point of the curves too, for the viewer to play."""
     material_law: Literal["st_venant_kirchhoff", "neo_hookean"] = "st_venant_kirchhoff"
-    """Of every part."""
+    """Of every part whose material has no law of its own."""
     contact_stiffness: Annotated[Bedding, Positive] | None = 1e11
     """None, written "auto", takes it from the local stiffness of the mesh."""
     contact_method: Literal["penalty", "augmented_lagrangian"] = "penalty"
     """How the ground holds the wheel off."""
     friction: Annotated[Number, NotNegative] = 0.0
     """Coulomb's coefficient on the ground of the static runs [-]."""
+    unload: StrictBool = False
+    """Whether the ground then goes back until it leaves the wheel: a curve of its own, with what set remains."""
     obstacle: ObstacleSection = PlaneSection()
     """What the wheel is pressed on."""
     camber: Angle = 0.0

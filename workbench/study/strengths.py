@@ -9,5 +9,6 @@ __all__ = ["yield_strengths"]
 
 
 def yield_strengths(study: Study) -> dict[str, float]:
-    """Yield strength [Pa] of each part of the mesh."""
-    return {part: material.yield_strength for part, material in materials_by_part(study).items()}
+    """Yield strength [Pa] of each part of the mesh whose material has one."""
+    found = {part: material.yield_strength for part, material in materials_by_part(study).items()}
+    return {part: strength for part, strength in found.items() if strength is not None}

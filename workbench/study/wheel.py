@@ -6,16 +6,17 @@ tests/unit/test_workbench_study.py.
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from contracts.errors import InputError
 from contracts.materials import Material
 from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
 from geometry.sidewall import SidewallSprings
 from workbench.study.declared import reads
-from workbench.study.section import Section
+from workbench.study.material_law import LawSection, MooneyRivlinSection, OgdenSection
+from workbench.study.section import Section, in_key
 
 __all__ = [
     "ConeSection",
@@ -105,9 +106,40 @@ class WheelSection(Section):
     """Ring on the axle; none without it."""
 
 
-@reads(Material, "name", "temperature", "thermal_strain", "law")
+_OF_RUBBER = ("young_modulus", "poisson_ratio", "yield_strength")
+"""What rubber does not have beside the constants of its law, and every other material must have."""
+
+
+@reads(Material, "name", "temperature", "thermal_strain", "law", optional=_OF_RUBBER)
 class MaterialSection(Section):
-    """One material at 20 C, and the name of its data against temperature, if any."""
+    """One material at 20 C, and the name of its data against temperature, if any.
+
+    Rubber (a law of Mooney and Rivlin or of Ogden) has neither Young's modulus nor Poisson's ratio of its own, which
+    follow from the law, nor a yield strength.
+    """
+
+    law: LawSection | None = None
+    """How its stress follows from deformation, a table; that of fe.material_law without it."""
+
+    @model_validator(mode="after")
+    def _constants_once(self) -> MaterialSection:
+        given = {name: getattr(self, name) for name in _OF_RUBBER}
+        if not isinstance(self.law, MooneyRivlinSection | OgdenSection):
+            if lacking := [name for name, value in given.items() if value is None]:
+                raise in_key(lacking[0], "", "is missing", "add it to the study file")
+            return self
+        for name, value in given.items():
+            if value is not None:
+                follows = "does not yield" if name == "yield_strength" else "has it from the constants of its law"
+                rule = f"must be left out of a material with law.kind = {self.law.kind}, which {follows}"
+                raise in_key(name, value, rule, f"remove {name}, or take another law")
+        return self
+
+    @model_serializer(mode="wrap")
+    def _without_a_law(self, values: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """As ever where the material has no law of its own: tasks are known by these values."""
+        found: dict[str, Any] = values(self)
+        return found if self.law is not None else {name: one for name, one in found.items() if name != "law"}
 
 
 class WheelStudy(Section):

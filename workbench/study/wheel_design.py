@@ -11,9 +11,10 @@ from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 from contracts.errors import InputError
+from contracts.material_laws import MooneyRivlin, Ogden, elastic_constants, law_from
 from contracts.materials import Material
 from workbench.study.section import Section
-from workbench.study.wheel import WheelStudy
+from workbench.study.wheel import MaterialSection, WheelStudy
 
 if TYPE_CHECKING:
     from geometry.wheel import WheelDesign
@@ -30,18 +31,27 @@ class SectionInputError(InputError):
 
 
 def in_section[T](section: str, build: Callable[[], T]) -> T:
+    """What ``build`` gives; an InputError of its own is told of with the section, unless it names a smaller one."""
     try:
         return build()
+    except SectionInputError:
+        raise
     except InputError as error:
         raise SectionInputError(section, error) from error
 
 
 def materials(study: WheelStudy) -> dict[str, Material]:
     """Materials of the study by name, SI."""
-    return {
-        name: in_section(f"materials.{name}", partial(Material, name=name, **section.model_dump()))
-        for name, section in study.materials.items()
-    }
+    return {name: _material(name, section) for name, section in study.materials.items()}
+
+
+def _material(name: str, section: MaterialSection) -> Material:
+    values, law = section.model_dump(exclude={"law"}), None
+    if section.law is not None:
+        law = in_section(f"materials.{name}.law", partial(law_from, section.law.model_dump()))
+    if isinstance(law, MooneyRivlin | Ogden):
+        values["young_modulus"], values["poisson_ratio"] = elastic_constants(law)
+    return in_section(f"materials.{name}", partial(Material, name=name, law=law, **values))
 
 
 def part_materials(study: WheelStudy) -> dict[str, str]:

@@ -15,10 +15,11 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.records import Check
 from workbench.execution.result_files import read_result
 from workbench.execution.task import Task
-from workbench.questions.fe.graph import HUB_PARTS, fe_inputs, fe_task, without_end
+from workbench.questions.fe.graph import fe_inputs, fe_task, without_end
 from workbench.questions.model_curves import CURVE
 from workbench.questions.question import Question
 from workbench.questions.wheel.graph import coarse_across, mesh_task
+from workbench.study.laws import HUB_PARTS
 from workbench.study.model import Study, stated
 from workbench.study.orientation import degrees
 from workbench.study.wheel_design import wheel_design

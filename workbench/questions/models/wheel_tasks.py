@@ -19,6 +19,7 @@ from workbench.questions.travel_files import travel_name
 from workbench.questions.travels import WORKING_LOAD, travel_tasks
 from workbench.study.contact import RockSection
 from workbench.study.full import is_mirrored, require_level, rotational_period, steps_around
+from workbench.study.laws import require_elastic
 from workbench.study.model import Study
 from workbench.study.orientation import deep_name, orientation_name
 from workbench.study.wheel_design import wheel_design
@@ -45,9 +46,11 @@ def orientations_to_solve(study: Study) -> list[float]:
     Raises
     ------
     InputError
-        For a study whose solid model does not stand on level ground, and a step that does not divide the period.
+        For a study whose solid model does not stand on level ground or can yield for good, and a step that does not
+        divide the period.
     """
     require_level(study)
+    require_elastic(study, "a rover's wheel, whose potential is elastic")
     steps = steps_around(study)
     return [one for one in steps if not is_mirrored(study) or one <= 0.5 * rotational_period(study) + 1e-9]
 

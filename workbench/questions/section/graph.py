@@ -9,6 +9,7 @@ from contracts.errors import InputError
 from workbench.execution.task import Task
 from workbench.questions.fe.graph import curve_deflections, fe_inputs, without_fields
 from workbench.questions.wheel.graph import wheel_inputs
+from workbench.study.laws import other_law
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
 from workbench.study.own_mesh import sized_mesh, without_wheel
@@ -20,10 +21,10 @@ def without_planar_model(study: Study) -> InputError | None:
     """Why a study's wheel has no planar model here; None if it has one."""
     if study.fe.turned:
         return InputError("fe.camber or yaw", "not 0", "turns the ground out of the section plane", "use --model fe")
-    if study.fe.material_law != "st_venant_kirchhoff":
-        return InputError("fe.material_law", study.fe.material_law, "has no planar form", "use st_venant_kirchhoff")
     if (reason := without_wheel(study, "the section model")) is not None:
         return reason
+    if (other := other_law(study)) is not None:
+        return InputError(*other, "has no planar form", "use st_venant_kirchhoff, or the solid model (--model fe)")
     if study.parametric.sidewall_springs is not None:
         rule = "bend out of the plane of a section model"
         return InputError("wheel.sidewall_springs", "given", rule, "use the solid model (--model fe)")
