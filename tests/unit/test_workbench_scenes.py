@@ -55,7 +55,7 @@ def test_a_coloured_scene_holds_its_pieces() -> None:
 
 def test_a_stressed_scene_holds_its_poses_in_megapascals() -> None:
     pose = Pose(label="0°, 200 N", orientation=0.5, displacement=0.1 * SQUARE, von_mises=np.arange(4) * 1e8)
-    wheel = Stressed(points=SQUARE, quads=QUADS, mirrored=True, yield_strength=8.8e8, poses=[pose])
+    wheel = Stressed(points=SQUARE, quads=QUADS, mirrored=True, limit=8.8e8, poses=[pose])
     content = _content(stressed_scene("here", wheel, "data:,", look=LOOK))
     (one,) = content["poses"]  # type: ignore[misc]
     assert (content["mirrored"], content["limit"], one["label"]) == (True, pytest.approx(880.0), "0°, 200 N")

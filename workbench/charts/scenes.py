@@ -65,14 +65,14 @@ class Stressed:
     ----------
     points, quads : (n, 3) float [m] hub frame, and (m, 4) int
     mirrored : half a width, cut at y = 0
-    yield_strength : upper end of the colours [Pa]
+    limit : upper end of the colours [Pa], as a rule the yield strength
     poses : one or more
     """
 
     points: FloatArray
     quads: IntArray
     mirrored: bool
-    yield_strength: float
+    limit: float
     poses: Sequence[Pose]
 
 
@@ -106,7 +106,7 @@ def stressed_scene(name: str, wheel: Stressed, poster: str, *, look: Look) -> st
         "points": _points(wheel.points),
         "quads": _indices(wheel.quads),
         "mirrored": wheel.mirrored,
-        "limit": wheel.yield_strength * 1e-6,
+        "limit": wheel.limit * 1e-6,
         "scale": STRESS_SCALE,
         "poses": [
             {

@@ -117,7 +117,7 @@ def draw_deformed(
     mesh: TaggedMesh,
     fields: Path,
     direction_h: Array,
-    yield_strength: float,
+    yield_strength: float | None,
     path: Path,
     scene: Scene | None = None,
 ) -> None:
@@ -128,7 +128,7 @@ def draw_deformed(
     mesh : the mesh that was solved
     fields : archive with ``displacement`` (n_points, 3) [m] and ``von_mises`` (n_points,) [Pa]
     direction_h : (3,) float, unit vector from the hub to the ground
-    yield_strength : upper end of the colours [Pa]
+    yield_strength : upper end of the colours [Pa]; the largest stress there is where nothing yields
     path : PNG to write
     """
     with np.load(fields, allow_pickle=False) as archive:
@@ -140,7 +140,7 @@ def draw_deformed(
         _whole_width(mesh, drawn),
         scalars="von Mises stress [MPa]",
         cmap="YlGnBu",
-        clim=[0.0, yield_strength * 1e-6],
+        clim=[0.0, 1e-6 * (yield_strength or float(stress.max()))],
         above_color=ABOVE_YIELD,
         scalar_bar_args=_SCALAR_BAR,
         **_MATTE,

@@ -6,7 +6,7 @@ Verified by tests/end_to_end/test_commands.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from contracts.curves import StiffnessCurve
@@ -25,6 +25,7 @@ from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
 from workbench.questions.curve_graph import MODELS, stiffness_tasks
 from workbench.questions.fe.graph import footprint_tasks
+from workbench.questions.fe.unloading import Unloading, unloadings
 from workbench.questions.models.curves import stiffness_curves
 from workbench.questions.strength.yielding import PeakStress, peak_stresses
 from workbench.report.folders import check_folder, check_targets
@@ -58,10 +59,14 @@ def run_stiffness(
     folders = {name: entry.path for name, entry in entries.items()}
     with naming(study_path):
         curves = stiffness_curves(study, model, folders)
+        ways = {c.orientation_deg: c for c in curves if model == "fe" and c.orientation_deg is not None}
+        back = unloadings(ways, folders)
     peaks, fields = tuple(_peaks(study, curves)), field_files(entries)
     texts = {f"{model}_peak_stress.csv": _peaks_csv(peaks)} if peaks else {}
-    tell_kept(publish(out, f"stiffness {model}", texts, curves, copies=fields))
+    every = [*curves, *(one.curve for one in back.values())]
+    tell_kept(publish(out, f"stiffness {model}", texts, every, copies=fields))
     _print(model, curves, peaks)
+    _print_back(back.values())
     for what in (*(["curves"] if curves else []), *sorted({name.split("/")[0] for name in fields})):
         console.print(f"{what}: {out / what}", soft_wrap=True)
     for name in texts:
@@ -98,6 +103,19 @@ def _peaks_csv(peaks: Peaks) -> str:
             f"{p.stress:.12g},{p.local:.12g},{p.strength:.12g},{p.used:.12g}"
         )
     return "\n".join(lines) + "\n"
+
+
+def _print_back(back: Iterable[Unloading]) -> None:
+    """What remains of each way back."""
+    for one in back:
+        label = f"back from {1e3 * one.curve.deflection[-1]:.1f} mm at {one.orientation_deg:g} deg"
+        if one.permanent_set is None or one.lost is None:
+            console.print(f"{label}: not until the ground left the wheel (partial)")
+            continue
+        share = 100.0 * one.lost / one.work
+        remains = round(1e3 * one.permanent_set, 3) + 0.0  # no minus before nothing
+        told = f"permanent set {remains:.3f} mm, {one.lost:.3g} J lost of {one.work:.3g} J"
+        console.print(f"{label}: {told} ({share:.1f} %)", soft_wrap=True)
 
 
 def _print(model: str, curves: Sequence[StiffnessCurve], peaks: Peaks) -> None:

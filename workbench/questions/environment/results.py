@@ -65,7 +65,8 @@ class EnvironmentRun:
     @property
     def yield_strength(self) -> dict[str, float]:
         """Yield strength [Pa] of each part at this temperature."""
-        return {part: material.yield_strength for part, material in self.materials.items()}
+        found = {part: material.yield_strength for part, material in self.materials.items()}
+        return {part: strength for part, strength in found.items() if strength is not None}
 
 
 def _common(values: list[float]) -> float | None:

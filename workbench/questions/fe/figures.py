@@ -14,9 +14,10 @@ import numpy as np
 from contracts.curves import Around, StiffnessCurve
 from contracts.errors import InputError
 from contracts.footprint import Footprint
-from workbench.charts.curves import DASHES, add_area, add_line, add_orientations
+from workbench.charts.curves import DASHES, add_area, add_line, add_orientations, named
 from workbench.charts.interactive import Figure, empty_figure, figure_html
 from workbench.charts.palette import BAND, INK, MODEL_COLOURS, ORIENTATION_COLOURS
+from workbench.questions.fe.results import ContinuumCurves
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve
 from workbench.questions.strength.yielding import judged_stress
@@ -44,17 +45,31 @@ _LEAST = 3
 """Orientations that make a figure around the wheel."""
 
 
-def fe_figure(
-    fe: ModelCurves, study: MeshStudy | None, users: Sequence[UserCurve], reference: ReferenceSection | None
-) -> str:
-    """FE at each orientation, their average with the mesh uncertainty, the reference if there is one."""
-    figure = empty_figure()
+def fe_figure(found: ContinuumCurves, reference: ReferenceSection | None) -> str:
+    """FE at each orientation, with the way back dashed, their average with the mesh uncertainty, the reference."""
+    figure, fe = empty_figure(), found.fe
     add_reference(figure, reference)
     add_orientations(figure, fe.by_orientation, "FE")
-    add_uncertainty(figure, fe.average, study)
+    _add_unloadings(figure, found)
+    add_uncertainty(figure, fe.average, found.mesh_study)
     add_line(figure, fe.average, "FE average", MODEL_COLOURS["fe"], width=4.0)
-    add_users(figure, users)
+    add_users(figure, found.users)
     return figure_html(figure, "fe-curves")
+
+
+def _add_unloadings(figure: Figure, found: ContinuumCurves) -> None:
+    for number, (orientation, back) in enumerate(found.unloadings.items()):
+        colour = ORIENTATION_COLOURS[list(found.fe.by_orientation).index(orientation) % 6]
+        figure.add_scatter(
+            x=back.curve.deflection * 1e3,
+            y=back.curve.load,
+            name=named("FE, way back", back.curve),
+            legendgroup="way back",
+            showlegend=number == 0,
+            mode="lines",
+            line={"color": colour, "width": 1.6, "dash": "dash"},
+            hovertemplate=f"{orientation:g}° back: %{{y:.1f}} N",
+        )
 
 
 def around_figure(fe: ModelCurves, turns: Around) -> str:
@@ -84,10 +99,15 @@ def around_figure(fe: ModelCurves, turns: Around) -> str:
 
 
 def stress_figure(curve: StiffnessCurve, strengths: Mapping[str, float]) -> str:
-    """Stress of each part that is held against yield, against load at one orientation, with the yield strength."""
+    """Stress of each part that is held against yield, against load at one orientation, with the yield strength.
+
+    Nothing where no part has one.
+    """
     figure = empty_figure("load on the wheel [N]", "largest stress [MPa]")
     found = {part: judged_stress(curve, part) for part in strengths}
     stresses = {part: stress * 1e-6 for part, stress in found.items() if stress is not None}
+    if not stresses:
+        return ""
     for i, (part, stress) in enumerate(stresses.items()):
         style = {"color": ORIENTATION_COLOURS[i % 6], "width": 2.5, "dash": DASHES[i % 6]}
         figure.add_scatter(x=curve.load, y=stress, name=part.replace("_", " "), mode="lines", line=style)

@@ -83,6 +83,8 @@ def _with_needs(task: Task, counts: Mapping[str, MeshCount]) -> Task:
         return task
     unknowns = dim * counts[name].nodes
     points = len(task.inputs["deflections"])
+    if task.inputs.get("unload"):
+        points *= 2
     if task.function == _TRAVEL:
         points = APPROACH + len(task.inputs["travel"]["steps"])
     cost = solve_seconds(unknowns, points)

@@ -15,13 +15,13 @@ from contracts.footprint import FOOTPRINT
 from contracts.material_laws import law_values
 from contracts.materials import Material
 from workbench.execution.task import Task
+from workbench.study.laws import HUB_PARTS
 from workbench.study.model import Study
 from workbench.study.orientation import degrees, orientation_name
 from workbench.study.own_mesh import materials_by_part, own_mesh
 from workbench.study.own_mesh_section import OwnMeshSection
 
 __all__ = [
-    "HUB_PARTS",
     "INNER_STIFFNESS",
     "curve_deflections",
     "fe_curve_tasks",
@@ -34,8 +34,6 @@ __all__ = [
 ]
 
 
-HUB_PARTS = ["outer_hub", "cone", "impact_springs", "inner_hub"]
-"""Parts within the springs' welds on the hub, outside to inside."""
 INNER_STIFFNESS = 1e11
 """Penalty stiffness between the wheel's own parts [N/m^3]."""
 
@@ -71,9 +69,9 @@ def fe_inputs(study: Study, orientation_deg: float, deflections: Iterable[float]
         "inner_contact": fe.inner_contact,
         "inner_contact_stiffness": INNER_STIFFNESS,
         "relative_tolerance": fe.relative_tolerance,
-        "rigid_parts": HUB_PARTS if fe.hub == "rigid" else [],
+        "rigid_parts": list(HUB_PARTS) if fe.hub == "rigid" else [],
         "materials": material_inputs(materials_by_part(study)),
-    }
+    } | ({"unload": True} if fe.unload else {})
     return inputs if mesh is None else inputs | _of_own_mesh(mesh)
 
 
@@ -85,8 +83,9 @@ def _of_own_mesh(mesh: OwnMeshSection) -> dict[str, Any]:
 
 
 def without_fields(inputs: Mapping[str, Any]) -> dict[str, Any]:
-    """The same run, its curve alone."""
-    return {**inputs, "snapshot_loads": [], "keep_points": False}
+    """The same run, its curve alone, without the way back."""
+    kept = {name: value for name, value in inputs.items() if name != "unload"}
+    return kept | {"snapshot_loads": [], "keep_points": False}
 
 
 def without_end(inputs: Mapping[str, Any]) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from workbench.questions.wheel.graph import MESH, MESH_WHOLE
 from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
-from workbench.study.own_mesh import materials_by_part, own_mesh
+from workbench.study.own_mesh import own_mesh
 from workbench.study.strengths import yield_strengths
 
 __all__ = ["FE"]
@@ -31,7 +31,7 @@ def _tasks(study: Study) -> Sequence[Task]:
         function="workbench.questions.wheel.pictures:draw",
         inputs={
             "orientation_deg": degrees(study.fe.orientations[0]),
-            "yield_strength": min(material.yield_strength for material in materials_by_part(study).values()),
+            "yield_strength": min(yield_strengths(study).values(), default=None),
         },
         needs=(MESH_WHOLE, MESH, curves[0].name),
         cost=10.0,
@@ -65,13 +65,14 @@ def _figures(study: Study, results: ContinuumCurves) -> Mapping[str, str]:
 
     first, *_ = [*results.fe.loaded.values(), results.fe.average]
     strengths = yield_strengths(study)
+    weakest = min(strengths.values(), default=None)
     deformed = "" if results.picture is None else picture_link(results.picture)
     return {
-        "fe": fe_figure(results.fe, results.mesh_study, results.users, study.reference),
+        "fe": fe_figure(results, study.reference),
         "around": around_figure(results.fe, around(study)),
         "stress": stress_figure(first, strengths),
         "footprint": footprint_figure(results.footprints),
-        "stress_scene": stress_scene(results.mesh_folder, results.solved, min(strengths.values()), deformed),
+        "stress_scene": stress_scene(results.mesh_folder, results.solved, weakest, deformed),
     }
 
 
@@ -83,6 +84,6 @@ FE = Question(
     read=read_continuum,
     checks=_checks,
     figures=_figures,
-    curves=lambda study, results: results.curves,
+    curves=lambda study, results: [*results.curves, *(back.curve for back in results.unloadings.values())],
     budget=1300,
 )

@@ -9,6 +9,7 @@ from pathlib import Path
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.footprint import FOOTPRINT, Footprint, read_footprint
 from workbench.execution.result_files import read_result
+from workbench.questions.fe.unloading import Unloading, unloadings
 from workbench.questions.mesh_study.question import mesh_study_of
 from workbench.questions.mesh_study.results import MeshStudy
 from workbench.questions.model_curves import ModelCurves, UserCurve, model_curves
@@ -45,6 +46,7 @@ class ContinuumCurves:
     users : the curves of the study's reference
     mesh_folder, solved : where the mesh lies, and the fields of each orientation [deg]
     picture : still of the deformed wheel; None if no orientation came to its load
+    unloadings : ways back by orientation [deg]; empty where the study does not unload
     footprints : at the first snapshot load, by orientation [deg]; empty where there are none
     overlaps : deepest overlap of any two parts at each curve's last point; None where its fields are not kept
     """
@@ -55,6 +57,7 @@ class ContinuumCurves:
     mesh_folder: Path
     solved: Mapping[float, Path]
     picture: Path | None
+    unloadings: Mapping[float, Unloading]
     footprints: Mapping[float, Footprint]
     overlaps: Mapping[str, PartsDepth] | None = None
 
@@ -75,6 +78,7 @@ def read_continuum(study: Study, folders: Mapping[str, Path]) -> ContinuumCurves
         mesh_folder=folders[MESH],
         solved={o: folders[orientation_name("fe", o)] for o in fe.by_orientation},
         picture=next(iter(sorted(folders["pictures"].glob("deformed_*N.png"))), None),
+        unloadings=unloadings(fe.by_orientation, folders),
         footprints=_footprints(study, folders, fe.by_orientation),
         overlaps=_overlaps(folders[OVERLAP]) if OVERLAP in folders else None,
     )

@@ -13,6 +13,7 @@ import numpy as np
 
 from contracts.curves import write_curve
 from contracts.errors import ConvergenceError
+from contracts.material_laws import law_from
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from reference_fe.contact.obstacle import ContactMethod
@@ -23,12 +24,13 @@ from reference_fe.wheel.pressed import FieldSnapshot, WheelLoadCase, WheelResult
 from workbench.execution.result_files import FAILURE, increment_rows, write_result
 from workbench.questions.fe.field_file import POINTS_FILE, write_fields, write_points
 from workbench.questions.fe.ground import obstacle_of
+from workbench.questions.fe.unloading import UNLOADING
 from workbench.questions.wheel.mesh_file import MESH, read_mesh
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
 
-__all__ = ["converged_part", "load_case", "solve_orientation"]
+__all__ = ["converged_part", "load_case", "materials_of", "solve_orientation"]
 
 _STUDY = "the study"
 """Where the numbers of every material come from, for all that a task knows."""
@@ -37,7 +39,8 @@ _STUDY = "the study"
 def solve_orientation(
     inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
 ) -> int:
-    """Solve one orientation: ``curve.csv``, ``result.json`` (increments, timings), fields at chosen loads and points.
+    """Solve one orientation: ``curve.csv``, ``result.json`` (increments, timings), fields at chosen loads and points;
+    with ``unload`` also ``unloading.csv``, the way back.
 
     A solve that does not converge leaves its partial curve, first touch at the least, and the reason in the result.
     Needs one task that holds the mesh. Goes on behind the last increment in ``checkpoint``, if there is one.
@@ -45,13 +48,20 @@ def solve_orientation(
     (mesh_folder,) = needs.values()
     mesh = read_mesh(mesh_folder / MESH)
     case = load_case(inputs)
-    materials = {part: Material(name=part, source=_STUDY, **v) for part, v in inputs["materials"].items()}
+    materials = materials_of(inputs)
+    top = 0.0
 
     def report(deflection: float, load: float) -> None:
-        progress(max(deflection / case.deflections[-1], load / inputs["max_load"]))
+        nonlocal top
+        there = max(deflection / case.deflections[-1], load / inputs["max_load"])
+        done = there if deflection > top else 2.0 - deflection / top
+        top = max(top, deflection)
+        progress(0.5 * done if case.unload else done)
 
     result, failure = converged_part(lambda: solve_wheel(mesh, materials, case, report, checkpoint))
     write_curve(result.curve, out / "curve.csv")
+    if result.unloading is not None:
+        write_curve(result.unloading, out / UNLOADING)
     for snapshot in result.snapshots:
         _, wanted = min((abs(load - snapshot.load), load) for load in inputs["snapshot_loads"])
         _write_fields(mesh, snapshot, out / f"fields_{wanted:.0f}N")
@@ -79,6 +89,15 @@ def converged_part(solve: Callable[[], WheelResult]) -> tuple[WheelResult, str |
         return error.last_good, str(error)
 
 
+def materials_of(inputs: Mapping[str, Any]) -> dict[str, Material]:
+    """The material of each part from a task's inputs."""
+    found = {}
+    for part, values in inputs["materials"].items():
+        law = {"law": law_from(values["law"])} if "law" in values else {}
+        found[part] = Material(name=part, source=_STUDY, **values | law)
+    return found
+
+
 def load_case(inputs: Mapping[str, Any]) -> WheelLoadCase:
     """The load case from a task's inputs."""
     return WheelLoadCase(
@@ -94,6 +113,7 @@ def load_case(inputs: Mapping[str, Any]) -> WheelLoadCase:
         camber_deg=inputs["camber_deg"],
         contact_method=ContactMethod(inputs["contact_method"]),
         friction=inputs["friction"],
+        unload=inputs.get("unload", False),
         inner_contact=inputs["inner_contact"],
         inner_contact_stiffness=inputs["inner_contact_stiffness"],
         newton=NewtonSettings(relative_tolerance=inputs["relative_tolerance"]),

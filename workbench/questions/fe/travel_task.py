@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contracts.hub_travel import HubTravel
-from contracts.materials import Material
 from contracts.travel_curve import WRENCH, TravelCurve, write_travel
 from reference_fe.wheel.pressed import WheelResult, solve_wheel
 from workbench.execution.result_files import FAILURE, increment_rows, write_result
-from workbench.questions.fe.task import converged_part, load_case
+from workbench.questions.fe.task import converged_part, load_case, materials_of
 from workbench.questions.travel_start import TRAVEL, approach, hub_travel
 from workbench.questions.wheel.mesh_file import MESH, read_mesh
 
@@ -40,7 +39,7 @@ def solve_travel(
     case = replace(
         load_case(inputs), deflections=approach(travel.start), travel=travel, friction=inputs["travel"]["friction"]
     )
-    materials = {part: Material(name=part, source="the study", **v) for part, v in inputs["materials"].items()}
+    materials = materials_of(inputs)
 
     def report(control: float, _load: float) -> None:
         progress(control / travel.controls[-1])

@@ -132,4 +132,5 @@ STRENGTH: Question = Question(
     checks=_checks,
     figures=strength_figures,
     budget=740,
+    applies=lambda study: bool(yield_strengths(study)),
 )

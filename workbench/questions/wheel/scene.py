@@ -30,7 +30,7 @@ def parts_scene(mesh_folder: Path, poster: str) -> str:
     return coloured_scene("scene-parts", pieces, poster, look=look)
 
 
-def stress_scene(mesh_folder: Path, solved: Mapping[float, Path], yield_strength: float, poster: str) -> str:
+def stress_scene(mesh_folder: Path, solved: Mapping[float, Path], yield_strength: float | None, poster: str) -> str:
     """The wheel at each orientation [deg] and load that the solver kept; empty text where it kept none."""
     wheel = surface_with_fields(read_mesh(mesh_folder / MESH), solved, yield_strength)
     if not wheel.poses:
@@ -52,8 +52,11 @@ def surface_pieces(mesh: TaggedMesh) -> list[Piece]:
     return found
 
 
-def surface_with_fields(mesh: TaggedMesh, solved: Mapping[float, Path], yield_strength: float) -> Stressed:
-    """The boundary of the solved mesh, with the fields of each orientation's folder."""
+def surface_with_fields(mesh: TaggedMesh, solved: Mapping[float, Path], yield_strength: float | None) -> Stressed:
+    """The boundary of the solved mesh, with the fields of each orientation's folder.
+
+    yield_strength : upper end of the colours [Pa]; the largest stress of all where nothing yields
+    """
     used, quads = _compact(np.asarray(surface(mesh).faces, dtype=np.int64).reshape(-1, 5)[:, 1:])
     poses = []
     for orientation, folder in solved.items():
@@ -72,7 +75,7 @@ def surface_with_fields(mesh: TaggedMesh, solved: Mapping[float, Path], yield_st
         points=mesh.points[used],
         quads=quads,
         mirrored="symmetry" in mesh.faces,
-        yield_strength=yield_strength,
+        limit=yield_strength or max((float(pose.von_mises.max()) for pose in poses), default=0.0),
         poses=poses,
     )
 
