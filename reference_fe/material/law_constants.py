@@ -53,6 +53,7 @@ def law_constants(material: Material, law: Law) -> LawConstants:
             return LawConstants(kind=OGDEN, values=tuple(x for pair in terms for x in pair), bulk=law.bulk_modulus)
         case J2Plasticity():
             R = material.yield_strength
+            assert R is not None  # `Material` refuses plasticity without one
             end = R if law.saturation_stress is None else law.saturation_stress
             values = (mu, R, law.hardening_modulus, end, law.saturation_rate)
             return LawConstants(kind=J2, values=values, bulk=lam + 2.0 / 3.0 * mu)
