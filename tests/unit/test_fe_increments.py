@@ -21,7 +21,10 @@ class ScriptedSolver:
         self.u = SimpleNamespace(x=SimpleNamespace(array=np.zeros(1)))
         self.problem: Any = self
         self.contact = None
-        self.surfaces = SimpleNamespace(terms=(), accept=lambda: None)
+        self.surfaces = SimpleNamespace(terms=())
+
+    def accept(self) -> None:
+        """Nothing to commit."""
 
     def state(self) -> np.ndarray:
         return self.u.x.array.copy()
