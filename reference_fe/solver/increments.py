@@ -30,6 +30,7 @@ class ConvergedState:
     ----------
     control : control parameter reached [m for a raised plane, - for a load factor]
     wanted : whether it is one of the targets asked for, not only a cut-back stop on the way
+    start : the state that its increment began with
     outcome : Newton history and residual
     contact_force : force of the plane on the body [N]
     reaction : sum of the support forces on the body [N]
@@ -37,6 +38,7 @@ class ConvergedState:
 
     control: float
     wanted: bool
+    start: ProblemState
     outcome: NewtonOutcome
     contact_force: NDArray[np.float64]
     reaction: NDArray[np.float64]
@@ -86,10 +88,11 @@ def solve_increments(
             on_attempt(record)
         if outcome.converged:
             problem.accept()
-            place, good = replace(place, reached=goal, step=2.0 * abs(rise)), problem.state()
+            place, start, good = replace(place, reached=goal, step=2.0 * abs(rise)), good, problem.state()
             yield ConvergedState(
                 control=goal,
                 wanted=goal == place.target,
+                start=start,
                 outcome=outcome,
                 contact_force=problem.contact_force(),
                 reaction=problem.reaction(outcome.residual),

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import ConvergenceError, IncrementRecord
+from contracts.material_laws import J2Plasticity
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from reference_fe.contact.inner import InnerContactTerm
@@ -26,6 +27,7 @@ from reference_fe.material.linearised_stress import LinearisedStress
 from reference_fe.material.stored_energy import StoredEnergy
 from reference_fe.material.stress import StressRecovery
 from reference_fe.problem.balance import support_moment
+from reference_fe.problem.problem_state import ProblemState
 from reference_fe.solver.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
 from reference_fe.solver.increments import ConvergedState, solve_increments
 from reference_fe.solver.newton import NewtonSolver
@@ -70,8 +72,10 @@ def solve_wheel(
         more without inner contact),
         ``stored_energy_J`` (elastic energy of the body), ``slip_energy_J`` (stored by elastic slip on a rough
         obstacle), ``friction_dissipation_J`` (by sliding, so far), ``inner_penetration_m`` (largest at any point of
-        inner contact), ``max_von_mises_{part}_Pa``, which near a weld's end has no limit under refinement, and
-        ``max_linearised_{part}_Pa`` of rim and springs, which has one, see `LinearisedStress`
+        inner contact), ``max_von_mises_{part}_Pa``, which near a weld's end has no limit under refinement,
+        ``max_linearised_{part}_Pa`` of rim and springs, which has one, see `LinearisedStress`, and where a part can
+        yield ``plastic_dissipation_J`` (by flow, so far) and ``max_plastic_strain_{part}`` (equivalent, without a
+        limit there either)
 
     Raises
     ------
@@ -108,6 +112,7 @@ class _WheelRun:
         self.mesh, self.problem = self.wheel.mesh, self.wheel.problem
         self.solver = NewtonSolver(self.problem, load_case.newton)
         self.stress, self.energy = StressRecovery(self.problem), StoredEnergy(self.problem)
+        self.yields = any(isinstance(law, J2Plasticity) for law in self.problem.laws.values())
         ours = load_case.faces is None  # whose parts are strips of structured cells
         strips = [part for part in self.wheel.flexible if part != "grousers" and part not in HUB_PARTS and ours]
         self.linearised = LinearisedStress(self.problem, strips)
@@ -154,7 +159,7 @@ class _WheelRun:
             self._keep("point", state.control, load)
         for wanted in self.load_case.snapshot_loads:  # last: terms of contact keep what they found there
             if self.rows[-2]["load_N"] < wanted <= load:
-                self._keep_snapshot(wanted)
+                self._keep_snapshot(wanted, state.start)
         return load
 
     def _measured(self, state: ConvergedState) -> dict[str, float]:
@@ -182,12 +187,14 @@ class _WheelRun:
         row |= self._energies()
         row |= {f"max_von_mises_{part}_Pa": value for part, value in self.stress.largest_by_part().items()}
         row |= {f"max_linearised_{part}_Pa": value for part, value in self.linearised.largest_by_part().items()}
-        return row
+        return row | {f"max_plastic_strain_{part}": a for part, a in self.stress.largest_plastic_strain().items()}
 
     def _energies(self) -> dict[str, float]:
         """Energies of the full wheel at the last accepted state [J]."""
         dissipated, slip = self._obstacle_term.friction_energy()
         energies = {"stored_energy_J": self.energy.value(), "slip_energy_J": slip, "friction_dissipation_J": dissipated}
+        if self.yields:
+            energies["plastic_dissipation_J"] = self.energy.plastic_dissipation()
         return {name: self.wheel.sides * value for name, value in energies.items()}
 
     def result(self, *, partial: bool) -> WheelResult:
@@ -263,14 +270,18 @@ class _WheelRun:
             "newton_iterations": 0.0,
         }
 
-    def _keep_snapshot(self, wanted: float) -> None:
+    def _keep_snapshot(self, wanted: float, start: ProblemState) -> None:
         """Solve at the deflection interpolated for the wanted load, keep the fields, and return to the last point."""
         problem, last, now = self.problem, self.rows[-2], self.rows[-1]
         here, control = problem.state(), now["deflection_m"]
+        begun = control
+        if self.yields:  # what has flowed since does not flow back
+            problem.restore(start)
+            begun = last["deflection_m"]
         fraction = (wanted - last["load_N"]) / (now["load_N"] - last["load_N"])
         deflection = last["deflection_m"] + fraction * (control - last["deflection_m"])
         problem.set_control(deflection)
-        if self.solver.solve(rise=deflection - control).converged:
+        if self.solver.solve(rise=deflection - begun).converged:
             self._keep("snapshot", deflection, self._load(problem.contact_force()))
         problem.restore(here)
         problem.set_control(control)

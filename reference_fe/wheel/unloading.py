@@ -17,7 +17,7 @@ from reference_fe.wheel.problem import WheelProblem, ground_contact
 
 __all__ = ["FORCE_SHARE", "at_end", "next_deflection", "permanent_set", "unloading_curve"]
 
-FORCE_SHARE = 1e-3
+FORCE_SHARE = 0.1
 """Of the largest load, added to the forces that residuals are held against on the way back: none are left there."""
 
 type Rows = Sequence[Mapping[str, float]]

@@ -39,13 +39,14 @@ def test_lost_energy_fails() -> None:
     assert energy_check([bare], 0.01).status == "error"
 
 
-def test_what_friction_takes_is_part_of_the_account() -> None:
-    """A curve whose stored energy lacks 2 % passes if sliding and slip have them, and fails without either."""
+def test_what_friction_and_flow_take_is_part_of_the_account() -> None:
+    """A curve whose stored energy lacks 2 % passes if sliding, slip and flow have them, and fails without any of it."""
     curve = _curve(energy=0.98)
     lacking = _curve().columns["stored_energy_J"] - curve.columns["stored_energy_J"]
-    friction = {"friction_dissipation_J": 0.75 * lacking, "slip_energy_J": 0.25 * lacking}
-    whole = replace(curve, columns={**curve.columns, **friction})
+    taken = {"friction_dissipation_J": 0.5, "slip_energy_J": 0.25, "plastic_dissipation_J": 0.25}
+    taken_up = {name: share * lacking for name, share in taken.items()}
+    whole = replace(curve, columns={**curve.columns, **taken_up})
     assert energy_error(whole) == pytest.approx(energy_error(_curve()))
-    for name in friction:
+    for name in taken:
         without = {key: values for key, values in whole.columns.items() if key != name}
         assert energy_error(replace(whole, columns=without)) > 0.004

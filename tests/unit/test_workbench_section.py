@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -107,7 +108,7 @@ def test_a_law_without_planar_form_leaves_the_topic_out(study: Study) -> None:
 
 
 def test_springs_that_bend_out_of_the_plane_leave_it_out_too(study: Study) -> None:
-    springs = object()
+    springs = SimpleNamespace(name="sides", material="Ti-6Al-4V")
     closed = study.model_copy(update={"wheel": study.wheel.model_copy(update={"sidewall_springs": springs})})
     assert "section" not in {t.name for t in questions_of(closed)}
     with pytest.raises(InputError, match="out of the plane"):

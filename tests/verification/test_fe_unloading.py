@@ -1,6 +1,6 @@
 """Claim: an elastic wheel that the ground leaves comes back on its own curve and stays as round as it was.
 
-Source: elasticity. Tolerance: that of Newton's iteration, 1e-8 of the forces and on the way back of a thousandth of the
+Source: elasticity. Tolerance: that of Newton's iteration, 1e-8 of the forces and on the way back of a tenth of the
 largest ones; loads are held to 1e-6 of the largest, the permanent set to a nanometre of a curve of 11 mm. Negative
 controls: friction holds the way back off, and a node that is moved shows as a set.
 """

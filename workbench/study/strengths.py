@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 from workbench.study.model import Study
-from workbench.study.own_mesh import materials_by_part
+from workbench.study.own_mesh import material_names, materials_by_part
 
-__all__ = ["yield_strengths"]
+__all__ = ["judges_strength", "parts_without_strength", "yield_strengths"]
 
 
 def yield_strengths(study: Study) -> dict[str, float]:
     """Yield strength [Pa] of each part of the mesh whose material has one."""
     found = {part: material.yield_strength for part, material in materials_by_part(study).items()}
     return {part: strength for part, strength in found.items() if strength is not None}
+
+
+def parts_without_strength(study: Study) -> tuple[str, ...]:
+    """Parts that do not yield, such as rubber, and are not judged."""
+    return tuple(part for part, name in material_names(study).items() if not _yields(study, name))
+
+
+def judges_strength(study: Study) -> bool:
+    """Whether any part has a yield strength."""
+    return any(_yields(study, name) for name in material_names(study).values())
+
+
+def _yields(study: Study, material: str) -> bool:
+    section = study.materials.get(material)
+    return section is not None and getattr(section, "yield_strength", None) is not None

@@ -20,19 +20,22 @@ __all__ = ["energy_check", "energy_error", "quadrature_error"]
 ENERGY = "stored_energy_J"
 FRICTION = ("slip_energy_J", "friction_dissipation_J")
 """Stored by elastic slip, dissipated by sliding; both are zero without friction."""
+FLOW = "plastic_dissipation_J"
+"""Work of plastic flow; absent where no part can yield."""
 
 
 def energy_error(curve: StiffnessCurve) -> float:
     """|work - change of stored energy - dissipation| / work at the curve's end [-].
 
     The work of the rising ground is the integral of load over deflection, by the trapezoid rule over the points; so is
-    what friction dissipates, see `reference_fe.contact.friction_energy`. Elastic slip stores energy as the body does.
+    what friction dissipates, see `reference_fe.contact.friction_energy`. Elastic slip stores energy as the body does;
+    plastic flow takes up the rest.
     What the springs of the contact penalty store, at most half the load times the penetration, is not counted.
     """
     if ENERGY not in curve.columns:
         raise InputError("curve", curve.source, f"has no column {ENERGY}", "compute it again")
     work = float(np.trapezoid(curve.load, curve.deflection))
-    energy = np.sum([curve.columns[name] for name in (ENERGY, *FRICTION) if name in curve.columns], axis=0)
+    energy = np.sum([curve.columns[name] for name in (ENERGY, *FRICTION, FLOW) if name in curve.columns], axis=0)
     return abs(work - float(energy[-1] - energy[0])) / work
 
 
@@ -56,6 +59,6 @@ def energy_check(curves: Sequence[StiffnessCurve], limit: float) -> Check:
         quantity="difference",
         unit="-",
         role="gate",
-        source="conservation of energy: elastic wheel, friction on the ground",
+        source="conservation of energy: elastic wheel, plastic flow, friction on the ground",
     )
     return at_most(claim, lambda: max((energy_error(curve) for curve in loaded), default=math.nan), limit)

@@ -23,11 +23,11 @@ def without_planar_model(study: Study) -> InputError | None:
         return InputError("fe.camber or yaw", "not 0", "turns the ground out of the section plane", "use --model fe")
     if (reason := without_wheel(study, "the section model")) is not None:
         return reason
-    if (other := other_law(study)) is not None:
-        return InputError(*other, "has no planar form", "use st_venant_kirchhoff, or the solid model (--model fe)")
     if study.parametric.sidewall_springs is not None:
         rule = "bend out of the plane of a section model"
         return InputError("wheel.sidewall_springs", "given", rule, "use the solid model (--model fe)")
+    if (other := other_law(study)) is not None:
+        return InputError(*other, "has no planar form", "use st_venant_kirchhoff, or the solid model (--model fe)")
     return None
 
 

@@ -6,10 +6,11 @@ tests/end_to_end/test_report.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.mesh_study.question import mesh_study_of
@@ -25,7 +26,7 @@ from workbench.questions.strength.yielding import (
 )
 from workbench.study.full import around
 from workbench.study.model import LARGEST_WHEEL_LOAD, Study
-from workbench.study.strengths import yield_strengths
+from workbench.study.strengths import judges_strength, parts_without_strength, yield_strengths
 from workbench.verdict.rules import Claim, at_least, at_most
 
 __all__ = ["STRENGTH", "yield_check"]
@@ -33,6 +34,7 @@ __all__ = ["STRENGTH", "yield_check"]
 _MEASURE = (
     "strips by their stress linearised through the thickness, one thickness from every joint and four from free edges"
 )
+_FLOWING = "; parts that flow by their largest plastic strain, over the 0.2 % that define R_p0.2"
 
 
 def yield_check(
@@ -42,31 +44,38 @@ def yield_check(
 
     Undecided where the stress, so many times larger as its numerical ``uncertainty`` [-] allows, would pass the limit.
     """
+    curves = fe.by_orientation.values()
     claim = Claim(
         id="fe.yield",
         title=f"FE: largest stress over yield strength up to {up_to:g} N",
         quantity="stress / yield",
         unit="-",
         role="finding",
-        source=f"yield strengths of the study's materials; {_MEASURE}",
+        source=f"yield strengths of the study's materials; {_measure(curves)}",
     )
-    curves = fe.by_orientation.values()
 
-    def check(strengths: Mapping[str, float]) -> Check:
-        return at_most(claim, lambda: max(largest_utilisation(curve, strengths, up_to) for curve in curves), 1.0)
+    def check(allowed: float) -> Check:
+        def largest() -> float:
+            return max(largest_utilisation(curve, yield_strength, up_to, allowed) for curve in curves)
 
-    return _noted(check, yield_strength, uncertainty)
+        return at_most(claim, largest, 1.0)
+
+    return _noted(check, uncertainty)
 
 
-def _noted(
-    check: Callable[[Mapping[str, float]], Check], strengths: Mapping[str, float], uncertainty: float | None
-) -> Check:
+def _measure(curves: Iterable[StiffnessCurve]) -> str:
+    """What is held against yield, in words."""
+    flows = any(name.startswith("max_plastic_strain") and c.columns[name].any() for c in curves for name in c.columns)
+    return f"{_MEASURE}{_FLOWING * flows}"
+
+
+def _noted(check: Callable[[float], Check], uncertainty: float | None) -> Check:
     """The check, with the uncertainty of the stress in its tolerance; undecided where that would turn it round."""
-    found = check(strengths)
+    found = check(1.0)
     if uncertainty is None or found.status == "error":
         return found
     factor = 1.0 / (1.0 + uncertainty) if found.status == "pass" else 1.0 + uncertainty
-    decided = check({part: factor * strength for part, strength in strengths.items()}).status == found.status
+    decided = check(factor).status == found.status
     words = f"numerical uncertainty of the stress ±{100.0 * uncertainty:.2g} %"
     return replace(found, tolerance=f"{found.tolerance}; {words}", status=found.status if decided else "undecided")
 
@@ -88,6 +97,7 @@ def _read(study: Study, folders: Mapping[str, Path]) -> StrengthResults:
         by_orientation={o: first_yield(curve, stressed) for o, curve in curves.items()},
         by_part=by_part,
         uncertainty=_uncertainty(study, folders),
+        unjudged=parts_without_strength(study),
     )
 
 
@@ -109,19 +119,21 @@ def _checks(study: Study, results: StrengthResults) -> list[Check]:
         quantity="load",
         unit="N",
         role="finding",
-        source=f"yield strengths of the study's materials; {up_to:g} N is {which}; {_MEASURE}",
+        source=f"yield strengths of the study's materials; {up_to:g} N is {which}; {_measure(results.curves.values())}",
     )
 
-    def check(strengths: Mapping[str, float]) -> Check:
+    strengths, uncertainty = yield_strengths(study), results.uncertainty
+
+    def check(allowed: float) -> Check:
         def smallest() -> float:
             if results.missing:
                 raise InputError("curve", f"{results.missing[0]:g} deg", "is missing", "see its run's message")
-            return smallest_yield_load([first_yield(curve, strengths) for curve in results.curves.values()], up_to)
+            found = [first_yield(curve, strengths, allowed) for curve in results.curves.values()]
+            return smallest_yield_load(found, up_to)
 
         return at_least(claim, smallest, up_to)
 
-    strengths, uncertainty = yield_strengths(study), results.uncertainty
-    return [yield_check(results.fe, strengths, up_to, uncertainty), _noted(check, strengths, uncertainty)]
+    return [yield_check(results.fe, strengths, up_to, uncertainty), _noted(check, uncertainty)]
 
 
 STRENGTH: Question = Question(
@@ -132,5 +144,5 @@ STRENGTH: Question = Question(
     checks=_checks,
     figures=strength_figures,
     budget=740,
-    applies=lambda study: bool(yield_strengths(study)),
+    applies=judges_strength,
 )

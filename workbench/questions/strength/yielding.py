@@ -1,5 +1,6 @@
 """Stress against yield along a curve: utilisation of each part, peak stress at a load, load at first yield.
 
+A part that flows is judged by its equivalent plastic strain: its yield strength is defined by 0.2 % of it.
 Strips are judged by their stress linearised through the thickness, one thickness from every joint and four from free
 edges: the elastic stress at a weld's end has no limit under refinement. What is no strip (grousers, hubs) has its
 largest von Mises stress.
@@ -9,6 +10,7 @@ Verified by tests/unit/test_workbench_yielding.py.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -20,6 +22,7 @@ from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves
 
 __all__ = [
+    "PROOF_STRAIN",
     "FirstYield",
     "PeakStress",
     "StrengthResults",
@@ -27,14 +30,19 @@ __all__ = [
     "judged_stress",
     "largest_utilisation",
     "peak_stresses",
+    "plastic_strain",
     "smallest_yield_load",
     "utilisation",
 ]
 
 
+PROOF_STRAIN = 0.002
+"""Plastic strain that defines the strength R_p0.2 [-]."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FirstYield:
-    """Where stress first reaches yield on a curve.
+    """Where stress first reaches yield on a curve, or plastic strain `PROOF_STRAIN`.
 
     Attributes
     ----------
@@ -55,7 +63,8 @@ class PeakStress:
     ----------
     load, deflection : where on the curve [N, m]
     part : name of the part
-    used : that stress over yield strength [-]
+    stress : the one that is judged [Pa], see `judged_stress`
+    used : that stress over yield strength, of a part that flows plastic strain over `PROOF_STRAIN` [-]
     strength : yield strength [Pa]
     local : largest von Mises stress anywhere in the part [Pa], which near a weld's end has no limit under refinement;
         the judged one of a curve that has no other
@@ -64,14 +73,10 @@ class PeakStress:
     load: float
     deflection: float
     part: str
+    stress: float
     used: float
     strength: float
     local: float
-
-    @property
-    def stress(self) -> float:
-        """The stress that is judged [Pa], see `judged_stress`."""
-        return self.used * self.strength
 
 
 def peak_stresses(curve: StiffnessCurve, yield_strength: Mapping[str, float], load: float) -> list[PeakStress]:
@@ -82,18 +87,23 @@ def peak_stresses(curve: StiffnessCurve, yield_strength: Mapping[str, float], lo
     InputError
         If the curve does not reach the load.
     """
-    d, at = curve.deflection, curve.deflection_at(load)
-    return [
-        PeakStress(
-            load=load,
-            deflection=at,
-            part=part,
-            used=float(np.interp(at, d, used)),
-            strength=yield_strength[part],
-            local=float(np.interp(at, d, curve.columns.get(f"max_von_mises_{part}_Pa", used * yield_strength[part]))),
+    at, found = curve.deflection_at(load), []
+    for part, used in utilisation(curve, yield_strength).items():
+        judged = judged_stress(curve, part)
+        assert judged is not None
+        columns = (judged, used, curve.columns.get(f"max_von_mises_{part}_Pa", judged))
+        stress, share, local = (float(np.interp(at, curve.deflection, column)) for column in columns)
+        strength = yield_strength[part]
+        found.append(
+            PeakStress(load=load, deflection=at, part=part, stress=stress, used=share, strength=strength, local=local)
         )
-        for part, used in utilisation(curve, yield_strength).items()
-    ]
+    return found
+
+
+def plastic_strain(curve: StiffnessCurve, part: str) -> NDArray[np.float64] | None:
+    """Largest equivalent plastic strain of a part at each point of the curve [-]; None where it does not flow."""
+    strain = curve.columns.get(f"max_plastic_strain_{part}")
+    return strain if strain is not None and strain.any() else None
 
 
 def judged_stress(curve: StiffnessCurve, part: str) -> NDArray[np.float64] | None:
@@ -105,16 +115,25 @@ def judged_stress(curve: StiffnessCurve, part: str) -> NDArray[np.float64] | Non
     return linearised if linearised is not None and linearised.any() else curve.columns.get(f"max_von_mises_{part}_Pa")
 
 
-def utilisation(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> dict[str, NDArray[np.float64]]:
-    """Stress that is judged over yield strength at each point of the curve, by part that has a stress [-]."""
-    stresses = {part: judged_stress(curve, part) for part in yield_strength}
-    return {part: stress / yield_strength[part] for part, stress in stresses.items() if stress is not None}
+def utilisation(
+    curve: StiffnessCurve, yield_strength: Mapping[str, float], allowed: float = 1.0
+) -> dict[str, NDArray[np.float64]]:
+    """Stress that is judged over yield strength at each point of the curve, by part that has a stress [-].
+
+    Of a part that flows plastic strain over `PROOF_STRAIN`; of both as many times as ``allowed`` [-].
+    """
+    found = {}
+    for part, strength in yield_strength.items():
+        stress, strain = judged_stress(curve, part), plastic_strain(curve, part)
+        if stress is not None:
+            found[part] = (stress / strength if strain is None else strain / PROOF_STRAIN) / allowed
+    return found
 
 
-def first_yield(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> FirstYield:
-    """First point at which any part's stress reaches its yield strength, interpolated linearly between increments."""
+def first_yield(curve: StiffnessCurve, yield_strength: Mapping[str, float], allowed: float = 1.0) -> FirstYield:
+    """First point at which any part comes to its limit, see `utilisation`, linear between increments."""
     found = FirstYield(load=float(curve.load.max()), deflection=float(curve.deflection[-1]), part=None)
-    for part, used in utilisation(curve, yield_strength).items():
+    for part, used in utilisation(curve, yield_strength, allowed).items():
         above = np.flatnonzero(used >= 1.0)
         if not len(above):
             continue
@@ -128,8 +147,10 @@ def first_yield(curve: StiffnessCurve, yield_strength: Mapping[str, float]) -> F
     return found
 
 
-def largest_utilisation(curve: StiffnessCurve, yield_strength: Mapping[str, float], up_to: float) -> float:
-    """Largest stress over yield strength of any part, up to a load [N] and there, linear between increments [-].
+def largest_utilisation(
+    curve: StiffnessCurve, yield_strength: Mapping[str, float], up_to: float, allowed: float = 1.0
+) -> float:
+    """Largest `utilisation` of any part, up to a load [N] and there, linear between increments [-].
 
     Raises
     ------
@@ -137,7 +158,7 @@ def largest_utilisation(curve: StiffnessCurve, yield_strength: Mapping[str, floa
         If the curve does not reach the load, or no part has a stress.
     """
     end = curve.deflection_at(up_to)
-    found = utilisation(curve, yield_strength)
+    found = utilisation(curve, yield_strength, allowed)
     if not found:
         raise InputError("curve", curve.model, "has no stress of any part", "compute it with stresses")
     before = curve.deflection <= end
@@ -164,7 +185,8 @@ def smallest_yield_load(found: Sequence[FirstYield], needed: float) -> float:
 class StrengthResults:
     """FE curves, yield strengths by part that is stressed [Pa], first yield by orientation [deg] and by part.
 
-    ``uncertainty`` : of the stress, by the mesh study [-]; None where it is not known.
+    ``uncertainty`` : of the stress, by the mesh study [-]; None where it is not known. Parts without yield strength
+    are ``unjudged``.
 
     Orientations of which no point converged are ``missing`` [deg], and have no first yield.
     """
@@ -172,6 +194,7 @@ class StrengthResults:
     fe: ModelCurves
     yield_strength: Mapping[str, float]
     uncertainty: float | None
+    unjudged: tuple[str, ...]
     by_orientation: Mapping[float, FirstYield]
     by_part: Mapping[str, tuple[float, FirstYield]]
 
@@ -186,6 +209,18 @@ class StrengthResults:
         first = next(iter(self.curves.values()), None)
         columns = first.columns if first is not None else {}
         return frozenset(p for p in self.yield_strength if np.any(columns.get(f"max_linearised_{p}_Pa", 0.0)))
+
+    @property
+    def flows(self) -> dict[str, tuple[float, float]]:
+        """Part that flows -> load [N] up to which no orientation flows, and largest plastic strain of any point [-]."""
+        found: dict[str, tuple[float, float]] = {}
+        for curve in self.curves.values():
+            for part in self.yield_strength:
+                if (strain := plastic_strain(curve, part)) is not None:
+                    begins = float(curve.load[max(0, int(np.flatnonzero(strain)[0]) - 1)])
+                    least, most = found.get(part, (math.inf, 0.0))
+                    found[part] = min(least, begins), max(most, float(strain.max()))
+        return found
 
     @property
     def missing(self) -> tuple[float, ...]:
