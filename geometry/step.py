@@ -21,7 +21,7 @@ from geometry.solids import draw_faces, draw_frustum_section
 from geometry.wheel import WheelDesign
 from geometry.written import check_written
 
-__all__ = ["in_metres", "write_named", "write_step"]
+__all__ = ["in_metres", "silenced_stdout", "write_named", "write_step"]
 
 _UNIT = "Geometry.OCCTargetUnit"
 _PRODUCT = re.compile(r"PRODUCT\('[^']* \d+(?:\.(\d+))?',\s*'[^']*'")
@@ -48,7 +48,7 @@ def write_step(design: WheelDesign, path: Path) -> None:
 def write_named(gmsh: Any, path: Path, names: list[str]) -> None:
     """Write an open session's shapes, drawn in metres, with a product's name for each in the order of their tags."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with in_metres(gmsh), _silenced_stdout():
+    with in_metres(gmsh), silenced_stdout():
         gmsh.write(str(path))
     check_written(path, b"END-ISO-10303-21;")
     text = path.read_text(encoding="utf-8")
@@ -67,7 +67,7 @@ def in_metres(gmsh: Any) -> Iterator[None]:
 
 
 @contextmanager
-def _silenced_stdout() -> Iterator[None]:
+def silenced_stdout() -> Iterator[None]:
     """Send the process's standard output nowhere: OpenCASCADE's STEP writer reports there, whatever gmsh is told."""
     sys.stdout.flush()
     kept = os.dup(1)

@@ -169,11 +169,38 @@ def test_a_fault_is_one_message_and_status_2(disc: Path, old: str, new: str, wor
     assert words in " ".join(done.stderr.split())
 
 
-def test_a_shipped_study_is_begun_elsewhere_with_its_mesh(tmp_path: Path) -> None:
-    done = said("new", tmp_path / "mine.toml", "--from", "spiral")
+@pytest.mark.parametrize("file", ["spiral.inp", "spoked.step"])
+def test_a_shipped_study_is_begun_elsewhere_with_its_mesh(tmp_path: Path, file: str) -> None:
+    done = said("new", tmp_path / "mine.toml", "--from", file.partition(".")[0])
     assert done.returncode == 0, done.stderr
     assert said("check", tmp_path / "mine.toml").returncode == 0
-    assert str(ROOT / "studies" / "spiral.inp") in (tmp_path / "mine.toml").read_text()
+    assert str(ROOT / "studies" / file) in (tmp_path / "mine.toml").read_text()
+
+
+def test_solids_are_listed_before_a_wrong_name_is_told(tmp_path: Path) -> None:
+    done = said("new", tmp_path / "mine.toml", "--from", "spoked")
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "mine.toml").read_text()
+    (tmp_path / "mine.toml").write_text(text.replace('radius = "100 mm"', 'radius = "125 mm"'))
+    done = said("check", tmp_path / "mine.toml")
+    assert done.returncode == 2
+    assert "mesh.faces.tread: rule: holds for no face on the outside" in " ".join(done.stderr.split())
+    assert "of rim: cylinder, radius 100 mm, position 0 to 20 mm" in " ".join(done.stdout.split())
+
+
+def test_a_wheel_of_solids_is_solved(tmp_path: Path) -> None:
+    done = said("new", tmp_path / "mine.toml", "--from", "spoked")
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "mine.toml").read_text()
+    short = text.replace('max_deflection = "4 mm"', 'max_deflection = "1 mm"').replace("points = 4", "points = 2")
+    (tmp_path / "mine.toml").write_text(short)
+    options = ("--orientation", "0", "--out", tmp_path / "out", "--store", tmp_path / "store")
+    done = run("stiffness", tmp_path / "mine.toml", *options)
+    assert done.returncode == 0, done.stderr
+    curve = read_curve(tmp_path / "out" / "curves" / "fe_phi000.csv", model="fe")
+    assert curve.load[-1] > 20.0
+    assert curve.columns["force_imbalance"].max() < 1e-6
+    assert curve.columns["force_left_N"][-1] == 0.0, "half a wheel stands for the whole"
 
 
 def _tetrahedra(folder: Path, order: int) -> Path:

@@ -9,17 +9,18 @@ from typing import Any
 import pytest
 
 from contracts.errors import InputError, StudyError
+from geometry.own_mesh.step_body import FaceRule
 from workbench.commands.calibrate import run_calibrate
 from workbench.execution.runner import Computing
 from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
 from workbench.questions.registry import questions_of
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.travels import travel_tasks
-from workbench.questions.wheel.own_mesh_task import own_wheel
+from workbench.questions.wheel.own_mesh_task import own_content, wheel_in
 from workbench.study.full import full_study
 from workbench.study.magnitudes import of_the_file
 from workbench.study.model import Study
-from workbench.study.own_mesh import materials_by_part, own_mesh, sized_mesh
+from workbench.study.own_mesh import materials_by_part, own_mesh, sized_mesh, sizes_and_rules
 from workbench.study.own_mesh_rules import NEEDS_WHEEL
 from workbench.study.reading import built_in_study, study_of
 
@@ -32,7 +33,7 @@ def _table() -> dict[str, Any]:
 
 def _study(**mesh: object) -> Study:
     table = _table()
-    table["mesh"] |= mesh
+    table["mesh"] = {key: value for key, value in (table["mesh"] | mesh).items() if value is not None}
     return study_of(SPIRAL, table)
 
 
@@ -70,12 +71,14 @@ def test_a_mesh_study_divides_the_cells() -> None:
 
 
 def test_the_content_of_the_file_decides_the_key(tmp_path: Path) -> None:
-    (tmp_path / "spiral.inp").write_text("*NODE\n1, 0, 0, 0\n")
+    """And not its place."""
     keys = []
-    for text in ("1, 0, 0, 0", "1, 0, 0, 1"):
-        (tmp_path / "spiral.inp").write_text(f"*NODE\n{text}\n")
-        keys.append(mesh_tasks(study_of(tmp_path / "spiral.toml", _table()))[0].key({}))
+    for place, text in (("a", "1, 0, 0, 0"), ("a", "1, 0, 0, 1"), ("b", "1, 0, 0, 1")):
+        (tmp_path / place).mkdir(exist_ok=True)
+        (tmp_path / place / "spiral.inp").write_text(f"*NODE\n{text}\n")
+        keys.append(mesh_tasks(study_of(tmp_path / place / "spiral.toml", _table()))[0].key({}))
     assert keys[0] != keys[1]
+    assert keys[1] == keys[2]
 
 
 SECTIONS: dict[str, Any] = {
@@ -92,10 +95,29 @@ def test_a_section_that_needs_the_dimensions_is_refused_with_its_reason(section:
     assert told.value.rule == NEEDS_WHEEL[section]
 
 
+STEP = {
+    "file": "wheel.step",
+    "units": None,
+    "element_size": "20 mm",
+    "faces": {"tread": {"radius": "125 mm"}, "bore": {"part": "hub", "radius": ["14 mm", "15 mm"]}},
+    "contact": [],
+}
+
+
+def test_solids_are_meshed_by_sizes_and_named_by_rules() -> None:
+    parts = {"hub": {"material": "PA 12"}, "rim": {"material": "PA 12", "element_size": "5 mm", "groups": ["a", "b"]}}
+    section = own_mesh(_study(**STEP, parts=parts))
+    assert section is not None
+    sizes, rules = sizes_and_rules(section.model_dump(mode="json"))
+    assert (sizes.element_size, sizes.around, sizes.of_solids) == (0.02, 12, {"a": 0.005, "b": 0.005})
+    assert rules["tread"] == FaceRule(radius=(0.125, 0.125))
+    assert rules["bore"] == FaceRule(solids=("hub",), radius=(0.014, 0.015))
+
+
 BROKEN: dict[str, tuple[dict[str, object], str, str]] = {
     "no unit": ({"units": "furlong"}, "mesh.units", "must be 'm', 'cm', 'mm' or 'in'"),
     "no hub": ({"hub": []}, "mesh.hub", "must have at least 1 items"),
-    "a size": ({"element_size": "8 mm"}, "mesh.element_size", "is not a known key"),
+    "a size": ({"element_size": "8 mm"}, "mesh.element_size", "is for solids in a STEP file"),
     "no parts": ({"parts": {}}, "mesh.parts", ""),
     "a part's name": ({"parts": {"a b": {"material": "PA 12"}}}, "", "must begin with a letter"),
     "no such material": (
@@ -114,6 +136,30 @@ BROKEN: dict[str, tuple[dict[str, object], str, str]] = {
         "holds hub, which hub has already",
     ),
     "a factor": ({"factor": 1.5}, "mesh.factor", "must be a whole number"),
+    "no unit of a mesh": ({"units": None}, "mesh.units", "is missing"),
+    "faces of a mesh": ({"faces": {"tread": {"radius": "1 m"}}}, "mesh.faces", "is for solids in a STEP file"),
+    "around of a mesh": ({"around": 12}, "mesh.around", "is for solids in a STEP file"),
+    "size of a meshed part": (
+        {"parts": {"hub": {"material": "PA 12", "element_size": "9 mm"}}},
+        "mesh.parts.hub.element_size",
+        "is for solids in a STEP file",
+    ),
+    "a unit of solids": (STEP | {"units": "mm"}, "mesh.units", "is not needed: a STEP file states its own unit"),
+    "no size of solids": (STEP | {"element_size": None}, "mesh.element_size", "is missing"),
+    "a size of zero": (STEP | {"element_size": "0 mm"}, "mesh.element_size", "must be greater than 0"),
+    "a rule that names nothing": (STEP | {"faces": {"tread": {}}}, "mesh.faces.tread", "stands for no face"),
+    "a rule of no part": (
+        STEP | {"faces": {"tread": {"part": "tire"}}},
+        "mesh.faces.tread.part",
+        "is not in [mesh.parts], which has hub, spokes, rim",
+    ),
+    "a rule nobody uses": (STEP | {"faces": {"flank": {"part": "rim"}}}, "mesh.faces.flank", "is named nowhere"),
+    "a rule called as a part": (STEP | {"faces": {"rim": {"part": "rim"}}}, "mesh.faces.rim", "is the name of a part"),
+    "a falling range": (
+        STEP | {"faces": {"tread": {"radius": ["2 m", "1 m"]}}},
+        "mesh.faces.tread.radius",
+        "must ascend",
+    ),
     "a centre far away": ({"centre": ["0 m", "90 m", "0 m"]}, "mesh.centre[1]", ""),
 }
 
@@ -181,8 +227,9 @@ def test_thicknesses_cannot_be_calibrated(tmp_path: Path) -> None:
 def test_faults_of_names_are_told_with_their_key() -> None:
     section = own_mesh(_study(ground=["tire"]))
     assert section is not None
+    path, table = Path(section.file), section.model_dump(mode="json")
     with pytest.raises(InputError) as told:
-        own_wheel(section.model_dump(mode="json"))
+        wheel_in(own_content(path, table), table, path)
     assert str(told.value).startswith(
         "mesh.ground: group of faces = tire: is no group of faces in the mesh file, which"
     )

@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import os
 import uuid
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +16,7 @@ import tomlkit
 from contracts.errors import InputError
 from contracts.input_file import input_text
 from contracts.mesh import TaggedMesh
+from geometry.own_mesh.step_body import StepBody, told
 from geometry.own_mesh.wheel_checks import outer_radius
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.disk import STUDY, naming_the_disk
@@ -24,10 +24,11 @@ from workbench.questions.input_uncertainty.samples import require_inputs
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.sweep.graph import sweep_graph
-from workbench.questions.wheel.own_mesh_task import own_wheel
+from workbench.questions.wheel.own_mesh_task import own_content, wheel_in
 from workbench.report.placing import moved
 from workbench.study.full import full_study
-from workbench.study.own_mesh import own_mesh
+from workbench.study.own_mesh import own_mesh, placement_and_roles
+from workbench.study.own_mesh_section import OwnMeshSection
 from workbench.study.reading import built_in_study, read_study_table, study_of
 from workbench.study.rewrite import rewritten_study
 from workbench.study.sweep_points import beyond_reach, end_points
@@ -81,14 +82,26 @@ def _write_new(path: Path, text: str) -> None:
             aside.unlink()
 
 
-def _tell_size(path: Path, mesh: TaggedMesh, ground: Sequence[str]) -> None:
+def _tell_own(path: Path, section: OwnMeshSection) -> None:
+    """Read a wheel's own mesh; of solids, list what a user may name, before any name is looked for."""
+    file, table = Path(section.file), section.model_dump(mode="json")
+    content = own_content(file, table)
+    if isinstance(content, StepBody):
+        for line in told(content, placement_and_roles(table)[0]):
+            console.print(f"{file.name}: {line}", soft_wrap=True)
+    _tell_size(path, wheel_in(content, table, file), section)
+
+
+def _tell_size(path: Path, mesh: TaggedMesh, section: OwnMeshSection) -> None:
     """Size of a wheel whose mesh is its own, which shows a wrong unit."""
-    radius, width = outer_radius(mesh, ground), float(np.ptp(mesh.points[:, 1]))
+    radius, width = outer_radius(mesh, section.ground), float(np.ptp(mesh.points[:, 1]))
+    width *= 2.0 if section.half_width else 1.0
     console.print(f"{path}: {len(mesh.cells)} cells, radius {1e3 * radius:.4g} mm, width {1e3 * width:.4g} mm")
     low, high = _USUAL_RADIUS
     if not low <= radius <= high:
         usual = f"a rover's wheel has {1e3 * low:g} to {1e3 * high:g} mm"
-        warn(path, [f"mesh.units: a radius of {1e3 * radius:.4g} mm is unusual ({usual}): is the unit right?"])
+        key = "mesh.file" if section.of_solids else "mesh.units"
+        warn(path, [f"{key}: a radius of {1e3 * radius:.4g} mm is unusual ({usual}): is the unit right?"])
 
 
 def run_check(path: Path) -> int:
@@ -99,7 +112,7 @@ def run_check(path: Path) -> int:
     warn(path, beyond_reach(study, points))
     with naming(path):
         if (mesh := own_mesh(study)) is not None:
-            _tell_size(path, own_wheel(mesh.model_dump(mode="json")), mesh.ground)
+            _tell_own(path, mesh)
         tasks = report_tasks(study)
         if "full" in study.model_fields_set:
             full_study(study)

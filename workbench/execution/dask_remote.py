@@ -20,13 +20,13 @@ from workbench.execution.reach import source_hash
 __all__ = ["Files", "read_files", "run_remote", "write_files"]
 
 type Files = dict[str, bytes]
-"""Relative path -> content."""
+"""Relative path -> content; a file alone has none."""
 
 _ONE_AT_A_TIME = threading.Lock()
 
 
 def write_files(folder: Path, files: Files) -> None:
-    """Write files into a folder, which is made."""
+    """Write files into a folder, which is made; a file alone in its place."""
     for name, content in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(content)
@@ -42,7 +42,8 @@ def run_remote(
         return Failed(message=f"the cluster's worker has another version of {', '.join(different)}; install ours"), {}
     try:
         with _ONE_AT_A_TIME, tempfile.TemporaryDirectory(prefix="workbench-job-") as name:
-            here = replace(job, needs={need: Path(name) / "needs" / str(i) for i, need in enumerate(needs)}, store=None)
+            places = (Path(name) / "needs" / f"{i}{job.needs[need].suffix}" for i, need in enumerate(needs))
+            here = replace(job, needs=dict(zip(needs, places, strict=True)), store=None)
             for need, files in needs.items():
                 write_files(here.needs[need], files)
             kept = job.checkpoint if job.checkpoint is not None and job.checkpoint.parent.is_dir() else None
@@ -77,5 +78,7 @@ def _hash_here(name: str) -> str:
 
 
 def read_files(folder: Path) -> Files:
-    """Every file below a folder."""
+    """Every file below a folder; of a file its content, without a name."""
+    if folder.is_file():
+        return {"": folder.read_bytes()}
     return {p.relative_to(folder).as_posix(): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}

@@ -32,7 +32,7 @@ class Job:
     Attributes
     ----------
     name, function, inputs : as in `workbench.execution.task.Task`
-    needs : folder of each result to read
+    needs : folder of each result to read; file of each of the task's files
     folder : folder to fill
     checkpoint : file in which a resumable task keeps how far it came; None if the task keeps nothing
     origin : hashes of sources and versions of libraries, as in `workbench.execution.task.Task.origin`

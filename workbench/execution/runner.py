@@ -222,7 +222,7 @@ class _Run:
             name=task.name,
             function=task.function,
             inputs=task.inputs,
-            needs={bare_name(name): entries[name].path for name in task.needs},
+            needs={bare_name(name): entries[name].path for name in task.needs} | dict(task.files),
             folder=folder,
             origin=task.origin(),
             checkpoint=self.store.checkpoint(self.keys[task.name]) if task.resumable else None,

@@ -6,7 +6,7 @@ Verified by tests/unit/test_workbench_runner.py.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +44,8 @@ class Task:
     unknowns : expected number of unknowns, 0 where it is not known beforehand; no part of the key
     resumable : the function takes a ``checkpoint``
     shared : several MPI processes may run it together
+    files : name among what it needs -> file of the user's that it reads; no part of the key, which has its content's
+        hash among the inputs
     """
 
     name: str
@@ -55,6 +57,7 @@ class Task:
     unknowns: int = 0
     resumable: bool = False
     shared: bool = False
+    files: Mapping[str, Path] = field(default_factory=dict)
 
     def key(self, needed_keys: Mapping[str, str]) -> str:
         """SHA-256 of function, inputs, the sources and libraries it can reach, and the keys of what it needs."""

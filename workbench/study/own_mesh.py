@@ -16,6 +16,7 @@ from workbench.study.wheel_design import SectionInputError, in_section, material
 
 if TYPE_CHECKING:
     from geometry.own_mesh.roles import Placement, Roles
+    from geometry.own_mesh.step_body import FaceRule, StepSizes
     from workbench.study.model import Study
     from workbench.study.sections import MeshSection
 
@@ -25,10 +26,13 @@ __all__ = [
     "own_mesh",
     "placement_and_roles",
     "sized_mesh",
+    "sizes_and_rules",
     "without_wheel",
 ]
 
 _UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 25.4e-3}
+_AROUND = 12
+"""Elements around a full circle: of second order they leave 2e-5 of the radius [-]."""
 
 
 def own_mesh(study: Study) -> OwnMeshSection | None:
@@ -83,8 +87,8 @@ def placement_and_roles(section: dict[str, Any]) -> tuple[Placement, Roles]:
     """Where the wheel lies and what names stand for, from the section as JSON."""
     from geometry.own_mesh.roles import Placement, Roles
 
-    unit, centre = _UNITS[section["units"]], tuple(section["centre"])
-    parts = {name: tuple(part["groups"]) or (name,) for name, part in section["parts"].items()}
+    unit, centre = _UNITS[section["units"] or "m"], tuple(section["centre"])
+    parts = _groups(section)
     pairs = tuple((slave, master) for slave, master in section["contact"])
     return (
         in_section("mesh", partial(Placement, unit=unit, axle=section["axle"], up=section["up"], centre=centre)),
@@ -96,3 +100,28 @@ def placement_and_roles(section: dict[str, Any]) -> tuple[Placement, Roles]:
             symmetry=section["symmetry"] or "",
         ),
     )
+
+
+def sizes_and_rules(section: dict[str, Any]) -> tuple[StepSizes, dict[str, FaceRule]]:
+    """How a STEP file is meshed and which of its faces names stand for, from the section as JSON."""
+    from geometry.own_mesh.step_body import FaceRule, StepSizes
+
+    groups = _groups(section)
+    own = {name: part["element_size"] for name, part in section["parts"].items() if part["element_size"]}
+    around = _AROUND if section["around"] is None else section["around"]
+    of_solids = {solid: size for name, size in own.items() for solid in groups[name]}
+    rules = {
+        name: FaceRule(
+            solids=groups[rule["part"]] if rule["part"] else (),
+            numbers=tuple(rule["numbers"]),
+            radius=tuple(rule["radius"]) if rule["radius"] else None,
+            position=tuple(rule["position"]) if rule["position"] else None,
+        )
+        for name, rule in section["faces"].items()
+    }
+    return StepSizes(element_size=section["element_size"], of_solids=of_solids, around=around), rules
+
+
+def _groups(section: dict[str, Any]) -> dict[str, tuple[str, ...]]:
+    """Part -> the file's groups of cells, or solids, that it consists of."""
+    return {name: tuple(part["groups"]) or (name,) for name, part in section["parts"].items()}

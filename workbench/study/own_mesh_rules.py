@@ -54,7 +54,47 @@ def broken_own_mesh(study: Study) -> Iterator[BrokenRule]:
         shown = ", ".join(f"{factor:g}" for factor in study.mesh_study.factors)
         rule = "must be whole numbers: into so many the cells of a mesh from a file are divided"
         yield BrokenRule(key="mesh_study.factors", value=shown, rule=rule, hint="e.g. 1, 2, 3")
+    yield from _of_the_file(mesh)
     yield from _of_the_names(mesh)
+
+
+def _of_the_file(mesh: OwnMeshSection) -> Iterator[BrokenRule]:
+    """What solids need and meshes have already, and the other way round."""
+    if not mesh.of_solids:
+        if mesh.units is None:
+            yield BrokenRule(key="mesh.units", value="", rule="is missing", hint="the unit of the file's lengths: mm")
+        sizes = {f"parts.{name}.element_size": part.element_size for name, part in mesh.parts.items()}
+        numbers = {"element_size": mesh.element_size, "around": mesh.around} | sizes
+        given = {key: f"{value:g}" for key, value in numbers.items() if value is not None}
+        for key, value in (given | ({"faces": "a table"} if mesh.faces else {})).items():
+            rule = "is for solids in a STEP file; this file is meshed already, and names its faces"
+            yield BrokenRule(key=f"mesh.{key}", value=value, rule=rule, hint="remove it")
+        return
+    if mesh.units is not None:
+        rule = "is not needed: a STEP file states its own unit"
+        yield BrokenRule(key="mesh.units", value=mesh.units, rule=rule, hint="remove it")
+    if mesh.element_size is None:
+        hint = 'the largest edge of an element, e.g. "8 mm"'
+        yield BrokenRule(key="mesh.element_size", value="", rule="is missing: solids have to be meshed", hint=hint)
+    used = {*mesh.hub, *mesh.ground, *chain(*mesh.contact), mesh.symmetry}
+    for name, rule_of in mesh.faces.items():
+        key = f"mesh.faces.{name}"
+        if name in mesh.parts:
+            yield BrokenRule(key=key, value="a table", rule="is the name of a part", hint="give another name")
+        if name not in used:
+            rule = "is named nowhere: not in hub, ground, contact or symmetry"
+            yield BrokenRule(key=key, value="a table", rule=rule, hint="use the name, or remove the table")
+        if not rule_of.model_fields_set:
+            hint = "give part, radius, position or numbers"
+            yield BrokenRule(key=key, value="an empty table", rule="stands for no face", hint=hint)
+        if rule_of.part is not None and rule_of.part not in mesh.parts:
+            rule = f"is not in [mesh.parts], which has {', '.join(mesh.parts)}"
+            yield BrokenRule(key=f"{key}.part", value=rule_of.part, rule=rule, hint="correct the name")
+        for end in ("radius", "position"):
+            pair = getattr(rule_of, end)
+            if pair is not None and pair[0] > pair[1]:
+                value = f"{1e3 * pair[0]:g} to {1e3 * pair[1]:g} mm"
+                yield BrokenRule(key=f"{key}.{end}", value=value, rule="must ascend", hint="swap them")
 
 
 def _of_the_names(mesh: OwnMeshSection) -> Iterator[BrokenRule]:

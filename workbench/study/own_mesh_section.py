@@ -7,16 +7,24 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, StrictInt
+from pydantic import BeforeValidator, Field, StrictInt
 
 from workbench.study.quantities import Length
-from workbench.study.section import Section
+from workbench.study.section import Positive, Section
 from workbench.study.wheel import MaterialName, PartName
 
-__all__ = ["OwnMeshSection", "OwnPartSection"]
+__all__ = ["OwnFacesSection", "OwnMeshSection", "OwnPartSection"]
 
 Axis = Literal["x", "y", "z"]
 GroupName = Annotated[str, Field(min_length=1)]
+
+
+def _pair(value: object) -> object:
+    """One length stands for both ends of a range."""
+    return value if isinstance(value, list | tuple) else (value, value)
+
+
+LengthRange = Annotated[tuple[Length, Length], BeforeValidator(_pair)]
 
 
 class OwnPartSection(Section):
@@ -26,15 +34,36 @@ class OwnPartSection(Section):
     """Name of one of [materials]."""
     groups: tuple[GroupName, ...] = ()
     """Groups of cells of the file that it consists of; without it that of the part's own name."""
+    element_size: Annotated[Length, Positive] | None = None
+    """STEP file only: largest edge of this part's elements [m]; without it ``mesh.element_size``."""
+
+
+class OwnFacesSection(Section):
+    """Which outer faces of a STEP file a name stands for: those for which all that is given here holds."""
+
+    part: PartName | None = None
+    """Faces of this part."""
+    radius: LengthRange | None = None
+    """Faces that lie whole at this distance from the axle, or between two [m]."""
+    position: LengthRange | None = None
+    """Faces that lie whole at this place along the axle from the hub's centre, or between two [m]."""
+    numbers: tuple[Annotated[StrictInt, Field(ge=1)], ...] = ()
+    """Faces of these numbers, which ``workbench check`` lists."""
 
 
 class OwnMeshSection(Section):
     """The wheel's mesh from another program, in place of [wheel]."""
 
     file: Annotated[str, Field(min_length=1)]
-    """Mesh file (.msh, .med, .inp, .vtu, .vtk, .exo), relative to the study file."""
-    units: Literal["m", "cm", "mm", "in"]
-    """Of the file's lengths."""
+    """Mesh file (.msh, .med, .inp, .vtu, .vtk, .exo) or solids to mesh (.step), relative to the study file."""
+    units: Literal["m", "cm", "mm", "in"] | None = None
+    """Of a mesh file's lengths, which has to be given; a STEP file states its own."""
+    element_size: Annotated[Length, Positive] | None = None
+    """STEP file only, which needs it: largest edge of an element [m]."""
+    around: Annotated[StrictInt, Field(ge=0, le=360)] | None = None
+    """STEP file only: least elements around a full circle of curved faces and edges [-]; 12 without it, 0 for none."""
+    faces: Annotated[dict[GroupName, OwnFacesSection], Field(default_factory=dict)]
+    """STEP file only: name of a group of faces -> which they are."""
     parts: Annotated[dict[PartName, OwnPartSection], Field(min_length=1)]
     """Part -> its material, and the file's groups of cells."""
     hub: Annotated[tuple[GroupName, ...], Field(min_length=1)]
@@ -54,6 +83,11 @@ class OwnMeshSection(Section):
 
     factor: Annotated[StrictInt, Field(ge=1, le=6)] = 1
     """Each hexahedron is divided into so many along each of its axes [-]."""
+
+    @property
+    def of_solids(self) -> bool:
+        """Whether the file holds solids that are to be meshed."""
+        return self.file.lower().endswith((".step", ".stp"))
 
     @property
     def half_width(self) -> bool:

@@ -96,8 +96,7 @@ def without_end(inputs: Mapping[str, Any]) -> dict[str, Any]:
 def fe_task(name: str, inputs: Mapping[str, Any], mesh: str = "mesh") -> Task:
     """One orientation solved on the mesh of the task ``mesh``."""
     function = "workbench.questions.fe.task:solve_orientation"
-    long = {"resumable": True, "shared": True}
-    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), **long)
+    return Task(name=name, function=function, inputs=inputs, needs=(mesh,), resumable=True, shared=True)
 
 
 def curve_deflections(study: Study) -> list[float]:

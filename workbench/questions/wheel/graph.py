@@ -10,6 +10,7 @@ from contracts.input_file import require_ordinary_file
 from geometry.own_mesh.files import LARGEST_FILE
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.task import Task
+from workbench.questions.wheel.mesh_file import OWN_FILE
 from workbench.study.model import Study
 from workbench.study.own_mesh import materials_by_part, own_mesh, sized_mesh
 from workbench.study.wheel_design import part_materials
@@ -68,7 +69,7 @@ def mesh_task(
 def own_mesh_task(study: Study, name: str = MESH, factor: float | None = None) -> Task:
     """The study's mesh from another program, read, checked, divided by its own or another factor.
 
-    Its path and content decide the result.
+    Its content decides the result, not its path.
 
     Raises
     ------
@@ -81,8 +82,14 @@ def own_mesh_task(study: Study, name: str = MESH, factor: float | None = None) -
     require_ordinary_file(path, "mesh file", LARGEST_FILE)
     densities = {part: material.density for part, material in materials_by_part(study).items()}
     divided = section if factor is None else section.model_copy(update={"factor": round(factor)})
-    inputs = {"mesh": divided.model_dump(mode="json"), "sha256": file_sha256(path), "densities": densities}
-    return Task(name=name, function="workbench.questions.wheel.own_mesh_task:read", inputs=inputs, cost=5.0)
+    inputs = {
+        "mesh": divided.model_dump(mode="json", exclude={"file"}),
+        "ending": path.suffix.lower(),
+        "sha256": file_sha256(path),
+        "densities": densities,
+    }
+    function = "workbench.questions.wheel.own_mesh_task:read"
+    return Task(name=name, function=function, inputs=inputs, files={OWN_FILE: path}, cost=5.0)
 
 
 def own_mesh_tasks(study: Study, *, with_files: bool) -> tuple[Task, ...]:

@@ -8,9 +8,11 @@ import numpy as np
 
 from contracts.mesh import TaggedMesh
 
-__all__ = ["MESH", "read_mesh", "write_mesh"]
+__all__ = ["MESH", "OWN_FILE", "read_mesh", "write_mesh"]
 
 MESH = "mesh.npz"
+OWN_FILE = "own mesh"
+"""What a task calls the user's file among what it needs."""
 _ARRAYS = ("points", "cells", "cell_tags", "facets", "facet_tags")
 
 

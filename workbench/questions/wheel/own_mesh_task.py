@@ -1,11 +1,12 @@
-"""Task that reads a wheel's mesh from another program, and checks it.
+"""Task that reads a wheel's mesh from another program, or meshes its solids, and checks it.
 
 Verified by tests/end_to_end/test_own_mesh.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,26 +16,29 @@ import numpy as np
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry.measures import mesh_quality, mesh_volume
+from geometry.own_mesh.file_mesh import FileMesh
 from geometry.own_mesh.files import read_mesh_file
+from geometry.own_mesh.step_body import StepBody
+from geometry.own_mesh.step_files import STEP_ENDINGS, read_step
 from geometry.own_mesh.wheel_checks import outer_radius
 from geometry.own_mesh.wheel_mesh import wheel_of_file
 from workbench.execution.fingerprint import file_sha256
 from workbench.execution.result_files import write_result
-from workbench.questions.wheel.mesh_file import MESH, write_mesh
-from workbench.study.own_mesh import placement_and_roles
+from workbench.questions.wheel.mesh_file import MESH, OWN_FILE, write_mesh
+from workbench.study.own_mesh import placement_and_roles, sizes_and_rules
 
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
 
-__all__ = ["measure_own", "own_wheel", "read"]
+__all__ = ["measure_own", "own_content", "read", "wheel_in"]
 
 
 def read(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """Read one mesh and check it: ``mesh.npz``, ``result.json``."""
-    path = Path(inputs["mesh"]["file"])
+    """Read one mesh, or mesh solids, and check it: ``mesh.npz``, ``result.json``."""
+    path = needs[OWN_FILE]
     if file_sha256(path) != inputs["sha256"]:
         raise InputError("mesh file", path, "has changed since the run began", "run the command again")
-    mesh = own_wheel(inputs["mesh"])
+    mesh = wheel_in(own_content(path, inputs["mesh"]), inputs["mesh"], path)
     progress(0.7)
     write_mesh(mesh, out / MESH)
     write_result(out, measure_own(mesh, inputs["mesh"]["ground"], inputs["densities"]))
@@ -42,12 +46,28 @@ def read(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     return 0
 
 
-def own_wheel(section: Mapping[str, Any]) -> TaggedMesh:
-    """The wheel of a section [mesh] as JSON; raises InputError with the key for a file or names that make no wheel."""
-    path, (placement, roles) = Path(section["file"]), placement_and_roles(dict(section))
-    file = read_mesh_file(path)
+def own_content(path: Path, section: Mapping[str, Any]) -> FileMesh | StepBody:
+    """What the file of a section [mesh], given as JSON, holds; raises InputError for a file that cannot be read."""
+    if path.suffix.lower() not in STEP_ENDINGS:
+        return read_mesh_file(path)
+    with _at_its_key(path):
+        return read_step(path, sizes_and_rules(dict(section))[0])
+
+
+def wheel_in(content: FileMesh | StepBody, section: Mapping[str, Any], path: Path) -> TaggedMesh:
+    """The wheel of a section [mesh]; raises InputError with the key for names that make no wheel."""
+    placement, roles = placement_and_roles(dict(section))
+    with _at_its_key(path):
+        if isinstance(content, StepBody):
+            content = content.named(sizes_and_rules(dict(section))[1], placement)
+        return wheel_of_file(content, roles, placement, section["factor"])
+
+
+@contextmanager
+def _at_its_key(path: Path) -> Iterator[None]:
+    """Add the study's key to what is wrong."""
     try:
-        return wheel_of_file(file, roles, placement, section["factor"])
+        yield
     except InputError as error:
         what, value = (error.what, error.value or path.name) if error.what == "mesh file" else (error.what, error.value)
         place = f"mesh.{error.key}: " if error.key not in ("", "file") else ""
