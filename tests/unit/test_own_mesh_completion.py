@@ -10,6 +10,8 @@ import pytest
 from geometry.assembly import boundary_facets
 from geometry.hexahedra import face_nodes, gauss_points, jacobians, reference_nodes
 from geometry.own_mesh.completion import completed, refined
+from geometry.own_mesh.file_counting import count_cells
+from tests.ring_wheel import ring_wheel
 
 CUBE = reference_nodes(27)
 
@@ -160,3 +162,27 @@ def _on_face(made: object, cell: int, face: int) -> np.ndarray:
         else:
             shapes *= np.where(end == 0.0, 1.0 - x * x, 0.5 * x * (x + end))
     return shapes @ nodes + 0.0
+
+
+@pytest.mark.parametrize("factor", [1, 2])
+@pytest.mark.parametrize("nodes", [8, 20, 27])
+def test_hexahedra_are_counted_before_they_are_made(nodes: int, factor: int) -> None:
+    """Of second order by the nodes made; of first order they are the same, which the displacement needs."""
+    cells = ring_wheel(nodes).blocks[0].nodes
+    full = ring_wheel(27)
+    made = refined(completed(full.points, full.blocks[0].nodes), factor)
+    found = count_cells(cells, factor)
+    assert (found.cells, found.nodes) == (len(made.cells), len(np.unique(made.cells)))
+
+
+@pytest.mark.parametrize("factor", [1, 2])
+def test_tetrahedra_are_counted_before_they_are_made(factor: int) -> None:
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
+    cells = np.array([[0, 1, 2, 3], [1, 4, 2, 3]])
+    keys = sorted({tuple(sorted(pair)) for cell in cells.tolist() for pair in itertools.combinations(cell, 2)})
+    edges = ((0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (1, 3))
+    middles = [[5 + keys.index(tuple(sorted((cell[a], cell[b])))) for a, b in edges] for cell in cells.tolist()]
+    points = np.vstack([corners, [corners[list(key)].mean(axis=0) for key in keys]])
+    made = refined(completed(points, np.hstack([cells, middles])), factor)
+    found = count_cells(cells, factor)
+    assert (found.cells, found.nodes) == (len(made.cells), len(np.unique(made.cells)))

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from contracts.errors import InputError
+from contracts.errors import InputError, MemoryLimitError
+from contracts.memory import MemoryBound
+from workbench.execution.memory import memory_warning
 from workbench.execution.task import Task, chain_costs, task_keys
 from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
 from workbench.questions.fe.foresight import solve_bytes, solve_seconds
@@ -83,3 +85,16 @@ def test_who_has_most_before_it_starts_first() -> None:
     solve = Task(name="solve", function="m:f", inputs={}, needs=("mesh",), cost=50.0)
     other = Task(name="other", function="m:f", inputs={}, cost=30.0)
     assert chain_costs((mesh, other, solve)) == {"mesh": 52.0, "other": 30.0, "solve": 50.0}
+
+
+def test_a_mesh_from_another_program_is_counted_before_it_is_solved() -> None:
+    """The spiral wheel's 13 950 unknowns took 352 MB; divided in six along each axis they are many, and told."""
+    study = read_study(built_in_study().parent / "spiral.toml")
+    (own,) = _solves(stiffness_tasks(study, "fe", (0.0,)))
+    assert own.unknowns == 13950
+    assert own.memory == pytest.approx(352e6, rel=0.05)
+    fine = study.model_copy(update={"mesh": study.mesh.model_copy(update={"factor": 6})})
+    mesh, solve = stiffness_tasks(fine, "fe", (0.0,))
+    assert solve.unknowns > 100 * own.unknowns
+    with pytest.raises(MemoryLimitError, match="task fe_phi000 needs about"):
+        memory_warning((mesh, solve), 1, total=MemoryBound(bytes=1e9, source="in a test"))

@@ -16,6 +16,7 @@ from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
 from workbench.questions.registry import questions_of
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.travels import travel_tasks
+from workbench.questions.wheel.graph import own_mesh_task
 from workbench.questions.wheel.own_mesh_task import own_content, wheel_in
 from workbench.study.full import full_study
 from workbench.study.magnitudes import of_the_file
@@ -76,7 +77,7 @@ def test_the_content_of_the_file_decides_the_key(tmp_path: Path) -> None:
     for place, text in (("a", "1, 0, 0, 0"), ("a", "1, 0, 0, 1"), ("b", "1, 0, 0, 1")):
         (tmp_path / place).mkdir(exist_ok=True)
         (tmp_path / place / "spiral.inp").write_text(f"*NODE\n{text}\n")
-        keys.append(mesh_tasks(study_of(tmp_path / place / "spiral.toml", _table()))[0].key({}))
+        keys.append(own_mesh_task(study_of(tmp_path / place / "spiral.toml", _table())).key({}))
     assert keys[0] != keys[1]
     assert keys[1] == keys[2]
 

@@ -15,11 +15,13 @@ import tomlkit
 
 from contracts.errors import InputError
 from contracts.input_file import input_text
+from contracts.memory import shown_size
 from contracts.mesh import TaggedMesh
 from geometry.own_mesh.step_body import StepBody, told
 from geometry.own_mesh.wheel_checks import outer_radius
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.disk import STUDY, naming_the_disk
+from workbench.questions.fe.foresight import own_bytes
 from workbench.questions.input_uncertainty.samples import require_inputs
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.study_graph import report_tasks
@@ -89,14 +91,21 @@ def _tell_own(path: Path, section: OwnMeshSection) -> None:
     if isinstance(content, StepBody):
         for line in told(content, placement_and_roles(table)[0]):
             console.print(f"{file.name}: {line}", soft_wrap=True)
-    _tell_size(path, wheel_in(content, table, file), section)
+    mesh = wheel_in(content, table, file)
+    unknowns, memory = own_bytes(
+        mesh, tetrahedra=isinstance(content, StepBody) or "tetrahedra" in content.blocks[0].kind
+    )
+    console.print(
+        f"{path}: {len(mesh.cells)} cells, {unknowns} unknowns, about {shown_size(memory)} to solve", soft_wrap=True
+    )
+    _tell_size(path, mesh, section)
 
 
 def _tell_size(path: Path, mesh: TaggedMesh, section: OwnMeshSection) -> None:
     """Size of a wheel whose mesh is its own, which shows a wrong unit."""
     radius, width = outer_radius(mesh, section.ground), float(np.ptp(mesh.points[:, 1]))
     width *= 2.0 if section.half_width else 1.0
-    console.print(f"{path}: {len(mesh.cells)} cells, radius {1e3 * radius:.4g} mm, width {1e3 * width:.4g} mm")
+    console.print(f"{path}: radius {1e3 * radius:.4g} mm, width {1e3 * width:.4g} mm")
     low, high = _USUAL_RADIUS
     if not low <= radius <= high:
         usual = f"a rover's wheel has {1e3 * low:g} to {1e3 * high:g} mm"

@@ -23,7 +23,7 @@ MODELS = ("fe", "section", "ancf_wheel", "ancf", "brush")
 def mesh_tasks(study: Study, with_files: bool = False) -> tuple[Task, ...]:
     """Both meshes of the wheel, and if asked for their files."""
     if own_mesh(study) is not None:
-        return own_mesh_tasks(study, with_files=with_files)
+        return foreseen(own_mesh_tasks(study, with_files=with_files))
     meshes = wheel_meshes(study)
     if not with_files:
         return foreseen(meshes)

@@ -12,21 +12,32 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
+from contracts.mesh import TaggedMesh
 from geometry.build import mesh_size
 from geometry.counting import MeshCount, count_planar, count_solid, require_buildable
+from geometry.own_mesh.cell_checks import solid_cells
+from geometry.own_mesh.file_counting import count_cells
+from geometry.own_mesh.files import read_mesh_file
+from geometry.own_mesh.step_files import STEP_ENDINGS
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task
 from workbench.questions.travel_start import APPROACH
+from workbench.questions.wheel.mesh_file import OWN_FILE
 from workbench.study.wheel_design import design_from
 
-__all__ = ["foreseen", "solve_bytes", "solve_seconds"]
+__all__ = ["foreseen", "own_bytes", "solve_bytes", "solve_seconds"]
 
 _MESH, _SOLVE = "workbench.questions.wheel.mesh_task:build", "workbench.questions.fe.task:solve_orientation"
 _TRAVEL = "workbench.questions.fe.travel_task:solve_travel"
+_OWN = "workbench.questions.wheel.own_mesh_task:read"
 _SECTION = "workbench.questions.section.task:solve_orientation"
 
+_TETRAHEDRA = 1.3
+"""Memory of a solve on tetrahedra over that on strips of as many unknowns [-]: 1.26 at 100 000 and 156 000."""
 _UNSYMMETRIC = 2.0
 """Factors with friction over those without [-]: both triangles are kept."""
 ITERATIONS = 3.0
@@ -59,9 +70,10 @@ def foreseen(tasks: Sequence[Task]) -> tuple[Task, ...]:
     Raises
     ------
     InputError
-        If a mesh would have more cells than can be built.
+        If a mesh would have more cells than can be built, or its file cannot be read.
     """
     counts: dict[str, MeshCount] = {}
+    filled: dict[str, float] = {}
     kept: dict[str, MeshCount] = {}
     found = []
     for task in tasks:
@@ -70,12 +82,14 @@ def foreseen(tasks: Sequence[Task]) -> tuple[Task, ...]:
             if made_of not in kept:
                 kept[made_of] = _count(task)
             counts[task.name] = kept[made_of]
-        found.append(_with_needs(task, counts))
+        elif task.function == _OWN and (own := _count_own(task)) is not None:
+            counts[task.name], filled[task.name] = own
+        found.append(_with_needs(task, counts, filled))
     return tuple(found)
 
 
-def _with_needs(task: Task, counts: Mapping[str, MeshCount]) -> Task:
-    if task.function == _MESH:
+def _with_needs(task: Task, counts: Mapping[str, MeshCount], filled: Mapping[str, float]) -> Task:
+    if task.function in (_MESH, _OWN) and task.name in counts:
         count = counts[task.name]
         return replace(task, cost=mesh_seconds(count), memory=mesh_bytes(count))
     name, dim = (task.name, 2) if task.function == _SECTION else (next(iter(task.needs), ""), 3)
@@ -88,8 +102,31 @@ def _with_needs(task: Task, counts: Mapping[str, MeshCount]) -> Task:
     if task.function == _TRAVEL:
         points = APPROACH + len(task.inputs["travel"]["steps"])
     cost = solve_seconds(unknowns, points)
-    memory = solve_bytes(unknowns) * (_UNSYMMETRIC if task.function == _TRAVEL else 1.0)
+    memory = solve_bytes(unknowns) * (_UNSYMMETRIC if task.function == _TRAVEL else 1.0) * filled.get(name, 1.0)
     return replace(task, cost=cost, memory=memory, unknowns=unknowns)
+
+
+def own_bytes(mesh: TaggedMesh, *, tetrahedra: bool) -> tuple[int, float]:
+    """Unknowns of a wheel's own mesh, and the largest memory of the process that solves a curve on it [byte]."""
+    unknowns = 3 * count_cells(mesh.cells).nodes
+    return unknowns, solve_bytes(unknowns) * (_TETRAHEDRA if tetrahedra else 1.0)
+
+
+def _count_own(task: Task) -> tuple[MeshCount, float] | None:
+    """The mesh of a file from another program, and how much more memory its kind of cells takes than ours; None for
+    solids that are yet to be meshed.
+    """
+    path = task.files[OWN_FILE]
+    if path.suffix.lower() in STEP_ENDINGS:
+        return None
+    return _counted(path, task.inputs["sha256"], task.inputs["mesh"]["factor"])
+
+
+@lru_cache(maxsize=16)
+def _counted(path: Path, sha256: str, factor: int) -> tuple[MeshCount, float]:
+    """Of one content of a file, whose hash is asked for so that another is counted anew."""
+    cells, _ = solid_cells(read_mesh_file(path))
+    return count_cells(cells, factor), _TETRAHEDRA if cells.shape[1] in (4, 10) else 1.0
 
 
 def _count(task: Task) -> MeshCount:
