@@ -9,7 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+import numpy as np
+
 from contracts.materials import Material
+from geometry.lattice import JOINTS, LATTICE, Lattice, lattice_plan, wall_half_angle
 from geometry.parts import Grousers, SpringSet
 from geometry.resolution import part_bands
 from geometry.sidewall import SidewallSprings, weld_half_angle
@@ -24,15 +27,21 @@ def closed_form_volume(design: WheelDesign, half_width: bool = True) -> Mapping[
 
     tire and hubs: pi (r_o^2 - r_i^2) w; weld of angle a: a/2 (r_o^2 - r_i^2) w; strip: L t w; cone with joints of axial
     width b: pi (r_o^2 - r_i^2) b; sidewall strip: L t b;
-    grouser: w int_{-t/2}^{t/2} sqrt((R + h)^2 - x^2) - sqrt(R^2 - x^2) dx.
+    grouser: w int_{-t/2}^{t/2} sqrt((R + h)^2 - x^2) - sqrt(R^2 - x^2) dx; a lattice's wall: t times the mean length of
+    its sides between joints, which begin t/2 cot(gamma/2) from a joint's middle, gamma the angle to the next wall; a
+    joint: the triangle of the points (t/2) / sin(gamma/2) from the middle half way between two walls.
     """
     widths = {name: _width(bands, half_width) for name, bands in part_bands(design).items()}
     rim = design.tire.inner_radius
     sections = {"tire": math.pi * (design.tire.outer_radius**2 - rim**2)}
     if design.grousers is not None:
-        sections["grousers"] = _grouser_section(design.grousers, design.tire.outer_radius)
+        sections["grousers"] = _grouser_section(design.grousers, design.ground_radius)
+    if design.tread is not None:
+        sections["tread"] = math.pi * (design.ground_radius**2 - design.tire.outer_radius**2)
     for springs in design.spring_sets:
         sections[springs.name] = _spring_section(springs, (design.outer_hub.outer_radius, rim))
+    if design.lattice is not None:
+        sections |= _lattice_sections(design.lattice, (design.outer_hub.outer_radius, rim))
     for name, ring in (("outer_hub", design.outer_hub), ("inner_hub", design.inner_hub)):
         if ring is not None and name in widths:
             sections[name] = math.pi * (ring.outer_radius**2 - ring.inner_radius**2)
@@ -60,8 +69,18 @@ def closed_form_joint_areas(design: WheelDesign, half_width: bool = True) -> Map
 
     tire, hub, inner = design.tire, design.outer_hub, design.inner_hub
     if design.grousers is not None:
-        foot = 2.0 * tire.outer_radius * math.asin(0.5 * design.grousers.thickness / tire.outer_radius)
-        add("tire", "grousers", design.grousers.count * foot * widths["tire"])
+        radius = design.ground_radius
+        foot = 2.0 * radius * math.asin(0.5 * design.grousers.thickness / radius)
+        base = "tire" if design.tread is None else "tread"
+        add(base, "grousers", design.grousers.count * foot * widths[base])
+    if design.tread is not None:
+        add("tire", "tread", 2.0 * math.pi * tire.outer_radius * widths["tread"])
+    if design.lattice is not None:
+        lattice, width = design.lattice, widths[LATTICE]
+        feet = lattice.cells * lattice.weld_length * width
+        add(JOINTS, "tire", feet)
+        add(JOINTS, "outer_hub", feet)
+        add(LATTICE, JOINTS, width * _wall_ends(lattice, (hub.outer_radius, tire.inner_radius)))
     for springs in design.spring_sets:
         angle = springs.count * weld_angle(springs, tire.inner_radius) * widths[springs.name]
         add(springs.name, "tire", angle * tire.inner_radius)
@@ -123,8 +142,33 @@ def _sidewall_volumes(springs: SidewallSprings, rim: float) -> dict[str, float]:
 
 def _grouser_section(grousers: Grousers, radius: float) -> float:
     half = 0.5 * grousers.thickness
+    return grousers.count * (_under_arc(radius + grousers.height, half) - _under_arc(radius, half))
 
-    def under_arc(r: float) -> float:
-        return half * math.sqrt(r * r - half * half) + r * r * math.asin(half / r)
 
-    return grousers.count * (under_arc(radius + grousers.height) - under_arc(radius))
+def _under_arc(radius: float, half: float) -> float:
+    """Area [m^2] between the axle and an arc of this radius, within ``half`` [m] to either side of a ray."""
+    return half * math.sqrt(radius * radius - half * half) + radius * radius * math.asin(half / radius)
+
+
+def _lattice_sections(lattice: Lattice, gap: tuple[float, float]) -> dict[str, float]:
+    """Section areas [m^2] of all walls, and of joints and feet."""
+    plan, t, n = lattice_plan(lattice, gap), lattice.thickness, lattice.cells
+    hub, rim = gap
+    sides = sum(end - start for start, end in plan.rows) + 2.0 * sum(plan.oblique_lengths(lattice.pitch))
+    triangles = 0.0
+    for joint in (joint for joints in plan.joints for joint in joints):
+        sides -= float(joint.cuts(t).mean(axis=1).sum())
+        reach, turned = 0.5 * t / np.sin(0.5 * joint.gaps), 0.5 * (joint.gaps + np.roll(joint.gaps, -1))
+        triangles += 0.5 * float(np.sum(reach * np.roll(reach, -1) * np.sin(turned)))
+    on_feet = t * hub - _under_arc(hub + t, 0.5 * t) + _under_arc(rim - t, 0.5 * t) - t * rim
+    feet = 0.5 * lattice.weld_length * (((hub + t) ** 2 - hub**2) / hub + (rim**2 - (rim - t) ** 2) / rim)
+    return {LATTICE: n * (t * sides + on_feet), JOINTS: n * (triangles + feet)}
+
+
+def _wall_ends(lattice: Lattice, gap: tuple[float, float]) -> float:
+    """Length [m] of all lines in the section on which walls end: at joints askew, on feet along their arcs."""
+    plan, t = lattice_plan(lattice, gap), lattice.thickness
+    askew = [np.hypot(t, np.diff(joint.cuts(t), axis=1)) for joints in plan.joints for joint in joints]
+    tops = (gap[0] + t, gap[1] - t)
+    arcs = sum(2.0 * radius * wall_half_angle(lattice, radius) for radius in tops)
+    return lattice.cells * (float(np.sum(askew)) + arcs)

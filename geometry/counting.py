@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from contracts.errors import InputError
+from geometry.blocks import Block
+from geometry.lattice import JOINTS, LATTICE
 from geometry.resolution import (
     MeshSize,
     active_parts,
@@ -52,7 +54,7 @@ def count_solid(
         section = build_section(design, size, rings, active_parts(design, names, 0.5 * (low + high)))
         faces = sum(block.n_length * block.n_thickness for block in section.blocks)
         cells += faces * axial
-        nodes += faces * (order * axial + 1.0 / len(bands)) * _nodes_per_face(size, order)
+        nodes += (order * axial + 1.0 / len(bands)) * sum(_nodes(block, size, order) for block in section.blocks)
     for more in (_sidewall(design, size, bands, half_width), _cone(design, size, names, half_width)):
         cells += more
         nodes += more * order * _nodes_per_face(size, order)
@@ -65,7 +67,7 @@ def count_planar(design: WheelDesign, size: MeshSize, order: int) -> MeshCount:
     rings = rim_ring(design, size), hub_ring(design, size, "flexible")
     blocks = build_section(design, size, rings, names).blocks
     cells = sum(block.n_length * block.n_thickness for block in blocks)
-    return MeshCount(cells=cells, nodes=math.ceil(cells * _nodes_per_face(size, order)))
+    return MeshCount(cells=cells, nodes=math.ceil(sum(_nodes(block, size, order) for block in blocks)))
 
 
 def require_buildable(count: MeshCount, sizes: Mapping[str, float]) -> None:
@@ -75,6 +77,14 @@ def require_buildable(count: MeshCount, sizes: Mapping[str, float]) -> None:
         amount = f"{count.cells:.3g}" if count.cells > 1e7 else f"{count.cells}"
         rule = f"would make {amount} cells, at most {LARGEST_MESH} can be built and solved"
         raise InputError("mesh", given, rule, "choose larger elements or a smaller refinement factor")
+
+
+def _nodes(block: Block, size: MeshSize, order: int) -> float:
+    """Nodes of a block's faces, with its share of those on its sides."""
+    across = 2 * size.half_wall_elements if block.part == LATTICE else size.thickness_elements
+    if block.part == JOINTS or block.part == "tread":
+        across = max(across, 4)
+    return block.n_length * block.n_thickness * order * (order + 1.0 / across)
 
 
 def _nodes_per_face(size: MeshSize, order: int) -> float:

@@ -1,4 +1,4 @@
-"""The parts of a wheel as numbers: tire, grousers, spring sets, hub rings and cone.
+"""The parts of a wheel as numbers: tire, tread, grousers, spring sets, hub rings and cone.
 
 Lengths in metres, angles in radians, frame of ``contracts.frames``: y along the axle, zero at the wheel's mid-plane;
 phi from the lowest point (-z) towards the front (+x). Verified by tests/unit/test_geometry_validation.py.
@@ -15,7 +15,7 @@ from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V, Material
 from geometry.rules import require_bands, require_name
 
-__all__ = ["Bands", "Cone", "Grousers", "HubRing", "SpringSet", "SpringShape", "Tire"]
+__all__ = ["Bands", "Cone", "Grousers", "HubRing", "SpringSet", "SpringShape", "Tire", "Tread"]
 
 Bands = tuple[tuple[Annotated[float, In("m")], Annotated[float, In("m")]], ...]
 """Axial bands ``((y0, y1), ...)`` [m], y0 < y1."""
@@ -55,13 +55,34 @@ class Tire:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Tread:
+    """A layer bonded all around the tire's outer surface, e.g. of rubber: the wheel stands on it.
+
+    Attributes
+    ----------
+    thickness : radial thickness, which adds to the wheel's radius [m]
+    width : axial width, from -width/2 to width/2; without it the tire's [m]
+    material : elastic material
+    """
+
+    thickness: PositiveLength
+    width: PositiveLength | None = None
+    material: Material = TI_6AL_4V
+
+    def __post_init__(self) -> None:
+        require_declared(self, "tread")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Grousers:
-    """Radial fins over the full width of the tire, flanks parallel, tip a cylinder about the axle.
+    """Radial fins over the width of what they stand on, flanks parallel, tip a cylinder about the axle.
+
+    They stand on the tread where there is one, else on the tire.
 
     Attributes
     ----------
     count : number of fins, equally spaced [-]
-    height : radial height of the tip above the tire's outer radius [m]
+    height : radial height of the tip above the surface they stand on [m]
     thickness : distance between the two flanks [m]
     phase : circumferential position of the first fin [rad]
     material : elastic material

@@ -7,8 +7,7 @@ Verified by tests/unit/test_geometry_resolution.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import Literal
 
@@ -16,6 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from geometry.division import Interval, MeshSize, Ring, divide
+from geometry.lattice import JOINTS, LATTICE
+from geometry.lattice_ring import across_walls, foot_intervals
 from geometry.parts import SpringSet
 from geometry.sidewall import SidewallSprings, weld_half_angle
 from geometry.springs import station_angles, weld_angle
@@ -35,76 +37,7 @@ __all__ = [
 ]
 
 Parts = Literal["all", "flexible"]
-Interval = tuple[float, float, float]
-
-_SAME_ANGLE = 1e-9
-_SLIVER = 1e-5
 _SAME_LEVEL = 1e-9
-_LARGEST_BLOCK = math.radians(60.0)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MeshSize:
-    """Element sizes asked for.
-
-    Attributes
-    ----------
-    element_size : largest element length along strips and around rings [m]
-    axial_size : largest element length along the axle [m]
-    thickness_elements : elements through each thickness [-]
-    refinement : part name -> element size [m] where it differs
-    edge_size : length along the axle of one element on either side of every axial position where the section changes
-        but the mid-plane [m]: a bent strip curls up at its edges, over a length sqrt(radius thickness)
-    factor : every count of elements along strips and along the axle that follows from these sizes is multiplied by this
-        one and rounded up; those through a thickness are not. A family of meshes for a grid convergence study [-]
-    """
-
-    element_size: float
-    axial_size: float
-    thickness_elements: int
-    refinement: Mapping[str, float]
-    edge_size: float | None = None
-    factor: float = 1.0
-
-    def of(self, part: str) -> float:
-        """Element size [m] of a part."""
-        return self.refinement.get(part, self.element_size)
-
-    def refined(self, count: int) -> int:
-        """A count of elements times the factor, rounded up."""
-        return math.ceil(self.factor * count - 1e-6)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Ring:
-    """The circumferential division of a ring.
-
-    Attributes
-    ----------
-    angles : (n,) float [rad] in [0, 2 pi), increasing: where blocks meet
-    counts : (n,) int, elements between angle i and angle i + 1 (the last wraps around)
-    """
-
-    angles: NDArray[np.float64]
-    counts: NDArray[np.int64]
-
-    def index(self, angle: float) -> int:
-        """Number of the break at ``angle`` [rad]."""
-        offset = np.abs((self.angles - angle + math.pi) % (2.0 * math.pi) - math.pi)
-        return int(np.argmin(offset))
-
-    def span(self, start: float, end: float) -> list[int]:
-        """Numbers of the intervals from the break at ``start`` to the break at ``end`` [rad], in order."""
-        first, last = self.index(start), self.index(end)
-        return [(first + k) % len(self.angles) for k in range((last - first) % len(self.angles))]
-
-    def angle(self, i: int) -> float:
-        """Angle [rad] of break ``i``, taken around the ring."""
-        return float(self.angles[i % len(self.angles)])
-
-    def step(self, i: int) -> float:
-        """Angle [rad] covered by interval ``i``."""
-        return (self.angle(i + 1) - self.angle(i)) % (2.0 * math.pi)
 
 
 def part_names(design: WheelDesign, parts: Parts) -> tuple[str, ...]:
@@ -114,11 +47,11 @@ def part_names(design: WheelDesign, parts: Parts) -> tuple[str, ...]:
 
 
 def rim_ring(design: WheelDesign, size: MeshSize) -> Ring:
-    """Division of the rim: cut at grouser flanks and weld ends."""
+    """Division of the rim: cut at grouser flanks, weld ends and walls of a lattice."""
     radius = design.tire.inner_radius
     intervals: list[Interval] = []
     if design.grousers is not None:
-        half = math.asin(0.5 * design.grousers.thickness / design.tire.outer_radius)
+        half = math.asin(0.5 * design.grousers.thickness / design.ground_radius)
         for k in range(design.grousers.count):
             middle = design.grousers.phase + 2.0 * math.pi * k / design.grousers.count
             intervals.append((middle - half, middle + half, math.inf))
@@ -129,13 +62,16 @@ def rim_ring(design: WheelDesign, size: MeshSize) -> Ring:
         limit = size.of(design.sidewall_springs.name) / radius
         intervals += [(a - half, a + half, limit) for a in sidewall_angles(design.sidewall_springs)]
     grouser = [(a, b) for a, b, limit in intervals if limit == math.inf]
-    ring = _divide(intervals, size.of("tire") / design.tire.outer_radius)
+    if design.lattice is not None:
+        intervals += foot_intervals(design.lattice, design.lattice.layers, radius, size)
+    ring = divide(intervals, size.of("tire") / design.tire.outer_radius)
     counts = np.array([size.refined(int(n)) for n in ring.counts])
     for a, b in grouser:
         for i in ring.span(a, b):
             share = ring.step(i) / (b - a)
             counts[i] = max(ring.counts[i], math.ceil(size.thickness_elements * share - 1e-6))
-    return Ring(angles=ring.angles, counts=counts)
+    ring = Ring(angles=ring.angles, counts=counts)
+    return ring if design.lattice is None else across_walls(ring, design.lattice, design.lattice.layers, radius, size)
 
 
 def sidewall_angles(springs: SidewallSprings) -> NDArray[np.float64]:
@@ -151,6 +87,8 @@ def hub_ring(design: WheelDesign, size: MeshSize, parts: Parts) -> Ring:
         intervals += _weld_intervals(springs, design.tire.inner_radius, size.of(springs.name) / hub)
     impact = design.impact_springs
     names = part_names(design, parts)
+    if design.lattice is not None:
+        intervals += foot_intervals(design.lattice, 0, hub, size)
     if impact is not None and impact.name in names:
         bore = design.outer_hub.inner_radius
         intervals += _weld_intervals(impact, bore, size.of(impact.name) / bore)
@@ -159,48 +97,14 @@ def hub_ring(design: WheelDesign, size: MeshSize, parts: Parts) -> Ring:
         largest = min(largest, size.of("cone") / hub)
     if design.inner_hub is not None and "inner_hub" in names:
         largest = min(largest, size.of("inner_hub") / design.inner_hub.outer_radius)
-    ring = _divide(intervals, largest)
-    return Ring(angles=ring.angles, counts=np.array([size.refined(int(n)) for n in ring.counts]))
+    ring = divide(intervals, largest)
+    ring = Ring(angles=ring.angles, counts=np.array([size.refined(int(n)) for n in ring.counts]))
+    return ring if design.lattice is None else across_walls(ring, design.lattice, 0, hub, size)
 
 
 def _weld_intervals(springs: SpringSet, rim: float, largest: float) -> list[Interval]:
     half = 0.5 * weld_angle(springs, rim)
     return [(a - half, a + half, largest) for a in station_angles(springs)]
-
-
-def _divide(intervals: Iterable[Interval], largest: float) -> Ring:
-    """Ring cut at the ends of ``intervals`` (start, end, largest element angle inside [rad])."""
-    marked = list(intervals)
-    angles = _unique_angles([end for a, b, _ in marked for end in (a, b)])
-    gaps = (np.roll(angles, -1) - angles) % (2.0 * math.pi)
-    gaps[gaps == 0.0] = 2.0 * math.pi
-    pieces = [
-        a + gap * np.arange(n) / n
-        for a, gap, n in zip(angles, gaps, np.ceil(gaps / _LARGEST_BLOCK - 1e-9).astype(int), strict=True)
-    ]
-    ring = Ring(angles=_unique_angles(np.concatenate(pieces)), counts=np.zeros(0, dtype=np.int64))
-    limit = np.full(len(ring.angles), largest)
-    for a, b, inside in marked:
-        for i in ring.span(a, b):
-            limit[i] = min(limit[i], inside)
-    counts = [math.ceil(ring.step(i) / limit[i] - 1e-6) for i in range(len(limit))]
-    return Ring(angles=ring.angles, counts=np.maximum(np.array(counts, dtype=np.int64), 1))
-
-
-def _unique_angles(angles: Iterable[float]) -> NDArray[np.float64]:
-    """Angles [rad] in [0, 2 pi), sorted, equal ones once; raises InputError for cuts that all but coincide."""
-    turned = np.sort(np.mod(np.fromiter(angles, dtype=np.float64), 2.0 * math.pi))
-    if len(turned) == 0:
-        return np.zeros(1)
-    turned[np.abs(turned - 2.0 * math.pi) < _SAME_ANGLE] = 0.0
-    turned = np.sort(turned)
-    kept = turned[np.concatenate([[True], np.diff(turned) > _SAME_ANGLE])]
-    gaps = (np.roll(kept, -1) - kept) % (2.0 * math.pi)
-    if len(kept) > 1 and gaps.min() < _SLIVER:
-        where = math.degrees(kept[int(np.argmin(gaps))])
-        rule = f"two weld ends or grouser flanks near phi = {where:.4g} deg make a sliver"
-        raise InputError("ring cut", f"{gaps.min():.3g} rad apart", rule, "make them equal or change a weld length")
-    return np.asarray(kept, dtype=np.float64)
 
 
 def axial_levels(design: WheelDesign, parts: Parts, half_width: bool) -> NDArray[np.float64]:
@@ -273,11 +177,17 @@ def part_bands(design: WheelDesign) -> dict[str, tuple[tuple[float, float], ...]
     """Axial bands [m] of every part made by extrusion: all but the cone, sidewall springs and a hub of clamps alone."""
     half = 0.5 * design.tire.width
     bands: dict[str, tuple[tuple[float, float], ...]] = {"tire": ((-half, half),)}
+    ground = bands["tire"]
+    if design.tread is not None:
+        half = 0.5 * (design.tread.width or design.tire.width)
+        bands["tread"] = ground = ((-half, half),)
     if design.grousers is not None:
-        bands["grousers"] = bands["tire"]
+        bands["grousers"] = ground
     sets = (*design.spring_sets, *([design.impact_springs] if design.impact_springs else []))
     bands |= {springs.name: springs.bands for springs in sets}
-    carries_springs = bool(design.spring_sets) or design.inner_hub is not None
+    if design.lattice is not None:
+        bands |= {LATTICE: design.lattice.bands, JOINTS: design.lattice.bands}
+    carries_springs = bool(design.spring_sets) or design.lattice is not None or design.inner_hub is not None
     for name, ring in (("outer_hub", design.outer_hub if carries_springs else None), ("inner_hub", design.inner_hub)):
         if ring is not None:
             bands[name] = ((-0.5 * ring.width, 0.5 * ring.width),)

@@ -1,122 +1,29 @@
 """The wheel's section in the x-z plane as four-sided blocks with shared corners.
 
-Corners carry names, not coordinates, so that two blocks share a corner because they were built on it; a spring and the
-rim beside its weld's end share that one corner (the crack tip) and nothing beyond.
+A spring and the rim beside its weld's end share one corner (the crack tip) and nothing beyond.
 Verified by tests/unit/test_geometry_section.py.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.parts import Grousers, HubRing, SpringSet
+from geometry.blocks import Block, Curve, Draft, Key, Section
+from geometry.lattice import LATTICE
+from geometry.lattice_section import add_lattice
+from geometry.parts import Grousers, HubRing, SpringSet, Tread
 from geometry.resolution import MeshSize, Ring
 from geometry.springs import Leg, leg_sides, polar, spring_leg, station_angles, weld_angle
 from geometry.wheel import WheelDesign
 
-__all__ = ["Block", "Curve", "Key", "Section", "build_section"]
+__all__ = ["build_section"]
 
 Array = NDArray[np.float64]
-Key = tuple[str | int, ...]
-"""Name of a corner, e.g. ``("rim_in", 3)``."""
-
-_Surfaces = tuple[tuple[str, str], tuple[float, float]]
-"""Names and radii [m] of the two surfaces that bound a ring."""
 
 _LEAST_PER_HALF_RING = 8
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Curve:
-    """A long side of a block: a circular arc about ``centre``, or a spline through ``through``.
-
-    Attributes
-    ----------
-    start, end : names of its corners
-    centre : (2,) float [m], or None for a spline
-    through : (n, 2) float [m], interior points of a spline
-    tangents : (2, 2) float [-], unit tangents of a spline at its start and end
-    """
-
-    start: Key
-    end: Key
-    centre: Array | None = None
-    through: Array | None = None
-    tangents: Array | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Block:
-    """A four-sided face: ``inner`` and ``outer`` run side by side, straight lines join their ends.
-
-    Attributes
-    ----------
-    part : part name
-    inner, outer : the long sides
-    n_length, n_thickness : elements along and across
-    groups : side (``"inner"``, ``"outer"``, ``"ends"``) -> face group, where it is boundary
-    """
-
-    part: str
-    inner: Curve
-    outer: Curve
-    n_length: int
-    n_thickness: int
-    groups: Mapping[str, str] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Section:
-    """Corners (name -> (2,) [m] in x, z) and blocks."""
-
-    corners: Mapping[Key, Array]
-    blocks: tuple[Block, ...]
-
-
-@dataclass(slots=True, kw_only=True)
-class _Draft:
-    """A section while it is built, with the division of the rings."""
-
-    size: MeshSize
-    corners: dict[Key, Array] = field(default_factory=dict)
-    blocks: list[Block] = field(default_factory=list)
-
-    def corner(self, key: Key, point: Array) -> Key:
-        self.corners.setdefault(key, point)
-        return key
-
-    def ring_arc(self, name: str, radius: float, ring: Ring, i: int) -> Curve:
-        """Arc of ``radius`` [m] about the axle between breaks ``i`` and ``i + 1`` of a ring."""
-        j = (i + 1) % len(ring.angles)
-        ends = [self.corner((name, k), polar(radius, ring.angle(k))) for k in (i, j)]
-        return Curve(start=ends[0], end=ends[1], centre=np.zeros(2))
-
-    def level_names(self, first: str, last: str) -> list[str]:
-        """Names of the surfaces between two surfaces of a ring, both included, one element apart."""
-        n = self.size.thickness_elements
-        return [first, *(f"{first}|{last}|{k}" for k in range(1, n)), last]
-
-    def add_ring_piece(self, part: str, surfaces: _Surfaces, ring: Ring, i: int, groups: Mapping[str, str]) -> None:
-        """Layers of a ring between breaks ``i`` and ``i + 1``, from one named surface to another."""
-        (first, last), radii = surfaces
-        names = self.level_names(first, last)
-        levels = zip(names, np.linspace(*radii, len(names)), strict=True)
-        self.add_layers(part, [self.ring_arc(n, float(r), ring, i) for n, r in levels], int(ring.counts[i]), groups)
-
-    def add_layers(self, part: str, curves: Sequence[Curve], n_length: int, groups: Mapping[str, str]) -> None:
-        """One block between each curve and the next, so that every long edge of an element lies on a drawn curve."""
-        for k, (inner, outer) in enumerate(pairwise(curves)):
-            here = {"ends"} | ({"inner"} if k == 0 else set()) | ({"outer"} if k == len(curves) - 2 else set())
-            kept = {side: group for side, group in groups.items() if side in here}
-            self.blocks.append(
-                Block(part=part, inner=inner, outer=outer, n_length=n_length, n_thickness=1, groups=kept)
-            )
 
 
 def build_section(design: WheelDesign, size: MeshSize, rings: tuple[Ring, Ring], active: frozenset[str]) -> Section:
@@ -129,12 +36,15 @@ def build_section(design: WheelDesign, size: MeshSize, rings: tuple[Ring, Ring],
     rings : divisions of the rim and of the hub
     active : names of the parts this axial band has
     """
-    draft = _Draft(size=size)
+    draft = Draft(size=size)
     rim, hub = rings
     if "tire" in active:
         _add_rim(draft, design, rim)
+    if design.tread is not None and "tread" in active:
+        _add_tread(draft, design.tread, design.tire.outer_radius, rim)
     if design.grousers is not None and "grousers" in active:
-        _add_grousers(draft, design.grousers, design.tire.outer_radius, rim)
+        surface = "rim_out" if design.tread is None else "tread_out"
+        _add_grousers(draft, design.grousers, (surface, design.ground_radius), rim)
     for name, part in (("outer_hub", design.outer_hub), ("inner_hub", design.inner_hub)):
         if part is not None and name in active:
             _add_hub(draft, name, part, hub)
@@ -142,6 +52,8 @@ def build_section(design: WheelDesign, size: MeshSize, rings: tuple[Ring, Ring],
         if springs.name in active:
             gap = (design.outer_hub.outer_radius, design.tire.inner_radius)
             _add_springs(draft, springs, gap, (("rim_in", rim), ("outer_hub_out", hub)))
+    if design.lattice is not None and LATTICE in active:
+        add_lattice(draft, design.lattice, (design.outer_hub.outer_radius, design.tire.inner_radius), rings)
     impact = design.impact_springs
     if impact is not None and design.inner_hub is not None and impact.name in active:
         gap = (design.inner_hub.outer_radius, design.outer_hub.inner_radius)
@@ -149,15 +61,26 @@ def build_section(design: WheelDesign, size: MeshSize, rings: tuple[Ring, Ring],
     return Section(corners=draft.corners, blocks=tuple(draft.blocks))
 
 
-def _add_rim(draft: _Draft, design: WheelDesign, ring: Ring) -> None:
+def _add_rim(draft: Draft, design: WheelDesign, ring: Ring) -> None:
     radii = design.tire.inner_radius, design.tire.outer_radius
     for i in range(len(ring.angles)):
         groups = {"inner": "tire_inner", "outer": "tire_outer"}
         draft.add_ring_piece("tire", (("rim_in", "rim_out"), radii), ring, i, groups)
 
 
-def _add_grousers(draft: _Draft, fins: Grousers, radius: float, ring: Ring) -> None:
-    """Fins with parallel flanks on the rim's outer surface at ``radius``."""
+def _add_tread(draft: Draft, tread: Tread, radius: float, ring: Ring) -> None:
+    """A layer on the rim's outer surface at ``radius``, as many elements through it as its size asks for."""
+    size = draft.size
+    least = max(size.thickness_elements, math.ceil(tread.thickness / size.of("tread") - 1e-6))
+    radii = radius, radius + tread.thickness
+    for i in range(len(ring.angles)):
+        groups = {"outer": "tread_outer"}
+        draft.add_ring_piece("tread", (("rim_out", "tread_out"), radii), ring, i, groups, size.refined(least))
+
+
+def _add_grousers(draft: Draft, fins: Grousers, surface: tuple[str, float], ring: Ring) -> None:
+    """Fins with parallel flanks on a surface of the rim's division; its name and radius [m]."""
+    name, radius = surface
     half, tip = 0.5 * fins.thickness, radius + fins.height
     n_height = draft.size.refined(max(1, math.ceil(fins.height / draft.size.of("grousers") - 1e-6)))
     foot_angle = math.asin(half / radius)
@@ -172,7 +95,7 @@ def _add_grousers(draft: _Draft, fins: Grousers, radius: float, ring: Ring) -> N
             draft.blocks.append(
                 Block(
                     part="grousers",
-                    inner=draft.ring_arc("rim_out", radius, ring, i),
+                    inner=draft.ring_arc(name, radius, ring, i),
                     outer=Curve(start=ends[0], end=ends[1], centre=np.zeros(2)),
                     n_length=int(ring.counts[i]),
                     n_thickness=n_height,
@@ -181,14 +104,14 @@ def _add_grousers(draft: _Draft, fins: Grousers, radius: float, ring: Ring) -> N
             )
 
 
-def _add_hub(draft: _Draft, name: str, hub: HubRing, ring: Ring) -> None:
+def _add_hub(draft: Draft, name: str, hub: HubRing, ring: Ring) -> None:
     surfaces = (f"{name}_in", f"{name}_out"), (hub.inner_radius, hub.outer_radius)
     for i in range(len(ring.angles)):
         draft.add_ring_piece(name, surfaces, ring, i, {"inner": f"{name}_bore", "outer": f"{name}_outer"})
 
 
 def _add_springs(
-    draft: _Draft,
+    draft: Draft,
     springs: SpringSet,
     gap: tuple[float, float],
     surfaces: tuple[tuple[str, Ring], tuple[str, Ring]],
@@ -213,7 +136,7 @@ def _add_springs(
 
 
 def _add_leg(
-    draft: _Draft, springs: SpringSet, leg: Leg, key: tuple[int, int], ends: tuple[list[Key], list[Key]]
+    draft: Draft, springs: SpringSet, leg: Leg, key: tuple[int, int], ends: tuple[list[Key], list[Key]]
 ) -> None:
     """Blocks of one strip; ``ends`` are the corners, inside to outside, it shares with the welds on rim and hub."""
     stride = (len(leg.points) - 1) // leg.segments

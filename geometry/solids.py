@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.blocks import Block, Curve, Key, Section
 from geometry.resolution import Ring
-from geometry.section import Block, Curve, Key, Section
 
 __all__ = [
     "ConeShape",
@@ -103,7 +103,8 @@ class _Pen:
             if at not in self.centres:
                 self.centres[at] = self.occ.addPoint(at[0], self.y, at[1])
             return int(self.occ.addCircleArc(a, self.centres[at], b))
-        assert curve.through is not None
+        if curve.through is None:
+            return int(self.occ.addLine(a, b))
         assert curve.tangents is not None
         between = [self.occ.addPoint(x, self.y, z) for x, z in curve.through]
         tangents = [c for t in curve.tangents for c in (t[0], 0.0, t[1])]

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from geometry.gmsh_session import gmsh_session
+from geometry.lattice import JOINTS, LATTICE
 from geometry.resolution import MeshSize, Ring, cone_joints, hub_ring, part_bands, rim_ring
 from geometry.section import build_section
 from geometry.solids import draw_faces, draw_frustum_section
@@ -93,7 +94,7 @@ def _solids(gmsh: Any, design: WheelDesign) -> Iterator[tuple[str, list[tuple[in
     coarse = MeshSize(element_size=1.0, axial_size=1.0, thickness_elements=1, refinement={})
     rings = rim_ring(design, coarse), hub_ring(design, coarse, "all")
     for part, bands in part_bands(design).items():
-        for low, high in bands:
+        for low, high in bands if part != JOINTS else ():
             yield part, _extruded(gmsh, design, rings, part, (low, high))
     joints = cone_joints(design)
     for outer, inner in zip(joints[::2], joints[1::2], strict=True):
@@ -103,11 +104,15 @@ def _solids(gmsh: Any, design: WheelDesign) -> Iterator[tuple[str, list[tuple[in
 def _extruded(
     gmsh: Any, design: WheelDesign, rings: tuple[Ring, Ring], part: str, band: tuple[float, float]
 ) -> list[tuple[int, int]]:
-    """Unite a part's blocks in the section plane and extrude what remains over one of its bands."""
+    """Unite a part's blocks in the section plane and extrude what remains over one of its bands.
+
+    A lattice is one solid, of walls, joints and feet.
+    """
     occ = gmsh.model.occ
     coarse = MeshSize(element_size=1.0, axial_size=1.0, thickness_elements=1, refinement={})
     section = build_section(design, coarse, rings, frozenset({part, "tire"} if part == "grousers" else {part}))
-    drawn = [(2, face) for block, face, _ in draw_faces(occ, section, band[0]) if block.part == part]
+    own = (LATTICE, JOINTS) if part == LATTICE else (part,)
+    drawn = [(2, face) for block, face, _ in draw_faces(occ, section, band[0]) if block.part in own]
     united, _ = occ.fuse(drawn[:1], drawn[1:])
     solids = [s for s in occ.extrude(united, 0.0, band[1] - band[0], 0.0) if s[0] == 3]
     return occ.fuse(solids[:1], solids[1:])[0] if len(solids) > 1 else solids

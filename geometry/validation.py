@@ -10,13 +10,14 @@ from typing import Protocol
 
 from contracts.errors import InputError
 from geometry.clearance import require_clear_of_rings, require_clear_sets
-from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+from geometry.lattice import JOINTS, LATTICE, Lattice, require_lattice_fits
+from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire, Tread
 from geometry.sidewall import SidewallSprings, weld_half_angle
 from geometry.springs import weld_angle
 
 __all__ = ["RESERVED_NAMES", "validate_wheel"]
 
-RESERVED_NAMES = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
+RESERVED_NAMES = ("tire", "tread", "grousers", LATTICE, JOINTS, "outer_hub", "cone", "impact_springs", "inner_hub")
 
 
 class _Parts(Protocol):
@@ -25,11 +26,15 @@ class _Parts(Protocol):
     @property
     def tire(self) -> Tire: ...
     @property
+    def tread(self) -> Tread | None: ...
+    @property
     def grousers(self) -> Grousers | None: ...
     @property
     def spring_sets(self) -> tuple[SpringSet, ...]: ...
     @property
     def sidewall_springs(self) -> SidewallSprings | None: ...
+    @property
+    def lattice(self) -> Lattice | None: ...
     @property
     def outer_hub(self) -> HubRing: ...
     @property
@@ -44,8 +49,11 @@ def validate_wheel(design: _Parts) -> None:
     """Check a design as a whole; raises InputError naming the first rule it breaks."""
     _check_names(design)
     tire, hub = design.tire, design.outer_hub
+    if design.tread is not None:
+        _check_tread(design.tread, tire.width)
     if design.grousers is not None:
-        _check_grousers(design.grousers, tire.outer_radius)
+        radius = tire.outer_radius + (design.tread.thickness if design.tread is not None else 0.0)
+        _check_grousers(design.grousers, radius)
     _check_nested(
         "outer hub radius", "outer_hub.outer_radius", hub.outer_radius, "tire's inner radius", tire.inner_radius
     )
@@ -54,6 +62,8 @@ def validate_wheel(design: _Parts) -> None:
     for springs, key in zip(design.spring_sets, keys, strict=True):
         _check_springs(springs, (hub.outer_radius, tire.inner_radius), half_width, key)
     require_clear_sets(design.spring_sets, (hub.outer_radius, tire.inner_radius), keys)
+    if design.lattice is not None:
+        _check_lattice(design.lattice, design, half_width)
     if design.sidewall_springs is not None:
         _check_sidewall(design.sidewall_springs, design)
     if design.inner_hub is None:
@@ -67,10 +77,9 @@ def validate_wheel(design: _Parts) -> None:
 def _check_names(design: _Parts) -> None:
     sidewall = [design.sidewall_springs.name] if design.sidewall_springs else []
     names = [springs.name for springs in design.spring_sets] + sidewall
-    if not names:
-        raise InputError(
-            "spring sets", "none", "the rim needs springs", "give a SpringSet or SidewallSprings", key="spring_sets"
-        )
+    if not names and design.lattice is None:
+        hint = "give springs, sidewall springs or a lattice"
+        raise InputError("spring sets", "none", "the rim needs springs", hint, key="spring_sets")
     places = [f"spring_sets[{i}].name" for i in range(len(design.spring_sets))] + ["sidewall_springs.name"]
     for name, place in zip(names, places, strict=False):
         if name in RESERVED_NAMES:
@@ -96,6 +105,29 @@ def _check_nested(what: str, key: str, inner: float, other: str, outer: float) -
         raise InputError(what, f"{inner * 1e3:g} mm", rule, "use a smaller hub or a larger wheel", key=key)
 
 
+def _check_tread(tread: Tread, width: float) -> None:
+    if tread.width is not None and tread.width > width + 1e-12:
+        rule = f"must not exceed the tire's width, {width * 1e3:g} mm"
+        raise InputError("tread width", f"{tread.width * 1e3:g} mm", rule, "narrow the tread", key="tread.width")
+
+
+def _check_lattice(lattice: Lattice, design: _Parts, half_width: float) -> None:
+    """A lattice is alone between rim and hub, lies within them along the axle, and fits."""
+    if design.spring_sets or design.sidewall_springs is not None:
+        rule = "cannot be combined with springs between rim and hub"
+        raise InputError("lattice", lattice.kind, rule, "leave out the one or the other", key="lattice")
+    for y0, y1 in lattice.bands:
+        _check_band("lattice band", (y0, y1), half_width, "lattice.bands")
+    require_lattice_fits(lattice, (design.outer_hub.outer_radius, design.tire.inner_radius))
+
+
+def _check_band(what: str, band: tuple[float, float], half_width: float, key: str) -> None:
+    y0, y1 = band
+    if y0 < -half_width - 1e-12 or y1 > half_width + 1e-12:
+        rule = f"leaves the rings it joins, which reach from {-half_width * 1e3:g} to {half_width * 1e3:g} mm"
+        raise InputError(what, f"{y0 * 1e3:g}..{y1 * 1e3:g} mm", rule, "move the band inwards", key=key)
+
+
 def _check_springs(springs: SpringSet, gap: tuple[float, float], half_width: float, key: str) -> None:
     hub, rim = gap
     if 2.0 * springs.thickness >= rim - hub:
@@ -107,16 +139,8 @@ def _check_springs(springs: SpringSet, gap: tuple[float, float], half_width: flo
             "use a thinner strip",
             key=f"{key}.thickness",
         )
-    for y0, y1 in springs.bands:
-        if y0 < -half_width - 1e-12 or y1 > half_width + 1e-12:
-            rule = f"leaves the rings it joins, which reach from {-half_width * 1e3:g} to {half_width * 1e3:g} mm"
-            raise InputError(
-                f"{springs.name} band",
-                f"{y0 * 1e3:g}..{y1 * 1e3:g} mm",
-                rule,
-                "move the band inwards",
-                key=f"{key}.bands",
-            )
+    for band in springs.bands:
+        _check_band(f"{springs.name} band", band, half_width, f"{key}.bands")
     if weld_angle(springs, rim) >= 2.0 * math.pi / springs.count:
         spacing = 2.0 * math.pi * rim / springs.count
         rule = f"must be smaller than the spacing of the welds, {spacing * 1e3:.4g} mm"

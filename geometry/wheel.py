@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from contracts.materials import TI_6AL_4V, TI_6AL_4V_AGED, Material
-from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+from geometry.lattice import JOINTS, LATTICE, Lattice
+from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire, Tread
 from geometry.sidewall import SidewallSprings
 from geometry.validation import validate_wheel
 
@@ -96,9 +97,11 @@ class WheelDesign:
     ----------
     name : name in reports
     tire : the rim
+    tread : a layer on the rim, or None
     grousers : the fins, or None
-    spring_sets : any number of sets between rim and outer hub; at least one where there are no sidewall springs
+    spring_sets : any number of sets between rim and outer hub; at least one where there is nothing else there
     sidewall_springs : strips at the sides of the wheel, or None
+    lattice : cells between rim and outer hub in place of springs, or None
     outer_hub : ring that carries the springs; of a wheel with sidewall springs only their clamped ends are meshed
     cone : shell between the hubs, or None
     impact_springs : spring set between the hubs, or None
@@ -114,9 +117,11 @@ class WheelDesign:
 
     name: str = "exomars"
     tire: Tire = field(default_factory=_tire)
+    tread: Tread | None = None
     grousers: Grousers | None = field(default_factory=_grousers)
     spring_sets: tuple[SpringSet, ...] = field(default_factory=_spring_sets)
     sidewall_springs: SidewallSprings | None = None
+    lattice: Lattice | None = None
     outer_hub: HubRing = field(default_factory=_outer_hub)
     cone: Cone | None = field(default_factory=_cone)
     impact_springs: SpringSet | None = field(default_factory=_impact_springs)
@@ -126,12 +131,20 @@ class WheelDesign:
         validate_wheel(self)
 
     @property
+    def ground_radius(self) -> float:
+        """Radius of the surface on which the wheel stands, grousers apart [m]."""
+        return self.tire.outer_radius + (self.tread.thickness if self.tread is not None else 0.0)
+
+    @property
     def materials(self) -> Mapping[str, Material]:
         """Part name -> material, in the order of the mesh's parts."""
         optional = {
+            "tread": self.tread,
             "grousers": self.grousers,
             **{springs.name: springs for springs in self.spring_sets},
             **({self.sidewall_springs.name: self.sidewall_springs} if self.sidewall_springs else {}),
+            LATTICE: self.lattice,
+            JOINTS: self.lattice,
             "outer_hub": self.outer_hub,
             "cone": self.cone,
             "impact_springs": self.impact_springs,

@@ -16,9 +16,11 @@ from reference_fe.contact.obstacles import Obstacle, Plane
 from reference_fe.material.hyperelastic import MaterialLaw
 from reference_fe.solver.newton import NewtonSettings
 
-__all__ = ["HUB_PARTS", "FieldSnapshot", "NamedFaces", "WheelLoadCase", "WheelResult"]
+__all__ = ["HUB_PARTS", "NO_STRIPS", "FieldSnapshot", "NamedFaces", "WheelLoadCase", "WheelResult"]
 
 HUB_PARTS = ("outer_hub", "cone", "impact_springs", "inner_hub")
+NO_STRIPS = ("tread", "grousers", "lattice_joints", *HUB_PARTS)
+"""Parts that no bending strip is made of: rim, springs and a lattice's walls are."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

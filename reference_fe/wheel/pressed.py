@@ -31,7 +31,7 @@ from reference_fe.problem.problem_state import ProblemState
 from reference_fe.solver.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
 from reference_fe.solver.increments import ConvergedState, solve_increments
 from reference_fe.solver.newton import NewtonSolver
-from reference_fe.wheel.case import HUB_PARTS, FieldSnapshot, WheelLoadCase, WheelResult
+from reference_fe.wheel.case import NO_STRIPS, FieldSnapshot, WheelLoadCase, WheelResult
 from reference_fe.wheel.problem import wheel_problem
 from reference_fe.wheel.unloading import FORCE_SHARE, at_end, next_deflection, permanent_set, unloading_curve
 from reference_fe.wheel.wrench import wrench
@@ -50,8 +50,9 @@ def solve_wheel(
 
     Parameters
     ----------
-    mesh : wheel in its frame, solid or planar (the curve's model is then "section"); contact faces ``tire_outer`` and
-        ``grouser_outer``; a face group ``symmetry`` marks a half width, whose loads and areas are doubled in the result
+    mesh : wheel in its frame, solid or planar (the curve's model is then "section"); contact faces ``tire_outer``,
+        ``tread_outer``, ``grouser_outer``; a face group ``symmetry`` marks a half width, whose loads and areas are
+        doubled in the result
     materials : part name -> material; parts in ``load_case.rigid_parts`` (by default the hubs and what links them) need
         none, but if theirs has a thermal strain they expand by it. First touch is that of the expanded wheel
     progress : called with the deflection reached [m] and the load [N] after each increment
@@ -114,9 +115,9 @@ class _WheelRun:
         self.stress, self.energy = StressRecovery(self.problem), StoredEnergy(self.problem)
         self.yields = any(isinstance(law, J2Plasticity) for law in self.problem.laws.values())
         ours = load_case.faces is None  # whose parts are strips of structured cells
-        strips = [part for part in self.wheel.flexible if part != "grousers" and part not in HUB_PARTS and ours]
+        strips = [part for part in self.wheel.flexible if part not in NO_STRIPS and ours]
         self.linearised = LinearisedStress(self.problem, strips)
-        springs = tuple(part for part in self.wheel.flexible if part not in ("tire", "grousers", *HUB_PARTS))
+        springs = tuple(part for part in self.wheel.flexible if part not in ("tire", *NO_STRIPS))
         followed = ours and springs and "tire_inner" in mesh.faces
         self.overlap = FaceOverlap(self.mesh, springs, "tire_inner") if followed else None
         self.history: list[IncrementRecord] = []

@@ -27,7 +27,7 @@ from reference_fe.wheel.case import WheelLoadCase
 
 __all__ = ["WheelProblem", "ground_axes", "wheel_problem"]
 
-CONTACT_FACES = ("tire_outer", "grouser_outer")
+CONTACT_FACES = ("tire_outer", "tread_outer", "grouser_outer")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

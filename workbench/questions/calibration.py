@@ -99,17 +99,21 @@ def _factor(section: Tangent, target: float, guess: float) -> float:
 
 
 def strip_thicknesses(study: Study, factor: float = 1.0) -> dict[str, float]:
-    """Thickness of the rim and of each spring set [m], scaled, to a tenth of a micrometre."""
+    """Thickness of the rim, of each spring set and of a lattice's walls [m], scaled, to a tenth of a micrometre."""
     design = wheel_design(study)
     strips = {"tire": design.tire.thickness} | {s.name: s.thickness for s in design.spring_sets}
+    if design.lattice is not None:
+        strips["lattice"] = design.lattice.thickness
     return {name: round(factor * thickness, 7) for name, thickness in strips.items()}
 
 
 def scaled_study(study: Study, factor: float) -> Study:
     """The study with strips ``factor`` times as thick."""
     thickness = strip_thicknesses(study, factor)
+    lattice = study.parametric.lattice
     wheel = study.parametric.model_copy(
         update={
+            "lattice": lattice and lattice.model_copy(update={"thickness": thickness["lattice"]}),
             "tire": study.parametric.tire.model_copy(update={"thickness": thickness["tire"]}),
             "springs": tuple(s.model_copy(update={"thickness": thickness[s.name]}) for s in study.parametric.springs),
         }

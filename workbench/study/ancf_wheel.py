@@ -18,10 +18,13 @@ __all__ = ["without_ancf_wheel"]
 
 def without_ancf_wheel(study: Study) -> str | None:
     """Which part of the study its ANCF wheel does not have; None where it has all."""
-    fe, springs = study.fe, study.wheel.springs if study.wheel is not None else ()
+    fe, wheel = study.fe, study.wheel
+    springs = wheel.springs if wheel is not None else ()
     key, kind = other_law(study) or ("", "")
     lacks = (
         ("mesh.file", own_mesh(study) is not None),
+        ("wheel.lattice", wheel is not None and wheel.lattice is not None),
+        ("wheel.tread", wheel is not None and wheel.tread is not None),
         (f"fe.hub = {fe.hub} without springs between rim and hub", fe.hub != "rigid" and not springs),
         ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
         (f"fe.contact_method = {fe.contact_method}", fe.contact_method != "penalty"),

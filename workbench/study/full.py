@@ -53,7 +53,9 @@ def _patterns(study: Study) -> list[tuple[int, float]]:
     patterns = [(springs.count, degrees(springs.phase)) for springs in _springs(study)]
     design = wheel_design(study)
     others = (design.grousers, design.sidewall_springs)
-    return patterns + [(part.count, degrees(part.phase)) for part in others if part is not None]
+    patterns += [(part.count, degrees(part.phase)) for part in others if part is not None]
+    lattice = design.lattice
+    return patterns if lattice is None else [*patterns, (lattice.cells, degrees(lattice.phase))]
 
 
 def require_level(study: Study) -> None:

@@ -20,13 +20,14 @@ def rewritten_study(text: str, thickness: Mapping[str, float], note: str, folder
     Parameters
     ----------
     text : the old file
-    thickness : of ``"tire"`` and of each spring set by its name [m]
+    thickness : of ``"tire"``, ``"lattice"`` and of each spring set by its name [m]
     note : one line, put first as a comment and as the reason of an inferred tire thickness
     folder : where the old file lies; the reference's files, surfaces and an own mesh are named from there
     """
     document = _parsed(text)
     wheel = document.get("wheel", {})
-    for name, part in [("tire", wheel.get("tire")), *((part.get("name"), part) for part in wheel.get("springs", ()))]:
+    named = [(name, wheel[name]) for name in ("tire", "lattice") if name in wheel]
+    for name, part in [*named, *((part.get("name"), part) for part in wheel.get("springs", ()))]:
         if name in thickness:
             part["thickness"] = f"{thickness[name] * 1e3:.4f} mm"
     if "tire" in thickness and "wheel.tire.thickness" in document.get("inferred", {}):

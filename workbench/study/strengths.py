@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from workbench.study.model import Study
-from workbench.study.own_mesh import material_names, materials_by_part
+from workbench.study.own_mesh import material_names, materials_by_part, own_mesh
 
 __all__ = ["judges_strength", "parts_without_strength", "yield_strengths"]
 
+_NOT_JUDGED = "lattice_joints"
+
 
 def yield_strengths(study: Study) -> dict[str, float]:
-    """Yield strength [Pa] of each part of the mesh whose material has one."""
+    """Yield strength [Pa] of each part that is judged: its material has one; a lattice's joints are not, as welds."""
     found = {part: material.yield_strength for part, material in materials_by_part(study).items()}
-    return {part: strength for part, strength in found.items() if strength is not None}
+    judged = {part: strength for part, strength in found.items() if own_mesh(study) or part != _NOT_JUDGED}
+    return {part: strength for part, strength in judged.items() if strength is not None}
 
 
 def parts_without_strength(study: Study) -> tuple[str, ...]:

@@ -286,7 +286,7 @@ def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value, ba
 def _strips(table: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Tables of the parts that have a strip's thickness."""
     wheel = table.get("wheel", {})
-    parts = (wheel.get("tire"), *wheel.get("springs", ()), wheel.get("sidewall_springs"))
+    parts = (wheel.get("tire"), *wheel.get("springs", ()), wheel.get("sidewall_springs"), wheel.get("lattice"))
     return [part for part in parts if part is not None]
 
 

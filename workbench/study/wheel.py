@@ -12,7 +12,8 @@ from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, mod
 
 from contracts.errors import InputError
 from contracts.materials import Material
-from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+from geometry.lattice import Lattice
+from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire, Tread
 from geometry.sidewall import SidewallSprings
 from workbench.study.declared import reads
 from workbench.study.material_law import LawSection, MooneyRivlinSection, OgdenSection
@@ -23,12 +24,14 @@ __all__ = [
     "GrousersSection",
     "HubSection",
     "ImpactSpringsSection",
+    "LatticeSection",
     "MaterialName",
     "MaterialSection",
     "PartName",
     "SidewallSpringsSection",
     "SpringsSection",
     "TireSection",
+    "TreadSection",
     "WheelSection",
     "WheelStudy",
 ]
@@ -49,9 +52,14 @@ class TireSection(PartSection):
     """The rim: a cylindrical strip [m]."""
 
 
+@reads(Tread)
+class TreadSection(PartSection):
+    """A layer bonded on the rim's outside, e.g. of rubber [m]."""
+
+
 @reads(Grousers)
 class GrousersSection(PartSection):
-    """Radial fins on the rim [m]; phase of the first one [rad]."""
+    """Radial fins on the rim or its tread [m]; phase of the first one [rad]."""
 
 
 @reads(SpringSet, "name")
@@ -75,6 +83,11 @@ class SidewallSpringsSection(PartSection):
     """Of the set: the name of its part of the mesh."""
 
 
+@reads(Lattice)
+class LatticeSection(PartSection):
+    """Honeycomb or re-entrant cells of straight walls between rim and outer hub [m]; their angle and phase [rad]."""
+
+
 @reads(HubRing)
 class HubSection(PartSection):
     """A cylindrical ring of the hub [m]."""
@@ -90,12 +103,16 @@ class WheelSection(Section):
 
     tire: TireSection
     """The rim."""
+    tread: TreadSection | None = None
+    """Layer on the rim; none without it."""
     grousers: GrousersSection | None = None
     """Fins on the rim; none without it."""
     springs: tuple[SpringsSection, ...] = ()
     """Sets of strips between rim and outer hub."""
     sidewall_springs: SidewallSpringsSection | None = None
     """Strips at the sides of the wheel; none without it."""
+    lattice: LatticeSection | None = None
+    """Cells in place of springs; none without it."""
     outer_hub: HubSection
     """Ring that carries the springs."""
     cone: ConeSection | None = None

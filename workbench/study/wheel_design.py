@@ -57,8 +57,9 @@ def _material(name: str, section: MaterialSection) -> Material:
 def part_materials(study: WheelStudy) -> dict[str, str]:
     """Material name of each part of the mesh."""
     wheel = study.parametric
-    single = ("tire", "grousers", "outer_hub", "cone", "impact_springs", "inner_hub")
+    single = ("tire", "tread", "grousers", "lattice", "outer_hub", "cone", "impact_springs", "inner_hub")
     parts = {name: getattr(wheel, name) for name in single} | {s.name: s for s in wheel.springs}
+    parts["lattice_joints"] = wheel.lattice
     if wheel.sidewall_springs is not None:
         parts[wheel.sidewall_springs.name] = wheel.sidewall_springs
     return {name: part.material for name, part in parts.items() if part is not None}
@@ -124,16 +125,19 @@ class _WheelParts:
 
     def build(self) -> dict[str, Any]:
         """Keyword arguments of WheelDesign."""
-        from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+        from geometry.lattice import Lattice
+        from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire, Tread
         from geometry.sidewall import SidewallSprings
 
         wheel = self.wheel
         impact, sidewall = wheel.impact_springs, wheel.sidewall_springs
         return {
             "tire": self._part(Tire, "tire", wheel.tire),
+            "tread": wheel.tread and self._part(Tread, "tread", wheel.tread),
             "grousers": wheel.grousers and self._part(Grousers, "grousers", wheel.grousers),
             "spring_sets": tuple(self._part(SpringSet, f"springs[{i}]", s) for i, s in enumerate(wheel.springs)),
             "sidewall_springs": sidewall and self._part(SidewallSprings, "sidewall_springs", sidewall),
+            "lattice": wheel.lattice and self._part(Lattice, "lattice", wheel.lattice),
             "outer_hub": self._part(HubRing, "outer_hub", wheel.outer_hub),
             "cone": wheel.cone and self._part(Cone, "cone", wheel.cone),
             "impact_springs": impact and self._part(SpringSet, "impact_springs", impact, name="impact_springs"),

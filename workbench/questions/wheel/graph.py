@@ -28,6 +28,8 @@ __all__ = [
 
 MESH, MESH_WHOLE = "mesh", "mesh_whole"
 """Names of the tasks."""
+_NAMED_WHERE_GIVEN = ("tread", "lattice")
+"""Parts that tasks hear of only where the wheel has them: results of other wheels keep their keys."""
 
 
 def wheel_meshes(study: Study) -> tuple[Task, Task]:
@@ -111,7 +113,8 @@ def wheel_inputs(study: Study) -> dict[str, Any]:
     The study's name, names of materials and their sources are words about the wheel that decide no result: the report
     takes them from the study, so that to change them computes nothing again.
     """
-    wheel = study.parametric.model_dump(mode="json")
+    left_out = {name for name in _NAMED_WHERE_GIVEN if getattr(study.parametric, name) is None}
+    wheel = study.parametric.model_dump(mode="json", exclude=left_out)
     labels = {name: f"material {k}" for k, name in enumerate(dict.fromkeys(part_materials(study).values()), start=1)}
     for group in wheel.values():
         for part in group if isinstance(group, list) else [group] if group else []:
