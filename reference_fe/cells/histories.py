@@ -32,6 +32,11 @@ class Histories:
         self._first: Array | None = None
         self._steps = 0
 
+    @property
+    def remembered(self) -> bool:
+        """Whether any part has a history."""
+        return self._cells is not None
+
     def follow(self, points: PointSet) -> None:
         """Commit a further set of points with the others from now on; the first step is made up for.
 

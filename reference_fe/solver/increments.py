@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, astuple, dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,9 +59,10 @@ def solve_increments(
     parameter reached it tells the next target, whenever it is asked.
 
     An increment that does not converge is halved from the last converged state; after a success the step doubles, up to
-    the distance to the next target. Every attempt is appended to ``history``. With a ``checkpoint``, each converged
-    state is kept when the caller asks for the next one, and a run that finds one goes on behind it: on one process with
-    the very numbers of a run that was never stopped.
+    the distance to the next target. Where the material yields, an increment begins at the displacement that the last
+    one points to: a step from rest would strain it plastically all over. Every attempt is appended to ``history``. With
+    a ``checkpoint``, each converged state is kept when the caller asks for the next one, and a run that finds one goes
+    on behind it: on one process with the very numbers of a run that was never stopped.
 
     Raises
     ------
@@ -81,6 +82,8 @@ def solve_increments(
         place = place.towards(float(target))
         goal, rise = place.next()
         problem.set_control(goal)
+        if problem.histories.remembered:
+            problem.u.x.array[:] = place.ahead(good.displacement, goal)
         outcome = solver.solve(rise=_lag(problem, rise, first=place.reached == 0.0 and rise > 0.0))
         record = IncrementRecord(target=goal, step=rise, converged=outcome.converged, residuals=outcome.residuals)
         history.append(record)
@@ -88,7 +91,9 @@ def solve_increments(
             on_attempt(record)
         if outcome.converged:
             problem.accept()
-            place, start, good = replace(place, reached=goal, step=2.0 * abs(rise)), good, problem.state()
+            before = (place.reached, good.displacement) if problem.histories.remembered else None
+            place, start = replace(place, reached=goal, step=2.0 * abs(rise), before=before), good
+            good = problem.state()
             yield ConvergedState(
                 control=goal,
                 wanted=goal == place.target,
@@ -115,11 +120,18 @@ def _in_order(targets: Sequence[float]) -> NextTarget:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Place:
-    """Where a run stands: control parameter ``reached``, length of its next ``step``, the ``target`` it makes for."""
+    """Where a run stands.
+
+    Attributes
+    ----------
+    reached, step, target : control parameter reached, length of the next step, what the run makes for
+    before : control parameter and displacement of the state before, if they are wanted
+    """
 
     reached: float
     step: float
     target: float
+    before: tuple[float, NDArray[np.float64]] | None = None
 
     def towards(self, target: float) -> _Place:
         """Making for a target: one step may reach it, unless it was made for already, with smaller ones."""
@@ -134,14 +146,23 @@ class _Place:
         goal = self.reached + math.copysign(self.step, remaining)
         return goal, goal - self.reached
 
+    def ahead(self, displacement: NDArray[np.float64], goal: float) -> NDArray[np.float64]:
+        """The displacement at the goal if it goes on as between the last two states, (n_dofs,) [m]."""
+        if self.before is None:
+            return displacement
+        control, before = self.before
+        return displacement + (displacement - before) * ((goal - self.reached) / (self.reached - control))
+
 
 def _kept(state: ProblemState, place: _Place, history: Sequence[IncrementRecord]) -> Arrays:
     """A converged state, where it stands and the attempts so far, as arrays."""
-    arrays = {"displacement": state.displacement, "progress": np.array(astuple(place))}
+    arrays = {"displacement": state.displacement, "progress": np.array((place.reached, place.step, place.target))}
     arrays |= {"history": packed([asdict(record) for record in history])}
     for i, term in enumerate(state.surfaces):
         arrays |= {f"surface{i}/{name}": values for name, values in term.items()}
-    return arrays | {f"history{i}": past for i, past in enumerate(state.histories)}
+    if place.before is not None:
+        arrays |= {"before": place.before[1], "before_control": np.array(place.before[0])}
+    return arrays | {f"points{i}": past for i, past in enumerate(state.histories)}
 
 
 def _resumed(problem: StaticProblem, history: list[IncrementRecord], checkpoint: Checkpoint | None) -> _Place | None:
@@ -150,14 +171,14 @@ def _resumed(problem: StaticProblem, history: list[IncrementRecord], checkpoint:
     if arrays is None:
         return None
     terms = tuple(below(f"surface{i}", arrays) for i in range(len(problem.surfaces.terms)))
-    histories = tuple(arrays[f"history{i}"] for i in range(len(problem.histories.state())))
+    histories = tuple(arrays[f"points{i}"] for i in range(len(problem.histories.state())))
     problem.restore(ProblemState(displacement=arrays["displacement"], surfaces=terms, histories=histories))
     records = unpacked(arrays["history"])
     history[:] = [IncrementRecord(**{**values, "residuals": tuple(values["residuals"])}) for values in records]
     reached, step, target = (float(value) for value in arrays["progress"])
-    place = _Place(reached=reached, step=step, target=target)
-    problem.set_control(place.reached)
-    return place
+    before = (float(arrays["before_control"]), arrays["before"]) if "before" in arrays else None
+    problem.set_control(reached)
+    return _Place(reached=reached, step=step, target=target, before=before)
 
 
 def _lag(problem: StaticProblem, step: float, *, first: bool) -> float:

@@ -22,6 +22,7 @@ class ScriptedSolver:
         self.problem: Any = self
         self.contact = None
         self.surfaces = SimpleNamespace(terms=())
+        self.histories = SimpleNamespace(remembered=False)
 
     def accept(self) -> None:
         """Nothing to commit."""
