@@ -1,9 +1,13 @@
 """Cells of any law by the compiled loops of `cells.general_kernels`, with the history of their points.
 
-Nearly incompressible laws take the three-field form: dilatation and pressure are functions of the cell alone, linear in
-its own coordinates for 27 nodes (Q2/P1, which satisfies the inf-sup condition: Boffi, Brezzi & Fortin, Mixed Finite
-Element Methods and Applications, 2013, 8.6, from memory), constant for fewer. Verified by
-tests/verification/test_fe_laws_cells.py.
+Nearly incompressible laws take the three-field form: dilatation and pressure are functions of the cell alone. Of 27
+nodes they are, in the cell's own coordinates,
+
+    rubber         1, xi, eta, zeta                         Q2/P1, which satisfies the inf-sup condition,
+    J2 plasticity  with xi eta, eta zeta, zeta xi as well   whose bending stiffness is that of displacements alone,
+
+and constant of fewer. What is lost and won by either: docs/theory/material_laws.md. Verified by
+tests/verification/test_fe_laws_cells.py and tests/verification/test_fe_laws_locking.py.
 """
 
 from __future__ import annotations
@@ -21,14 +25,17 @@ from reference_fe.cells import general_tangent
 from reference_fe.cells.cell_group import cell_dofs, gradients_at
 from reference_fe.material.law_constants import law_constants
 from reference_fe.material.point_response import VIRGIN
-from reference_fe.material.principal_laws import plastic_work
+from reference_fe.material.principal_laws import J2, OGDEN, plastic_work
 from reference_fe.problem.domain import Domain
 
 __all__ = ["GeneralCells", "PointSet"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int32]
-_NODES_OF_LINEAR_PRESSURE = 27
+_WHOLE_CELL = 27
+"""Nodes of the cell whose pressure is more than a constant."""
+_FUNCTIONS = {OGDEN: 4, J2: 7}
+"""Functions of pressure in it, of each kind of law."""
 
 
 class PointSet:
@@ -109,7 +116,10 @@ class GeneralCells:
         self.nodes = V.dofmap.list[self.points.cells]
         t = self.points.tables
         mass = np.einsum("cq,qi,qj->cij", t.w, t.N, t.N)
-        self._inverse_mass = np.ascontiguousarray(np.linalg.inv(mass))
+        self._inverse_mass = np.zeros_like(mass)  # zero where a law has fewer functions than N
+        for kind, functions in _FUNCTIONS.items():
+            rows, n = t.kinds == kind, min(functions, t.N.shape[1])
+            self._inverse_mass[rows, :n, :n] = np.linalg.inv(mass[rows, :n, :n])
         self._stress = np.zeros((*t.w.shape, 6))
 
     def add_force(self, u: Array, out: Array) -> None:
@@ -151,7 +161,9 @@ class GeneralCells:
 
 
 def _pressure_functions(points: Array, nodes: int) -> Array:
-    """Functions of dilatation and pressure at reference points, (m, k): 1, and the three coordinates for 27 nodes."""
-    if nodes < _NODES_OF_LINEAR_PRESSURE:
-        return np.ones((len(points), 1))
-    return np.column_stack([np.ones(len(points)), 2.0 * points - 1.0])
+    """Functions of dilatation and pressure at reference points, (m, k): 1, and for 27 nodes six more, see above."""
+    one = np.ones(len(points))
+    if nodes < _WHOLE_CELL:
+        return one[:, None]
+    x, y, z = 2.0 * points.T - 1.0
+    return np.column_stack([one, x, y, z, x * y, y * z, z * x])

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe.compiled import compiled
-from reference_fe.material.point_response import HISTORY, determinant, respond
+from reference_fe.material.point_response import HISTORY, respond, volume_change
 
 __all__ = [
     "CellTables",
@@ -82,7 +82,7 @@ def dilatation(u: Array, t: CellTables, inverse_mass: Array, pressure: Array, st
     energy : (n_cells,) int U(theta) dV [J]
     """
     m, k = t.N.shape
-    H, J, right = np.empty((3, 3)), np.empty(k), np.empty(k)
+    H, J, right = np.empty((3, 3)), np.empty(k), np.empty(k)  # J: its change
     A, energy = np.empty((k, k)), np.zeros(t.G.shape[0])
     for c in range(t.G.shape[0]):
         pressure[c], stiffness[c] = 0.0, 0.0
@@ -91,15 +91,15 @@ def dilatation(u: Array, t: CellTables, inverse_mass: Array, pressure: Array, st
         J[:], right[:], A[:] = 0.0, 0.0, 0.0
         for q in range(m):
             shifted_gradient(t.offset[c], t.G[c, q], u, t.dofs[c], H)
-            volume = determinant(H)
+            change = volume_change(H)
             for i in range(k):
-                J[i] += t.w[c, q] * t.N[q, i] * volume
+                J[i] += t.w[c, q] * t.N[q, i] * change
         for q in range(m):
-            theta = 0.0
+            change = 0.0
             for i in range(k):
                 for j in range(k):
-                    theta += t.N[q, i] * inverse_mass[c, i, j] * J[j]
-            log = np.log(theta)
+                    change += t.N[q, i] * inverse_mass[c, i, j] * J[j]
+            theta, log = 1.0 + change, np.log1p(change)
             energy[c] += 0.5 * t.bulk[c] * t.w[c, q] * log * log
             for i in range(k):
                 right[i] += t.w[c, q] * t.N[q, i] * t.bulk[c] * log / theta
@@ -226,5 +226,5 @@ def cauchy_stress(u: Array, t: CellTables, pressure: Array, past: Array) -> Arra
             F[:] = H
             for i in range(3):
                 F[i, i] += 1.0
-            out[c, q] = F @ full @ F.T / determinant(H)
+            out[c, q] = F @ full @ F.T / (1.0 + volume_change(H))
     return out

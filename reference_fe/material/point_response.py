@@ -23,7 +23,7 @@ from reference_fe.compiled import compiled
 from reference_fe.material.principal_axes import principal_axes
 from reference_fe.material.principal_laws import PAIRS, principal_stress
 
-__all__ = ["HISTORY", "VIRGIN", "determinant", "respond"]
+__all__ = ["HISTORY", "VIRGIN", "respond", "volume_change"]
 
 Array = NDArray[np.float64]
 HISTORY = 7
@@ -33,14 +33,14 @@ VIRGIN = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
 
 
 @compiled(error_model="numpy")
-def determinant(H: Array) -> float:
-    """det(I + H)."""
-    a, b, c = 1.0 + H[0, 0], 1.0 + H[1, 1], 1.0 + H[2, 2]
-    value: float = (
-        a * (b * c - H[1, 2] * H[2, 1])
-        - H[0, 1] * (H[1, 0] * c - H[1, 2] * H[2, 0])
-        + H[0, 2] * (H[1, 0] * H[2, 1] - b * H[2, 0])
-    )
+def volume_change(H: Array) -> float:
+    """det(I + H) - 1 without the loss of digits where H is small [-]."""
+    first = H[1, 1] * H[2, 2] - H[1, 2] * H[2, 1]
+    second = H[1, 0] * H[2, 2] - H[1, 2] * H[2, 0]
+    third = H[1, 0] * H[2, 1] - H[1, 1] * H[2, 0]
+    trace = H[0, 0] + H[1, 1] + H[2, 2]
+    minors = H[0, 0] * H[1, 1] - H[0, 1] * H[1, 0] + H[0, 0] * H[2, 2] - H[0, 2] * H[2, 0] + first
+    value: float = trace + minors + H[0, 0] * first - H[0, 1] * second + H[0, 2] * third
     return value
 
 
@@ -62,7 +62,7 @@ def respond(
     -------
     energy : of `principal_laws`, the volumetric part of nearly incompressible laws left out
     """
-    J = determinant(H)
+    J = 1.0 + volume_change(H)
     if not J > 0.0:  # inside out: no state of any law
         S[:], CC[:], V[:], now[:] = np.nan, np.nan, np.nan, past
         return np.nan
