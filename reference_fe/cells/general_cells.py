@@ -120,22 +120,23 @@ class GeneralCells:
         for kind, functions in _FUNCTIONS.items():
             rows, n = t.kinds == kind, min(functions, t.N.shape[1])
             self._inverse_mass[rows, :n, :n] = np.linalg.inv(mass[rows, :n, :n])
-        self._stress = np.zeros((*t.w.shape, 6))
+        self._stress, self._pressure = np.zeros((*t.w.shape, 6)), np.zeros(mass.shape[:2])
 
     def add_force(self, u: Array, out: Array) -> None:
         """See `CellGroup`."""
         loops.internal_force(u, self.points.tables, self.pressure(u)[0], self.points.past, out)
 
     def store_stress(self, u: Array, du: Array) -> None:
-        """See `CellGroup`; the pressure's share in the increment included."""
+        """See `CellGroup`: stress without pressure at the points, and the pressure of each cell."""
         points = self.points
-        loops.point_stress(u, du, points.tables, *self.pressure(u)[:2], points.past, self._stress)
+        self._pressure, stiffness, _ = self.pressure(u)
+        loops.point_stress(u, du, points.tables, self._pressure, stiffness, points.past, self._stress)
 
     def add_tangent(self, u: Array, indptr: Index, blocks: Index, values: Array) -> None:
         """See `CellGroup`."""
         points = self.points
-        fields = (points.tables, *self.pressure(u)[:2], points.past)
-        general_tangent.add_tangent(u, self._stress, *fields, indptr, blocks, values)
+        fields = (self._stress, points.tables, self._pressure, self.pressure(u)[1], points.past)
+        general_tangent.add_tangent(u, *fields, indptr, blocks, values)
 
     def pressure(self, u: Array) -> tuple[Array, Array, Array]:
         """Pressure (n_cells, k) [Pa], its stiffness (n_cells, k, k) [Pa/m^3], volumetric energy (n_cells,) [J]."""

@@ -164,17 +164,19 @@ def internal_force(u: Array, t: CellTables, pressure: Array, past: Array, out: A
 def point_stress(
     u: Array, du: Array, t: CellTables, pressure: Array, stiffness: Array, past: Array, out: Array
 ) -> None:
-    """Extrapolated stress S + CC : DE[du] + dp V at every point into ``out`` (n_cells, m, 6) [Pa], dp = N T h du."""
+    """Extrapolated stress without pressure, S_0 + CC_0 : DE[du], into ``out`` (n_cells, m, 6) [Pa]; pressure likewise.
+
+    pressure : (n_cells, k), becomes p + T h du [Pa]
+    """
     m, k = t.N.shape
     H, dH, S, CC, now = np.empty((3, 3)), np.empty((3, 3)), np.empty(6), np.empty((6, 6)), np.empty(HISTORY)
-    V, dE, h, dp = np.empty((m, 6)), np.empty(6), np.empty(k), np.empty(k)
+    V, dE, h = np.empty(6), np.empty(6), np.empty(k)
     for c in range(t.G.shape[0]):
         h[:] = 0.0
         for q in range(m):
             shifted_gradient(t.offset[c], t.G[c, q], u, t.dofs[c], H)
             shifted_gradient(0.0, t.G[c, q], du, t.dofs[c], dH)
-            p = pressure_at(t.N[q], pressure[c])
-            respond(t.kinds[c], t.constants[c], H, p, past[c, q], S, CC, V[q], now, True)
+            respond(t.kinds[c], t.constants[c], H, 0.0, past[c, q], S, CC, V, now, True)
             volume = 0.0
             for v in range(6):
                 i, j = v % 3, (v % 3 if v < 3 else (v + 1) % 3)
@@ -183,18 +185,14 @@ def point_stress(
                     dE[v] += H[r, i] * dH[r, j] + dH[r, i] * H[r, j]
                 if v < 3:
                     dE[v] *= 0.5
-                volume += V[q, v] * dE[v]
+                volume += V[v] * dE[v]
             for i in range(k):
                 h[i] += t.w[c, q] * t.N[q, i] * volume
             for v in range(6):
                 out[c, q, v] = S[v]
                 for r in range(6):
                     out[c, q, v] += CC[v, r] * dE[r]
-        dp[:] = stiffness[c] @ h
-        for q in range(m):
-            rise = pressure_at(t.N[q], dp)
-            for v in range(6):
-                out[c, q, v] += rise * V[q, v]
+        pressure[c] += stiffness[c] @ h
 
 
 @compiled(error_model="numpy")

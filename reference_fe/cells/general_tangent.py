@@ -1,9 +1,9 @@
 """Compiled loop over hexahedra of any law: tangent with the pressure condensed.
 
-With the letters of `general_kernels`, S_m the stress stored at the point and B (6, 3 n) such that B du = DE =
-sym(F^T grad du), its shears twice, the 3 x 3 block of nodes a and b is
+With the letters of `general_kernels`, S_m and p_m the stored stress without pressure and the stored pressure, B
+(6, 3 n) such that B du = DE = sym(F^T grad du), its shears twice, the 3 x 3 block of nodes a and b is
 
-    K_ab = int B_a^T CC B_b + (G_a . S_m G_b) I dV + (h^T T h)_ab,
+    K_ab = int B_a^T CC(p_m) B_b + (G_a . (S_m + p_m V) G_b) I dV + (h^T T h)_ab,
 
 each integral one product of matrices over all points of a cell. Verified by tests/verification/test_fe_laws_cells.py.
 """
@@ -39,9 +39,10 @@ def add_tangent(
 
     Parameters
     ----------
-    stress : (n_cells, m, 6) stored stress S_m [Pa]
+    stress, pressure : (n_cells, m, 6) and (n_cells, k) what is stored of S_0 and p [Pa]
+    stiffness : (n_cells, k, k) T at u [Pa/m^3]
     indptr, blocks, values : as in `cells.kernels.add_tangent`
-    u, t, pressure, stiffness, past : as in the other loops
+    u, t, past : as in the other loops
     """
     m, k = t.N.shape
     n = t.G.shape[3]
@@ -59,7 +60,9 @@ def add_tangent(
             for i in range(k):
                 for v in range(6):
                     Z[i, 6 * q + v] = w * t.N[q, i] * V[v]
-            _geometric_factors(w, stress[c, q], t.G[c, q], G[3 * q : 3 * q + 3], SG[3 * q : 3 * q + 3])
+            for v in range(6):
+                S[v] = stress[c, q, v] + p * V[v]
+            _geometric_factors(w, S, t.G[c, q], G[3 * q : 3 * q + 3], SG[3 * q : 3 * q + 3])
         K = np.dot(B.T, CB)
         geometric = np.dot(G.T, SG)
         if t.bulk[c] != 0.0:
