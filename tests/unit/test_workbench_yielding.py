@@ -111,3 +111,34 @@ def test_each_part_has_the_strength_of_its_material() -> None:
     found = yield_strengths(other)
     assert set(found) == parts
     assert found["tire"] == 300e6
+
+
+def flowing(strain_at_end: float) -> StiffnessCurve:
+    """The springs flow from half the way on, their stress held at yield; the tire stays elastic."""
+    base = curve(400e6, 1000e6)
+    stress = np.minimum(2.0 * base.columns["max_von_mises_springs_Pa"], 1000e6)
+    strain = strain_at_end * np.maximum(0.0, 2.0 * base.deflection / 0.04 - 1.0)
+    springs = {"max_von_mises_springs_Pa": stress, "max_plastic_strain_springs": strain}
+    return replace(base, columns=dict(base.columns) | springs | {"max_plastic_strain_tire": 0.0 * strain})
+
+
+def test_a_part_that_flows_is_judged_by_its_plastic_strain() -> None:
+    """0.2 % defines the yield strength: 0.8 % at the end pass it a quarter behind the middle, where flow begins."""
+    judged = flowing(0.008)
+    used = utilisation(judged, STRENGTH)
+    assert used["springs"][-1] == pytest.approx(4.0)
+    assert used["tire"][-1] == pytest.approx(0.5)  # elastic, though it could flow
+    found = first_yield(judged, STRENGTH)
+    assert found.part == "springs"
+    assert found.deflection == pytest.approx(0.02 * 1.25)
+    assert first_yield(judged, STRENGTH, 2.0).deflection == pytest.approx(0.02 * 1.5)
+    assert first_yield(flowing(0.0015), STRENGTH).part is None
+    _, springs = peak_stresses(judged, STRENGTH, 400.0)
+    assert (springs.stress, springs.used) == (pytest.approx(1000e6), pytest.approx(4.0))
+    assert largest_utilisation(judged, STRENGTH, 400.0) == pytest.approx(4.0)
+
+
+def test_before_it_flows_a_part_is_judged_by_its_stress() -> None:
+    judged = flowing(0.008)
+    _, before = peak_stresses(judged, STRENGTH, 150.0)
+    assert before.used == largest_utilisation(judged, STRENGTH, 150.0) == pytest.approx(0.75)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,7 +64,7 @@ class PeakStress:
     load, deflection : where on the curve [N, m]
     part : name of the part
     stress : the one that is judged [Pa], see `judged_stress`
-    used : that stress over yield strength, of a part that flows plastic strain over `PROOF_STRAIN` [-]
+    used : that stress over yield strength, of a part that flows up to there plastic strain over `PROOF_STRAIN` [-]
     strength : yield strength [Pa]
     local : largest von Mises stress anywhere in the part [Pa], which near a weld's end has no limit under refinement;
         the judged one of a curve that has no other
@@ -87,17 +87,30 @@ def peak_stresses(curve: StiffnessCurve, yield_strength: Mapping[str, float], lo
     InputError
         If the curve does not reach the load.
     """
-    at, found = curve.deflection_at(load), []
-    for part, used in utilisation(curve, yield_strength).items():
-        judged = judged_stress(curve, part)
+    there, found = _up_to(curve, load), []
+    for part, used in utilisation(there, yield_strength).items():
+        judged = judged_stress(there, part)
         assert judged is not None
-        columns = (judged, used, curve.columns.get(f"max_von_mises_{part}_Pa", judged))
-        stress, share, local = (float(np.interp(at, curve.deflection, column)) for column in columns)
-        strength = yield_strength[part]
-        found.append(
-            PeakStress(load=load, deflection=at, part=part, stress=stress, used=share, strength=strength, local=local)
+        one = PeakStress(
+            load=load,
+            deflection=float(there.deflection[-1]),
+            part=part,
+            stress=float(judged[-1]),
+            used=float(used[-1]),
+            strength=yield_strength[part],
+            local=float(there.columns.get(f"max_von_mises_{part}_Pa", judged)[-1]),
         )
+        found.append(one)
     return found
+
+
+def _up_to(curve: StiffnessCurve, load: float) -> StiffnessCurve:
+    """The curve up to a load [N] and there, linear between increments; InputError if it does not reach it."""
+    end = curve.deflection_at(load)
+    deflection = np.append(curve.deflection[curve.deflection < end], end)
+    columns = {name: np.interp(deflection, curve.deflection, column) for name, column in curve.columns.items()}
+    loads = np.interp(deflection, curve.deflection, curve.load)
+    return replace(curve, deflection=deflection, load=loads, columns=columns, partial=True)
 
 
 def plastic_strain(curve: StiffnessCurve, part: str) -> NDArray[np.float64] | None:
@@ -157,12 +170,10 @@ def largest_utilisation(
     InputError
         If the curve does not reach the load, or no part has a stress.
     """
-    end = curve.deflection_at(up_to)
-    found = utilisation(curve, yield_strength, allowed)
+    found = utilisation(_up_to(curve, up_to), yield_strength, allowed)
     if not found:
         raise InputError("curve", curve.model, "has no stress of any part", "compute it with stresses")
-    before = curve.deflection <= end
-    return max(max(float(np.interp(end, curve.deflection, u)), float(u[before].max())) for u in found.values())
+    return max(float(used.max()) for used in found.values())
 
 
 def smallest_yield_load(found: Sequence[FirstYield], needed: float) -> float:
