@@ -37,9 +37,10 @@ def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float], key: st
     key : where the set stands in its wheel
     """
     leg = spring_leg(springs, gap, 0.0, leg_sides(springs)[0])
-    half, what = 0.5 * springs.thickness, f"{springs.name} shape"
+    half, what = 0.5 * springs.largest_thickness, f"{springs.name} shape"
     radius = np.linalg.norm(leg.points, axis=1)
-    if radius.min() < gap[0] + half - 1e-7 or radius.max() > gap[1] - half + 1e-7:
+    own = 0.5 * springs.thickness_at(np.linspace(0.0, 1.0, len(radius)))
+    if np.any(radius < gap[0] + own - 1e-7) or np.any(radius > gap[1] - own + 1e-7):
         text = f"centreline at radius {radius.min() * 1e3:.4g}..{radius.max() * 1e3:.4g} mm"
         rule = f"crosses the hub or the rim, whose surfaces lie at {gap[0] * 1e3:.4g} and {gap[1] * 1e3:.4g} mm"
         raise InputError(what, text, rule, "move the spline's points into the gap", key=f"{key}.shape")
@@ -50,7 +51,7 @@ def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float], key: st
         raise InputError(
             what, text, f"must exceed half the thickness, {half * 1e3:.4g} mm", "smooth the spline", key=f"{key}.shape"
         )
-    if _overlaps_itself(leg, springs.thickness):
+    if _overlaps_itself(leg, springs.largest_thickness):
         raise InputError(
             what, springs.shape, "the strip overlaps itself", "move the spline's points apart", key=f"{key}.shape"
         )
@@ -63,7 +64,7 @@ def require_clear_sets(sets: Sequence[SpringSet], gap: tuple[float, float], keys
     """
     strips = [_strips(springs, gap) for springs in sets]
     for i, (first, own) in enumerate(zip(sets, strips, strict=True)):
-        if _any_within(own[:1], own[1:], first.thickness):
+        if _any_within(own[:1], own[1:], first.largest_thickness):
             rule = "springs of the set overlap each other"
             raise InputError(
                 f"{first.name} count",
@@ -73,7 +74,7 @@ def require_clear_sets(sets: Sequence[SpringSet], gap: tuple[float, float], keys
                 key=f"{keys[i]}.count",
             )
         for second, others in zip(sets[i + 1 :], strips[i + 1 :], strict=True):
-            thickness = 0.5 * (first.thickness + second.thickness)
+            thickness = 0.5 * (first.largest_thickness + second.largest_thickness)
             if _share_band(first, second) and _any_within(own, others, thickness):
                 rule = "their springs overlap or cross in a shared or touching axial band"
                 hint = "turn one set (phase) or separate their bands"
@@ -113,7 +114,7 @@ def _strips(springs: SpringSet, gap: tuple[float, float]) -> list[shapely.Geomet
     station, *_ = stations = station_angles(springs)
     on_weld = np.linspace(station - half_angle, station + half_angle, 2 + math.ceil(2.0 * half_angle / _WELD_STEP))
     pieces = [spring_leg(springs, gap, station, side).points for side in leg_sides(springs)]
-    for radius in (rim - 0.5 * springs.thickness, hub + 0.5 * springs.thickness):
+    for radius in (rim - 0.5 * springs.thickness, hub + 0.5 * springs.hub_thickness):
         pieces.append(np.array([polar(radius, angle) for angle in on_weld]))
     turns = [(math.cos(angle), math.sin(angle)) for angle in stations - station]
     return [shapely.MultiLineString([p @ np.array([[c, s], [-s, c]]) for p in pieces]) for c, s in turns]

@@ -1,7 +1,8 @@
 """Volumes and joint areas of a wheel's parts in closed form, from its dimensions alone.
 
 With a strip of thickness t along a centreline of length L the section is exactly t L (offset curves): a semicircle of
-radius R gives pi R t. Verified by tests/verification/test_mesh_volume.py.
+radius R gives pi R t. Where t varies it is the mean thickness times L, for the part of curvature cancels across the
+strip. Verified by tests/verification/test_mesh_volume.py.
 """
 
 from __future__ import annotations
@@ -115,13 +116,14 @@ def _width(bands: tuple[tuple[float, float], ...], half_width: bool) -> float:
 def _spring_section(springs: SpringSet, gap: tuple[float, float]) -> float:
     """Section area [m^2] of all strips and welds of a set."""
     hub, rim = gap
-    t, angle = springs.thickness, weld_angle(springs, rim)
-    welds = 0.5 * angle * (rim**2 - (rim - t) ** 2 + (hub + t) ** 2 - hub**2)
+    t, t_hub, angle = springs.thickness, springs.hub_thickness, weld_angle(springs, rim)
+    welds = 0.5 * angle * (rim**2 - (rim - t) ** 2 + (hub + t_hub) ** 2 - hub**2)
     sides = leg_sides(springs)
     if springs.shape == "spline":
-        strip = spring_leg(springs, gap, 0.0, sides[0]).length * t
+        length = spring_leg(springs, gap, 0.0, sides[0]).length
     else:
-        strip = math.pi * 0.5 * (rim - hub - t) * t
+        length = math.pi * 0.5 * (rim - hub - 0.5 * (t + t_hub))
+    strip = length * springs.mean_thickness
     return springs.count * (welds + len(sides) * strip)
 
 

@@ -10,6 +10,9 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from contracts.declared import Angle, Count, In, Number, PositiveLength, require_declared
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V, Material
@@ -104,7 +107,8 @@ class SpringSet:
 
     A weld is a layer of the strip's thickness on the ring, centred on the station. The strip leaves the rim weld
     through the weld's end face, tangentially to the rim, and arrives tangentially at the end of the hub weld, which
-    covers the same angle (theory notes 8, "Geometry trap": without an overlap the joint is a hinge).
+    covers the same angle (theory notes 8, "Geometry trap": without an overlap the joint is a hinge). Its thickness is
+    constant, or the parabola of the centreline's length through three values.
 
     Attributes
     ----------
@@ -112,11 +116,13 @@ class SpringSet:
     count : number of stations, equally spaced [-]
     phase : circumferential position of the first station (weld centre) [rad]
     bands : axial bands ``((y0, y1), ...)`` that each station's strips occupy [m]
-    thickness : strip thickness [m]
+    thickness : strip thickness, where it varies that of the weld on the rim and of the strip's end there [m]
     shape : ``"arc"`` one semicircle; ``"hoop"`` two mirrored semicircles that share a weld; ``"spline"`` a clamped
         cubic spline through ``points``
     weld_length : arc length of the weld on the outer ring's inner surface [m]
     direction : side to which an arc or spline leaves the weld: 1 towards larger phi, -1 towards smaller phi
+    thickness_middle : half way along the strip [m]; without it the mean of the ends', which makes a wedge
+    thickness_hub : of the weld on the hub and of the strip's end there [m]; without it that of the rim's end
     points : for ``"spline"``: (radius fraction, angle) of points on the centreline; the fraction runs from 0 on the rim
         weld's mid-surface to 1 on the hub weld's [-], the angle is measured from the weld's end in ``direction`` [rad]
     material : elastic material
@@ -131,6 +137,8 @@ class SpringSet:
     phase: Angle = 0.0
     direction: Literal[-1, 1] = 1
     points: tuple[tuple[Number, Angle], ...] = ()
+    thickness_middle: PositiveLength | None = None
+    thickness_hub: PositiveLength | None = None
     material: Material = TI_6AL_4V
 
     def __post_init__(self) -> None:
@@ -152,6 +160,47 @@ class SpringSet:
             raise InputError(
                 f"{self.name} points", self.points, rule, "give points such as ((0.5, 0.5),) for a spline", key="points"
             )
+        if self.tapered and not (thinnest := float(self.thickness_at(np.linspace(0.0, 1.0, 201)).min())) > 0.0:
+            rule = f"makes the strip {thinnest * 1e3:.3g} mm thick where it is thinnest, with these ends"
+            value = f"{self._thicknesses[1] * 1e3:g} mm"
+            hint = "give a middle nearer to the ends"
+            raise InputError(f"{self.name} thickness middle", value, rule, hint, key="thickness_middle")
+
+    @property
+    def tapered(self) -> bool:
+        """Whether the strip's thickness varies along it."""
+        return self.thickness_middle is not None or self.thickness_hub is not None
+
+    @property
+    def _thicknesses(self) -> tuple[float, float, float]:
+        """At the rim, half way, at the hub [m]."""
+        hub = self.thickness if self.thickness_hub is None else self.thickness_hub
+        middle = 0.5 * (self.thickness + hub) if self.thickness_middle is None else self.thickness_middle
+        return self.thickness, middle, hub
+
+    @property
+    def hub_thickness(self) -> float:
+        """Thickness of the weld on the hub and of the strip's end there [m]."""
+        return self._thicknesses[2]
+
+    @property
+    def mean_thickness(self) -> float:
+        """Mean thickness of the strip along its centreline [m]; Simpson's rule is exact for a parabola."""
+        rim, middle, hub = self._thicknesses
+        return (rim + 4.0 * middle + hub) / 6.0 if self.tapered else self.thickness
+
+    @property
+    def largest_thickness(self) -> float:
+        """Largest thickness of strip and welds [m]."""
+        return float(self.thickness_at(np.linspace(0.0, 1.0, 201)).max())
+
+    def thickness_at(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Thickness [m] at shares of the centreline's length, 0 at the rim, 1 at the hub; the same shape."""
+        if not self.tapered:
+            return np.full_like(share, self.thickness)
+        rim, middle, hub = self._thicknesses
+        at_ends = rim * (1.0 - share) * (1.0 - 2.0 * share) + hub * share * (2.0 * share - 1.0)
+        return at_ends + 4.0 * middle * share * (1.0 - share)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -118,7 +118,7 @@ def _add_springs(
 ) -> None:
     """Welds and strips of one set; ``surfaces`` names the corners and division of the outer and the inner ring."""
     hub_radius, rim_radius = gap
-    half, t = 0.5 * weld_angle(springs, rim_radius), springs.thickness
+    half, t, t_hub = 0.5 * weld_angle(springs, rim_radius), springs.thickness, springs.hub_thickness
     (rim_name, rim), (hub_name, hub) = surfaces
     at_rim, at_hub = (f"{springs.name}_rim", rim_name), (f"{springs.name}_hub", hub_name)
     back = {"inner": f"{springs.name}_back"}
@@ -126,7 +126,7 @@ def _add_springs(
         for i in rim.span(station - half, station + half):
             draft.add_ring_piece(springs.name, (at_rim, (rim_radius - t, rim_radius)), rim, i, back)
         for i in hub.span(station - half, station + half):
-            draft.add_ring_piece(springs.name, (at_hub, (hub_radius + t, hub_radius)), hub, i, back)
+            draft.add_ring_piece(springs.name, (at_hub, (hub_radius + t_hub, hub_radius)), hub, i, back)
         for side in leg_sides(springs):
             leg = spring_leg(springs, gap, station, side)
             i, j = rim.index(station + side * half), hub.index(station + side * half)
@@ -141,8 +141,12 @@ def _add_leg(
     """Blocks of one strip; ``ends`` are the corners, inside to outside, it shares with the welds on rim and hub."""
     stride = (len(leg.points) - 1) // leg.segments
     per_half_ring = max(_LEAST_PER_HALF_RING, math.ceil(leg.length / draft.size.of(springs.name) - 1e-6))
-    offsets = springs.thickness * np.linspace(-0.5, 0.5, len(ends[0]))
-    lines = [leg.points + offset * leg.normals for offset in offsets]
+    thickness = springs.thickness_at(np.linspace(0.0, 1.0, len(leg.points)))
+    lines = [
+        leg.points + (height * thickness)[:, None] * leg.normals for height in np.linspace(-0.5, 0.5, len(ends[0]))
+    ]
+    slopes = [_tangents(springs, leg, line) for line in lines]
+    centre = None if springs.tapered else leg.centre
     stations = [ends[0]]
     for s in range(1, leg.segments):
         names: list[Key] = [(springs.name, *key, s, level) for level in range(len(lines))]
@@ -151,18 +155,26 @@ def _add_leg(
     for s in range(leg.segments):
         piece = slice(s * stride, (s + 1) * stride + 1)
         curves = [
-            _leg_curve(leg, line[piece], leg.normals[piece], (stations[s][k], stations[s + 1][k]))
-            for k, line in enumerate(lines)
+            _leg_curve(centre, line[piece], slope[piece], (stations[s][k], stations[s + 1][k]))
+            for k, (line, slope) in enumerate(zip(lines, slopes, strict=True))
         ]
         sides = {"inner": f"{springs.name}_back", "outer": f"{springs.name}_front"}
         count = draft.size.refined(math.ceil(per_half_ring / leg.segments))
         draft.add_layers(springs.name, curves, count, sides)
 
 
-def _leg_curve(leg: Leg, points: Array, normals: Array, ends: tuple[Key, Key]) -> Curve:
-    if leg.centre is not None:
-        return Curve(start=ends[0], end=ends[1], centre=leg.centre)
-    tangents = np.column_stack([-normals[[0, -1], 1], normals[[0, -1], 0]])
-    if np.dot(tangents[0], points[1] - points[0]) < 0.0:
-        tangents = -tangents
-    return Curve(start=ends[0], end=ends[1], through=points[1:-1], tangents=tangents)
+def _tangents(springs: SpringSet, leg: Leg, line: Array) -> Array:
+    """Unit tangents of a line beside a leg's centreline, (n, 2): across its normals where it is as far everywhere."""
+    if springs.tapered:
+        from scipy.interpolate import CubicSpline
+
+        slope = CubicSpline(np.linspace(0.0, 1.0, len(line)), line)(np.linspace(0.0, 1.0, len(line)), 1)
+        return np.asarray(slope / np.linalg.norm(slope, axis=1)[:, None])
+    tangents = np.column_stack([-leg.normals[:, 1], leg.normals[:, 0]])
+    return -tangents if np.dot(tangents[0], line[1] - line[0]) < 0.0 else tangents
+
+
+def _leg_curve(centre: Array | None, points: Array, tangents: Array, ends: tuple[Key, Key]) -> Curve:
+    if centre is not None:
+        return Curve(start=ends[0], end=ends[1], centre=centre)
+    return Curve(start=ends[0], end=ends[1], through=points[1:-1], tangents=tangents[[0, -1]])

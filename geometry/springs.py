@@ -34,7 +34,7 @@ class Leg:
     normals : (n, 2) float [-], unit normals to the side that faces the rim at the start and the hub at the end
     length : arc length of the centreline [m]
     segments : number of equal pieces the mesh divides it into; n - 1 is a multiple of it
-    centre : (2,) float [m] of a circular leg, None for a spline
+    centre : (2,) float [m] of a circular centreline, None for a spline
     """
 
     points: Array
@@ -77,24 +77,24 @@ def spring_leg(springs: SpringSet, gap: tuple[float, float], station: float, sid
     """
     hub, rim = gap
     ray = station + side * 0.5 * weld_angle(springs, rim)
-    ends = hub + 0.5 * springs.thickness, rim - 0.5 * springs.thickness
+    ends = hub + 0.5 * springs.hub_thickness, rim - 0.5 * springs.thickness
     if springs.shape == "spline":
         return _spline_leg(springs, ends, ray, side)
-    return _arc_leg(ends, ray, side)
+    return _arc_leg(ends, ray, side, SPLINE_SEGMENTS if springs.tapered else ARC_SEGMENTS)
 
 
-def _arc_leg(ends: tuple[float, float], ray: float, side: int) -> Leg:
-    """Semicircle whose diameter lies on the ray between the radii ``ends``."""
+def _arc_leg(ends: tuple[float, float], ray: float, side: int, segments: int) -> Leg:
+    """Semicircle whose diameter lies on the ray between the radii ``ends``; its sides are splines where they taper."""
     radius = 0.5 * (ends[1] - ends[0])
     centre = polar(0.5 * (ends[0] + ends[1]), ray)
     radial, hoop = polar(1.0, ray), np.array([math.cos(ray), math.sin(ray)])
-    theta = np.linspace(0.0, math.pi, ARC_SEGMENTS * _SAMPLES_PER_SEGMENT + 1)[:, None]
+    theta = np.linspace(0.0, math.pi, segments * _SAMPLES_PER_SEGMENT + 1)[:, None]
     normals = np.cos(theta) * radial + side * np.sin(theta) * hoop
     return Leg(
         points=centre + radius * normals,
         normals=normals,
         length=math.pi * radius,
-        segments=ARC_SEGMENTS,
+        segments=segments,
         centre=centre,
     )
 

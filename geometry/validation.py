@@ -130,7 +130,7 @@ def _check_band(what: str, band: tuple[float, float], half_width: float, key: st
 
 def _check_springs(springs: SpringSet, gap: tuple[float, float], half_width: float, key: str) -> None:
     hub, rim = gap
-    if 2.0 * springs.thickness >= rim - hub:
+    if springs.thickness + springs.hub_thickness >= rim - hub:
         rule = f"strip and two welds do not fit the gap of {(rim - hub) * 1e3:.4g} mm between the rings"
         raise InputError(
             f"{springs.name} thickness",

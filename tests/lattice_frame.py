@@ -40,7 +40,7 @@ def shift_stiffness(lattice: Lattice, plan: Plan, modulus: float, turned: bool =
     K = np.zeros((3 * len(number),) * 2)
     for a, b in beams:
         at = [3 * number[node] + k for node in (a, b) for k in range(3)]
-        K[np.ix_(at, at)] += _beam(places[b] - places[a], modulus, lattice.thickness)
+        K[np.ix_(at, at)] += beam(places[b] - places[a], modulus, lattice.thickness)
     fixed, u = np.zeros(len(K), dtype=bool), np.zeros(len(K))
     force = np.zeros(len(K))
     for (ring, _), k in number.items():
@@ -54,7 +54,7 @@ def shift_stiffness(lattice: Lattice, plan: Plan, modulus: float, turned: bool =
     return float(force @ K @ u)
 
 
-def _beam(along: Array, modulus: float, t: float) -> Array:
+def beam(along: Array, modulus: float, t: float) -> Array:
     """Stiffness of one beam, (6, 6): displacement x, z and turn (x to z) of both ends."""
     length = float(np.linalg.norm(along))
     c, s = along / length

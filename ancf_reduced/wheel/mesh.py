@@ -102,12 +102,16 @@ def build_ancf_wheel(
     InputError
         For bands that are not symmetric where half of the wheel is asked for, sizes that are not positive, bands
         so narrow that plates between them were narrower than they are thick, an elastic hub that nothing holds, a
-        lattice or a tread.
+        lattice, a tread, or springs whose thickness varies.
     """
     for name in ("lattice", "tread"):
         if getattr(design, name) is not None:
             rule = "is no thin plate: this model is made of strips welded on a rim"
             raise InputError(name, f"of {design.name}", rule, "use the solid model or the section model")
+    for springs in (*design.spring_sets, *([design.impact_springs] if design.impact_springs is not None else [])):
+        if springs.tapered:
+            rule = "varies along the strip; this model's plates are even"
+            raise InputError(f"thickness of {springs.name}", "", rule, "use the solid model or the section model")
     if not (math.isfinite(factor) and factor >= 1.0):
         raise InputError("factor", f"{factor:g}", "must be >= 1", "1 is the mesh of the sizes given")
     require_positive_length("ground spacing", ground_spacing)

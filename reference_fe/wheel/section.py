@@ -56,21 +56,21 @@ def solve_section(
 def strip_constraints(design: WheelDesign) -> dict[str, float]:
     """How rim and springs are held across the plane, part -> constraint [-], see `plane_state.strip_constraint`.
 
-    Each strip counts with its own width, thickness and Poisson ratio; the bands of a set are weighted by their widths.
-    The other parts are in plane strain.
+    Each strip counts with its own width, mean thickness and Poisson ratio; the bands of a set are weighted by their
+    widths. The other parts are in plane strain.
     """
     tire = design.tire
-    found = {"tire": _constraint(tire, tire.width, tire.outer_radius - 0.5 * tire.thickness)}
+    found = {"tire": _constraint(tire, tire.width, tire.outer_radius - 0.5 * tire.thickness, tire.thickness)}
     for springs in design.spring_sets:
         radius = _mean_radius(springs, (design.outer_hub.outer_radius, tire.inner_radius))
         widths = np.array([b - a for a, b in springs.bands])
-        bands = np.array([_constraint(springs, float(width), radius) for width in widths])
+        bands = np.array([_constraint(springs, float(width), radius, springs.mean_thickness) for width in widths])
         found[springs.name] = float(bands @ widths / widths.sum())
     return found
 
 
-def _constraint(strip: Tire | SpringSet, width: float, radius: float) -> float:
-    return strip_constraint(width, radius, strip.thickness, strip.material.poisson_ratio)
+def _constraint(strip: Tire | SpringSet, width: float, radius: float, thickness: float) -> float:
+    return strip_constraint(width, radius, thickness, strip.material.poisson_ratio)
 
 
 def _mean_radius(springs: SpringSet, gap: tuple[float, float]) -> float:

@@ -101,6 +101,10 @@ def _factor(section: Tangent, target: float, guess: float) -> float:
 def strip_thicknesses(study: Study, factor: float = 1.0) -> dict[str, float]:
     """Thickness of the rim, of each spring set and of a lattice's walls [m], scaled, to a tenth of a micrometre."""
     design = wheel_design(study)
+    for springs in design.spring_sets:
+        if springs.tapered:
+            rule = "varies along the strip, which calibrate does not scale"
+            raise InputError(f"thickness of {springs.name}", "", rule, "vary strip_scale in [sweep] instead")
     strips = {"tire": design.tire.thickness} | {s.name: s.thickness for s in design.spring_sets}
     if design.lattice is not None:
         strips["lattice"] = design.lattice.thickness

@@ -12,6 +12,7 @@ from workbench.study.own_mesh import own_mesh
 
 if TYPE_CHECKING:
     from workbench.study.model import Study
+    from workbench.study.wheel import SpringsSection
 
 __all__ = ["without_ancf_wheel"]
 
@@ -24,6 +25,7 @@ def without_ancf_wheel(study: Study) -> str | None:
     lacks = (
         ("mesh.file", own_mesh(study) is not None),
         ("wheel.lattice", wheel is not None and wheel.lattice is not None),
+        ("springs of varying thickness", any(_varies(one) for one in springs)),
         ("wheel.tread", wheel is not None and wheel.tread is not None),
         (f"fe.hub = {fe.hub} without springs between rim and hub", fe.hub != "rigid" and not springs),
         ('fe.contact_stiffness = "auto"', fe.contact_stiffness is None),
@@ -31,3 +33,7 @@ def without_ancf_wheel(study: Study) -> str | None:
         (f"{key} = {kind}", bool(kind)),
     )
     return next((name for name, stands in lacks if stands), None)
+
+
+def _varies(springs: SpringsSection) -> bool:
+    return any(getattr(springs, key) is not None for key in ("thickness_middle", "thickness_hub"))

@@ -270,6 +270,8 @@ def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value, ba
     if key == "strip_thickness":
         for part in _strips(table):
             part["thickness"] = value
+            for one in _TAPER & part.keys():
+                del part[one]
     elif key == "strip_scale":
         _scale(table, value)
     elif key == "orientation_step":
@@ -283,6 +285,10 @@ def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value, ba
             _set_key(path, table, name, value if sign > 0.0 else _negative(path, name, value))
 
 
+_TAPER = {"thickness_middle", "thickness_hub"}
+"""Thickness of springs elsewhere than at the rim, where it varies."""
+
+
 def _strips(table: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Tables of the parts that have a strip's thickness."""
     wheel = table.get("wheel", {})
@@ -293,9 +299,10 @@ def _strips(table: Mapping[str, Any]) -> list[dict[str, Any]]:
 def _scale(table: Mapping[str, Any], factor: Value) -> None:
     """Thickness of rim and springs times a factor."""
     for part in _strips(table):
-        number = number_and_unit(part.get("thickness"))
-        if number is not None and isinstance(factor, int | float) and not isinstance(factor, bool):
-            part["thickness"] = f"{number[0] * factor:.9g} {number[1]}".rstrip()
+        for key in ("thickness", *(_TAPER & part.keys())):
+            number = number_and_unit(part.get(key))
+            if number is not None and isinstance(factor, int | float) and not isinstance(factor, bool):
+                part[key] = f"{number[0] * factor:.9g} {number[1]}".rstrip()
 
 
 def _negative(path: Path, key: str, value: Value) -> Value:

@@ -30,6 +30,8 @@ MESH, MESH_WHOLE = "mesh", "mesh_whole"
 """Names of the tasks."""
 _NAMED_WHERE_GIVEN = ("tread", "lattice")
 """Parts that tasks hear of only where the wheel has them: results of other wheels keep their keys."""
+_THICKNESSES = ("thickness_middle", "thickness_hub")
+"""Keys of springs of which the same is true."""
 
 
 def wheel_meshes(study: Study) -> tuple[Task, Task]:
@@ -119,6 +121,9 @@ def wheel_inputs(study: Study) -> dict[str, Any]:
     for group in wheel.values():
         for part in group if isinstance(group, list) else [group] if group else []:
             part["material"] = labels[part["material"]]
+            for key in _THICKNESSES:
+                if part.get(key, 0.0) is None:
+                    del part[key]
     words = {"source", "temperature_data"}
     materials = {label: study.materials[name].model_dump(mode="json", exclude=words) for name, label in labels.items()}
     return {"wheel": wheel, "materials": materials}
