@@ -85,5 +85,5 @@ class FormCells:
         """Store S(E(u)), with CC : DE(u)[du] added if ``extrapolate``, at the Gauss points."""
         for cells, current, extrapolated in self._stress:
             values = (extrapolated if extrapolate else current)(self._mesh, cells)
-            stored = self._stored.x.array.reshape(-1, values[0].size)
-            stored[cells] = values.reshape(len(values), -1)
+            size = int(np.prod(values.shape[1:]))
+            self._stored.x.array.reshape(-1, size)[cells] = values.reshape(-1, size)

@@ -38,7 +38,7 @@ class StoredEnergy:
         total, domain, general = 0.0, self._problem.domain, self._problem.general
         for parts, at_points in self._forms:
             cells = domain.cells_of(parts)
-            total += float(np.sum(at_points(domain.mesh, cells).reshape(len(cells), -1) @ self._weights))
+            total += float(np.sum(at_points(domain.mesh, cells).reshape(-1, len(self._weights)) @ self._weights))
         if general is not None:
             total += general.stored_energy(self._problem.u.x.array)
         return float(domain.mesh.comm.allreduce(total))
