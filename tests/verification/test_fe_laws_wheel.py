@@ -3,8 +3,8 @@
 Sources: a body free to expand is free of stress at theta times its size, whatever its law; a clamped rod of rubber or
 metal heated by theta carries the stress of its law at the elastic stretch 1/theta (closed forms of
 tests/verification/test_fe_laws_uniform.py). A wheel of metal that never yields is the neo-Hookean wheel within what
-their energies and pressure functions differ by (1.0 % on this coarse mesh, 1.5 % are allowed); one that yields is softer, and the ground's work is what
-is stored and what flow dissipates. Negative control: without the dissipation the account does not close.
+their energies and pressure functions differ by (1.0 % on this coarse mesh, 1.5 % are allowed); one that yields is
+softer, and the ground's work is what is stored and what flow dissipates.
 """
 
 from __future__ import annotations
