@@ -20,8 +20,8 @@ class Material:
     Attributes
     ----------
     name : name as printed in reports
-    young_modulus : E > 0 [Pa]
-    poisson_ratio : nu, -1 < nu < 0.5 [-]
+    young_modulus : E > 0 [Pa], of rubber that of its law at small strain
+    poisson_ratio : nu, -1 < nu < 0.5 [-], of rubber that of its law at small strain
     density : rho > 0 [kg/m^3]
     yield_strength : R_p0.2 > 0 [Pa]; None for what does not yield, such as rubber
     source : where the numbers come from

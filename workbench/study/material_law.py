@@ -21,7 +21,7 @@ class StVenantKirchhoffSection(Section):
     """Metal that stays elastic, by Young's modulus and Poisson's ratio."""
 
     kind: Literal["st_venant_kirchhoff"]
-    """St. Venant and Kirchhoff's law, for small strain at any rotation."""
+    """``"st_venant_kirchhoff"``, for small strain at any rotation."""
 
 
 @reads(NeoHookean)
@@ -29,7 +29,7 @@ class NeoHookeanSection(Section):
     """Compressible neo-Hookean material, by Young's modulus and Poisson's ratio."""
 
     kind: Literal["neo_hookean"]
-    """Neo-Hookean, for strain that may be large in compression."""
+    """``"neo_hookean"``, for strain that may be large in compression."""
 
 
 @reads(MooneyRivlin)
@@ -37,7 +37,7 @@ class MooneyRivlinSection(Section):
     """Rubber of two terms; Young's modulus and Poisson's ratio follow from its constants."""
 
     kind: Literal["mooney_rivlin"]
-    """Mooney and Rivlin's law of rubber."""
+    """``"mooney_rivlin"``."""
 
 
 @reads(Ogden)
@@ -45,7 +45,7 @@ class OgdenSection(Section):
     """Rubber by principal stretches; Young's modulus and Poisson's ratio follow from its constants."""
 
     kind: Literal["ogden"]
-    """Ogden's law of rubber."""
+    """``"ogden"``."""
 
 
 @reads(J2Plasticity)
@@ -53,7 +53,7 @@ class J2PlasticitySection(Section):
     """Metal that yields at its yield strength and hardens."""
 
     kind: Literal["j2_plasticity"]
-    """Von Mises' plasticity with isotropic hardening."""
+    """``"j2_plasticity"``: von Mises' criterion, isotropic hardening."""
 
 
 LawSection = Annotated[
