@@ -17,6 +17,7 @@ __all__ = [
     "facet_areas",
     "facet_samples",
     "facet_widths",
+    "lattice_order",
     "measure_patch",
 ]
 
@@ -126,6 +127,11 @@ def facet_widths(mesh: TaggedMesh, facets: NDArray[np.int64]) -> NDArray[np.floa
     return widths
 
 
+def lattice_order(nodes: int) -> tuple[tuple[int, int], ...]:
+    """Place of each of a facet's 4 or 9 nodes on the lattice of its two axes."""
+    return _ORDER[nodes]
+
+
 def _area_vectors(derivatives: NDArray[np.float64], nodes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Normals as long as the area (length of an edge) per reference area, (n_facets, s, dim)."""
     tangents = np.einsum("asn,fnk->afsk", derivatives, nodes)
@@ -153,7 +159,7 @@ def _shapes(edge: NDArray[np.float64], nodes: int) -> tuple[NDArray[np.float64],
     a, b = (grid.ravel() for grid in np.meshgrid(edge, edge, indexing="ij"))
     la, da = _line(a, nodes)
     lb, db = _line(b, nodes)
-    order = _ORDER[nodes]
+    order = lattice_order(nodes)
     along = np.stack([da[i] * lb[j] for i, j in order], axis=-1)
     across = np.stack([la[i] * db[j] for i, j in order], axis=-1)
     return np.stack([la[i] * lb[j] for i, j in order], axis=-1), np.stack([along, across])

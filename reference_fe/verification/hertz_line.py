@@ -20,8 +20,11 @@ from numpy.typing import NDArray
 from contracts.errors import ConvergenceError
 from contracts.materials import Material
 from contracts.published import published_table
+from reference_fe.contact.law import ramped_pressure
+from reference_fe.contact.nodal_pressure import nodal_pressure
 from reference_fe.contact.obstacle import ContactMethod, ObstacleContact, ObstacleTerm
 from reference_fe.contact.obstacles import HalfRoundRock
+from reference_fe.contact.patch import contact_faces, facet_areas
 from reference_fe.material.hyperelastic import MaterialLaw
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import Discretisation, StaticProblem
@@ -29,7 +32,18 @@ from reference_fe.problem.supports import Support
 from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 
-__all__ = ["CELLS", "E_STAR", "GENTLE", "HALF_WIDTH", "LOAD", "PEAK_PRESSURE", "RADIUS", "LineContact", "line_contact"]
+__all__ = [
+    "CELLS",
+    "E_STAR",
+    "GENTLE",
+    "HALF_WIDTH",
+    "LOAD",
+    "PEAK_PRESSURE",
+    "RADIUS",
+    "LineContact",
+    "line_contact",
+    "pressure_on_the_line",
+]
 
 _TABLE = published_table("hertz_line")
 LOAD, RADIUS = 1e3 * float(_TABLE["F_N_per_mm"][0]), 1e-3 * float(_TABLE["R_mm"][0])
@@ -93,6 +107,30 @@ def line_contact(
     )
 
 
+def pressure_on_the_line(cells: tuple[int, int], stiffness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Deformed places x of the face's nodes [m] and the pressure recovered there [Pa], by the penalty method.
+
+    At the gentle load: `GENTLE` times the radius, half width `HALF_WIDTH`, peak `PEAK_PRESSURE` over `GENTLE`.
+
+    Parameters
+    ----------
+    cells : along the contact and into the depth
+    stiffness : penalty stiffness [N/m^3]
+    """
+    problem = half_block(GENTLE * RADIUS, 0.0, ContactMethod.PENALTY, cells, stiffness)
+    _press_to_the_load(problem, LOAD / GENTLE)
+    mesh, term = problem.domain.tagged, _term(problem)
+    facets = contact_faces(mesh, term.description.faces)
+    shape, areas = facet_areas(mesh, facets, term.description.gauss_points)
+    moved = mesh.points + problem.nodal_displacement()
+    points = np.einsum("sn,fnk->fsk", shape, moved[facets])
+    gap = term.description.gap(points.reshape(-1, 3), float(problem.load_factor.value))
+    law = (ramped_pressure(float(g), stiffness, term.description.ramp)[0] for g in gap)
+    pressure, _ = nodal_pressure(len(mesh.points), facets, areas, np.fromiter(law, float).reshape(areas.shape))
+    on = np.unique(facets)
+    return moved[on, 0], pressure[on]
+
+
 def _forces_on_the_line(problem: StaticProblem) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Deformed places x of the face's stations of nodes [m], from the middle outwards, and their forces [N/m]."""
     on = np.unique(_term(problem).couplings())
@@ -116,7 +154,11 @@ def _weight(x: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def half_block(
-    obstacle_radius: float, body_curvature: float, method: ContactMethod, cells: tuple[int, int] = CELLS
+    obstacle_radius: float,
+    body_curvature: float,
+    method: ContactMethod,
+    cells: tuple[int, int] = CELLS,
+    stiffness: float | None = None,
 ) -> StaticProblem:
     """Half of a block in plane strain, with small cells at the contact, on a cylinder that rises from below.
 
@@ -125,6 +167,7 @@ def half_block(
     obstacle_radius : of the cylinder [m]
     body_curvature : of the block's face, > 0 if convex [1/m]
     cells : along the contact and into the depth
+    stiffness : penalty stiffness [N/m^3]; None is that of each facet's cell
     """
 
     def graded(t: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -147,6 +190,7 @@ def half_block(
         obstacle=HalfRoundRock(radius=obstacle_radius),
         ramp=1e-7,
         method=method,
+        stiffness=stiffness,
     )
     choice = Discretisation(law=MaterialLaw.NEO_HOOKEAN, gauss_points=(3, 3, 3))
     domain = Domain.from_tagged(block_mesh((cells[0], 1, cells[1]), mapping))

@@ -15,13 +15,14 @@ from contracts.errors import InputError
 from contracts.footprint import Footprint
 from contracts.mesh import TaggedMesh
 from reference_fe.contact.law import ramped_pressure
+from reference_fe.contact.nodal_pressure import nodal_pressure
 from reference_fe.contact.obstacle import ObstacleContact
 from reference_fe.contact.obstacles import Plane
 from reference_fe.contact.patch import contact_faces, facet_areas
 from reference_fe.wheel.case import WheelLoadCase
 from reference_fe.wheel.problem import ground_contact
 
-__all__ = ["footprint"]
+__all__ = ["footprint", "pressure_at_nodes"]
 
 Array = NDArray[np.float64]
 
@@ -42,21 +43,40 @@ def footprint(mesh: TaggedMesh, displacement: Array, load_case: WheelLoadCase, d
         For another ground or contact method, whose pressures do not follow from the gap.
     """
     contact = ground_contact(mesh, load_case)
-    _require_penalty(contact)
-    facets = contact_faces(mesh, contact.faces)
-    shape, areas = facet_areas(mesh, facets, contact.gauss_points)
-    points = np.einsum("sn,fnk->fsk", shape, (mesh.points + displacement)[facets]).reshape(-1, 3)
-    gap = contact.gap(points, deflection)
-    on = np.flatnonzero(gap < contact.ramp)
-    stiffness = contact.stiffness
-    assert stiffness is not None
-    pressure = np.array([ramped_pressure(float(g), stiffness, contact.ramp)[0] for g in gap[on]])
+    _, points, areas, pressure = _pressed(mesh, displacement, contact, deflection)
+    on = np.nonzero(pressure)
     normal, forward, _ = contact.axes()
-    place, force = points[on] @ np.stack([forward, np.cross(normal, forward)], axis=1), pressure * areas.ravel()[on]
+    place, pressure = points[on] @ np.stack([forward, np.cross(normal, forward)], axis=1), pressure[on]
+    force = pressure * areas[on]
     if "symmetry" in mesh.faces:
         place = np.concatenate([place, place * [1.0, -1.0]])
         force, pressure = np.tile(force, 2), np.tile(pressure, 2)
     return Footprint(place=place, force=force, pressure=pressure)
+
+
+def pressure_at_nodes(mesh: TaggedMesh, displacement: Array, load_case: WheelLoadCase, deflection: float) -> Array:
+    """Contact pressure on the ground at every node of the mesh (n_points,) [Pa], see `contact.nodal_pressure`; with
+    the arguments and errors of `footprint`.
+    """
+    contact = ground_contact(mesh, load_case)
+    facets, _, areas, pressure = _pressed(mesh, displacement, contact, deflection)
+    return nodal_pressure(len(mesh.points), facets, areas, pressure)[0]
+
+
+def _pressed(
+    mesh: TaggedMesh, displacement: Array, contact: ObstacleContact, deflection: float
+) -> tuple[NDArray[np.int64], Array, Array, Array]:
+    """Facets (f, n) that may touch; their quadrature points (f, q, 3), areas and pressures (f, q)."""
+    _require_penalty(contact)
+    facets = contact_faces(mesh, contact.faces)
+    shape, areas = facet_areas(mesh, facets, contact.gauss_points)
+    points = np.einsum("sn,fnk->fsk", shape, (mesh.points + displacement)[facets])
+    gap = contact.gap(points.reshape(-1, 3), deflection).reshape(areas.shape)
+    stiffness, pressure = contact.stiffness, np.zeros_like(gap)
+    assert stiffness is not None
+    on = gap < contact.ramp
+    pressure[on] = [ramped_pressure(float(g), stiffness, contact.ramp)[0] for g in gap[on]]
+    return facets, points, areas, pressure
 
 
 def _require_penalty(contact: ObstacleContact) -> None:

@@ -16,7 +16,7 @@ OFFERED = {
     "model": ["fe"],
     "orientation": [0, 30.0],
     "load": [0, 2],
-    "quantity": ["stress", "displacement"],
+    "quantity": ["stress", "displacement", "pressure"],
     "scenario": ["straight"],
     "tire": ["brush"],
     "series": ["load_N"],
@@ -39,7 +39,8 @@ def page() -> Any:
         series_choices={"load_N": "wheel load"},
         last_frame=9,
     )
-    return SimpleNamespace(state=state, curves={"fe_average": None}, wheel_models=lambda: ["fe"])
+    known = {"wheel_models": lambda: ["fe"], "quantities": lambda: ["stress", "displacement", "pressure"]}
+    return SimpleNamespace(state=state, curves={"fe_average": None}, **known)
 
 
 @pytest.mark.parametrize("name", CHOICES)
@@ -49,6 +50,13 @@ def test_what_is_offered_passes_and_nothing_else(name: str) -> None:
     for value in (*NOT, *([] if name == "playing" else [True])):
         with pytest.raises(Refused):
             assert allowed_change(page(), {"key": name, "value": value}) is None, value
+
+
+def test_a_pressure_that_is_not_known_is_not_offered() -> None:
+    session = page()
+    session.quantities = lambda: ["stress", "displacement"]
+    with pytest.raises(Refused):
+        allowed_change(session, {"key": "quantity", "value": "pressure"})
 
 
 def test_a_rover_without_motions_is_not_offered() -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from contracts.errors import InputError
 from tests.small_report_folder import POINTS, ring_mesh, write_small_report
+from workbench.questions.fe.field_file import write_pressures
 from workbench.viewer.folder import read_folder
 from workbench.viewer.scene import Scene
 from workbench.viewer.stages import RoverStage, wheel_stage
@@ -45,6 +46,26 @@ def test_a_wheel_is_shown_at_every_point_of_its_curve(tmp_path: Path) -> None:
     np.savez(path, allow_pickle=False, load=[1.0], displacement=np.zeros((1, 8, 3)), von_mises=np.zeros((1, 8)))
     with pytest.raises(InputError, match=r"must hold the \d+ nodes of the mesh"):
         wheel_stage(0.0, files, path)
+
+
+def test_contact_pressure_is_offered_where_every_load_has_one(tmp_path: Path) -> None:
+    write_small_report(tmp_path)
+    files = [(one.load, one.path) for one in read_folder(tmp_path).fields if one.orientation == 30.0]
+    nodes = len(ring_mesh().points)
+    path = tmp_path / "fields" / "fe_phi030_pressure.npz"
+    write_pressures([(100.0, np.full(nodes, 1e5)), (200.0, np.full(nodes, 2e5))], path)
+    assert read_folder(tmp_path).pressures == {("fe", 30.0): path}
+    stage = wheel_stage(30.0, files, pressures=path)
+    assert stage.quantities == ("stress", "displacement", "pressure")
+    assert [float(stage.values(k, "pressure").max()) for k in range(3)] == pytest.approx([0.0, 1e5, 2e5])
+    write_pressures([(100.0, np.full(nodes, 1e5))], path)
+    assert wheel_stage(30.0, files, pressures=path).quantities == ("stress", "displacement")
+    write_pressures([(100.0, np.ones(8)), (200.0, np.ones(8))], path)
+    with pytest.raises(InputError, match=r"must hold the \d+ nodes of the mesh"):
+        wheel_stage(30.0, files, pressures=path)
+    np.savez(path, load=[100.0])
+    with pytest.raises(InputError, match="lacks numbers of load, contact_pressure"):
+        wheel_stage(30.0, files, pressures=path)
 
 
 def test_scene_and_motion_move_what_is_drawn(tmp_path: Path) -> None:

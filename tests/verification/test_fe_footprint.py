@@ -16,11 +16,14 @@ from contracts.footprint import Footprint
 from contracts.mesh import TaggedMesh
 from geometry.build import build_mesh
 from geometry.wheel import WheelDesign, exomars_hoops
+from reference_fe.contact.nodal_pressure import nodal_pressure
 from reference_fe.contact.obstacle import ContactMethod
 from reference_fe.contact.obstacles import HalfRoundRock
+from reference_fe.contact.patch import contact_faces, facet_areas
 from reference_fe.wheel.case import WheelLoadCase, WheelResult
-from reference_fe.wheel.footprint import footprint
+from reference_fe.wheel.footprint import footprint, pressure_at_nodes
 from reference_fe.wheel.pressed import solve_wheel
+from reference_fe.wheel.problem import ground_contact
 
 LOAD = 60.0
 CASE = WheelLoadCase(orientation_deg=20.0, deflections=(2e-3, 4e-3), snapshot_loads=(LOAD,))
@@ -89,3 +92,17 @@ def test_another_deflection_carries_another_load() -> None:
     mesh, result = solved(1.0)
     (snapshot,) = result.snapshots
     assert footprint(mesh, snapshot.displacement, CASE, snapshot.deflection + 1e-4).load > 3.0 * LOAD
+
+
+def test_pressures_at_nodes_carry_the_load() -> None:
+    """Each times the area that its node stands for, of half the wheel; nowhere negative."""
+    mesh, result = solved(1.0)
+    (snapshot,) = result.snapshots
+    pressure = pressure_at_nodes(mesh, snapshot.displacement, CASE, snapshot.deflection)
+    facets = contact_faces(mesh, ("tire_outer", "grouser_outer"))
+    _, areas = facet_areas(mesh, facets, ground_contact(mesh, CASE).gauss_points)
+    _, area = nodal_pressure(len(mesh.points), facets, areas, np.zeros_like(areas))
+    assert 2.0 * float(pressure @ area) == pytest.approx(snapshot.load, rel=1e-9)
+    assert pressure.min() == 0.0
+    lowest = (mesh.points + snapshot.displacement)[pressure.argmax()]
+    assert np.degrees(np.arctan2(lowest[0], -lowest[2])) == pytest.approx(20.0, abs=15.0)

@@ -19,7 +19,7 @@ from contracts.records import Check, Timing
 from contracts.series import TimeSeries, write_series
 from contracts.text import for_json, one_line
 from workbench.execution.store import Entry
-from workbench.questions.fe.field_file import POINTS_FILE
+from workbench.questions.fe.field_file import POINTS_FILE, PRESSURE_FILE
 from workbench.report.evidence import Evidence
 from workbench.report.placing import new_files
 from workbench.report.series import SERIES_FOLDER, series_files
@@ -52,16 +52,18 @@ def curve_links(curves: Sequence[StiffnessCurve]) -> dict[str, str]:
 
 
 def field_files(entries: Mapping[str, Entry]) -> dict[str, Path]:
-    """``fields/fe_phi000_200N.vtu``, ``fields/fe_phi000_points.npz``, ``footprints/fe_phi000_200N.csv`` -> the file."""
-    patterns = ("fields_*N.vtu", POINTS_FILE)
-    found = [(n, path) for n, entry in entries.items() for one in patterns for path in sorted(entry.path.glob(one))]
-    fields = {f"fields/{name}_{path.name.removeprefix('fields_')}": path for name, path in found}
-    footprints = {
-        f"footprints/{name.replace(FOOTPRINT, 'fe', 1)}_{path.name.removeprefix(f'{FOOTPRINT}_')}": path
-        for name, entry in entries.items()
-        for path in sorted(entry.path.glob(f"{FOOTPRINT}_*N.csv"))
-    }
-    return fields | footprints
+    """``fields/fe_phi000_200N.vtu``, ``..._points.npz``, ``..._pressure.npz``, ``footprints/fe_phi000_200N.csv`` -> the
+    file.
+    """
+    patterns = {"fields_*N.vtu": "fields_", POINTS_FILE: "", PRESSURE_FILE: "", f"{FOOTPRINT}_*N.csv": f"{FOOTPRINT}_"}
+    found = {}
+    for name, entry in entries.items():
+        model = name.replace(FOOTPRINT, "fe", 1)
+        for pattern, begin in patterns.items():
+            folder = "footprints" if pattern.startswith(FOOTPRINT) else "fields"
+            for path in sorted(entry.path.glob(pattern)):
+                found[f"{folder}/{model}_{path.name.removeprefix(begin)}"] = path
+    return found
 
 
 def publish(

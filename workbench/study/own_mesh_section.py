@@ -47,7 +47,7 @@ class OwnFacesSection(Section):
     """Faces that lie whole at this distance from the axle, or between two [m]."""
     position: LengthRange | None = None
     """Faces that lie whole at this place along the axle from the hub's centre, or between two [m]."""
-    numbers: tuple[Annotated[StrictInt, Field(ge=1)], ...] = ()
+    numbers: tuple[Annotated[StrictInt, Field(ge=1, le=1_000_000)], ...] = ()
     """Faces of these numbers, which ``workbench check`` lists."""
 
 

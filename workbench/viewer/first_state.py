@@ -29,6 +29,7 @@ def first_state(folder: ReportFolder) -> dict[str, Any]:
         "orientation": 0.0,
         "loads": [],
         "load": 0,
+        "quantities": [],
         "quantity": "stress",
         "scenarios": scenarios,
         "scenario": first,

@@ -21,6 +21,7 @@ __all__ = ["FieldFile", "ReportFolder", "read_folder", "spoken"]
 
 _FIELDS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_(?P<load>\d+)N\.vtu", re.DOTALL | re.ASCII)
 _POINTS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_points\.npz", re.DOTALL | re.ASCII)
+_PRESSURES = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_pressure\.npz", re.DOTALL | re.ASCII)
 _MODELS = {"fe": "FE", "ancf": "ANCF", "brush": "brush", "section": "section"}
 _HINT = "give the folder that `workbench report --out` wrote, such as build/report"
 
@@ -45,6 +46,7 @@ class ReportFolder:
     study, status : as in ``summary.json``; empty without one
     fields : in the order of model, orientation and load
     points : fields at the points of a curve, by (model, orientation)
+    pressures : contact pressures at the nodes, by the same
     curves : by file name without its ending, such as ``fe_phi015``
     series : time series by (scenario, tire)
     motions : files of recorded motions by (scenario, tire)
@@ -58,6 +60,7 @@ class ReportFolder:
     status: str
     fields: tuple[FieldFile, ...]
     points: Mapping[tuple[str, float], Path]
+    pressures: Mapping[tuple[str, float], Path]
     curves: Mapping[str, StiffnessCurve]
     series: Mapping[tuple[str, str], TimeSeries]
     motions: Mapping[tuple[str, str], Path]
@@ -87,13 +90,13 @@ def read_folder(path: Path) -> ReportFolder:
     study, status = _summary(summary) if next(inside.files("", summary.name), None) else ("", "")
     motions = {_named(one): one for one in inside.files(MOTIONS_FOLDER, "*_*.npz")}
     series = {_named(one): one for one in inside.files(SERIES_FOLDER, "*.csv") if is_ours(one.name)}
-    fields, points = inside.matches("fields", _FIELDS, ".vtu"), inside.matches("fields", _POINTS, "_points.npz")
     found = ReportFolder(
         path=path,
         study=study,
         status=status,
-        fields=_field_files(fields),
-        points={(plain(m["model"]), float(m["orientation"])): one for one, m in points},
+        fields=_field_files(inside.matches("fields", _FIELDS, ".vtu")),
+        points=_by_orientation(inside.matches("fields", _POINTS, "_points.npz")),
+        pressures=_by_orientation(inside.matches("fields", _PRESSURES, "_pressure.npz")),
         curves={name: read_curve(one) for name, one in named_apart(inside.files("curves", "*.csv")).items()},
         series={names: read_series(one, *names) for names, one in series.items()},
         motions=motions,
@@ -118,6 +121,10 @@ def _field_files(matches: Iterable[tuple[Path, re.Match[str]]]) -> tuple[FieldFi
         for path, m in matches
     ]
     return tuple(sorted(found, key=lambda one: (one.model, one.orientation, one.load)))
+
+
+def _by_orientation(matches: Iterable[tuple[Path, re.Match[str]]]) -> dict[tuple[str, float], Path]:
+    return {(plain(m["model"]), float(m["orientation"])): path for path, m in matches}
 
 
 class _Inside:

@@ -13,7 +13,6 @@ from typing import Any, TypeGuard
 import msgpack  # type: ignore[import-untyped]
 
 from workbench.viewer.session import SPEEDS, Session
-from workbench.viewer.stages import QUANTITIES
 
 __all__ = ["CHOICES", "LONGEST", "Refused", "Request", "allowed_change", "allowed_trigger", "read_request"]
 
@@ -101,7 +100,7 @@ CHOICES: Mapping[str, Callable[[Session, Any], bool]] = {
     "model": lambda session, value: isinstance(value, str) and value in session.wheel_models(),
     "orientation": lambda session, value: _is_number(value) and value in session.state.orientations,
     "load": lambda session, value: _counted(value, len(session.state.loads)),
-    "quantity": lambda session, value: isinstance(value, str) and value in QUANTITIES,
+    "quantity": lambda session, value: isinstance(value, str) and value in session.quantities(),
     "scenario": lambda session, value: isinstance(value, str) and value in session.state.scenarios,
     "tire": lambda session, value: isinstance(value, str) and value in session.state.tires,
     "series": lambda session, value: isinstance(value, str) and value in session.state.series_choices,

@@ -77,7 +77,7 @@ def read_fields(path: Path) -> tuple[WheelSurface, WheelField]:
     fits = points.shape == moved.shape == (len(stress), 3) and stress.ndim == 1 and part.shape == (len(cells),)
     if not fits or cells.min() < 0 or cells.max() >= len(points):
         raise InputError("field file", path, "must hold cells of its own points, and a field at each", hint)
-    return wheel_surface(points, cells, part), WheelField(displacement=moved, von_mises=stress)
+    return wheel_surface(points, cells, part, moved), WheelField(displacement=moved, von_mises=stress)
 
 
 @dataclass(slots=True)

@@ -81,6 +81,10 @@ class Session:
         """Models with fields."""
         return [one["value"] for one in self.state.models]
 
+    def quantities(self) -> list[str]:
+        """What the wheel can be coloured by."""
+        return [one["value"] for one in self.state.quantities]
+
     def open_wheel(self) -> None:
         """Another model or orientation: its loads, and the largest of them. Nothing while the rover is looked at."""
         state = self.state
@@ -92,6 +96,9 @@ class Session:
         self.wheel = self.results.wheels[state.model, float(state.orientation)]
         state.loads = [float(f"{load:.4g}") for load in self.wheel.loads]
         state.load = state.frame = state.last_frame = len(state.loads) - 1
+        state.quantities = [{"value": name, "text": QUANTITIES[name][0]} for name in self.wheel.quantities]
+        if state.quantity not in self.wheel.quantities:
+            state.quantity = "stress"
         state.probe = None
         self.scene.mark(None, 0.0)
         self._show_wheel()

@@ -7,7 +7,7 @@ tests/end_to_end/test_view.py.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from contracts.errors import InputError
 from workbench.charts.palette import STRAIN_COLOURS
 from workbench.charts.solids import Quads
 from workbench.charts.tire_animation import StrainedTires, strained_tires
-from workbench.questions.fe.field_file import read_points
+from workbench.questions.fe.field_file import read_points, read_pressures
 from workbench.questions.rover.motion_file import RecordedMotion, read_motion
 from workbench.study.ancf_tire import drawn_tire
 from workbench.viewer.colours import ColourBar, colour_bar
@@ -29,7 +29,11 @@ from workbench.viewer.wheel_surface import WheelField, WheelSurface
 __all__ = ["QUANTITIES", "Results", "RoverStage", "WheelStage", "wheel_stage"]
 
 FloatArray = NDArray[np.float64]
-QUANTITIES = {"stress": ("von Mises stress", "MPa", 1e-6), "displacement": ("displacement", "mm", 1e3)}
+QUANTITIES = {
+    "stress": ("von Mises stress", "MPa", 1e-6),
+    "displacement": ("displacement", "mm", 1e3),
+    "pressure": ("contact pressure", "MPa", 1e-6),
+}
 """What the wheel can be coloured by: title, unit, factor from SI."""
 _WHEEL_EYE = (0.42, -0.86, 0.29)
 _ROVER_EYE = (-0.55, -1.0, 0.45)
@@ -57,7 +61,16 @@ class WheelStage:
     def values(self, number: int, quantity: str) -> FloatArray:
         """Of one load at the mesh's nodes [SI]."""
         field = self.fields[number]
+        if quantity == "pressure":
+            assert field.pressure is not None
+            return field.pressure
         return field.von_mises if quantity == "stress" else np.linalg.norm(field.displacement, axis=1)
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """Those of `QUANTITIES` that are known at every load."""
+        known = all(field.pressure is not None for field in self.fields)
+        return tuple(name for name in QUANTITIES if name != "pressure" or known)
 
     def bar(self, quantity: str) -> ColourBar:
         """One for all loads, so that they can be compared."""
@@ -92,7 +105,12 @@ class WheelStage:
         return np.array(corners), np.array([[0, 1, 2, 3]])
 
 
-def wheel_stage(orientation: float, files: Sequence[tuple[float, Path]], points: Path | None = None) -> WheelStage:
+def wheel_stage(
+    orientation: float,
+    files: Sequence[tuple[float, Path]],
+    points: Path | None = None,
+    pressures: Path | None = None,
+) -> WheelStage:
     """Read the fields of one orientation [deg] at loads [N] in increasing order.
 
     Parameters
@@ -100,6 +118,7 @@ def wheel_stage(orientation: float, files: Sequence[tuple[float, Path]], points:
     orientation : what faces the ground [deg]
     files : loads [N] with their files, one at least; the first gives the mesh
     points : fields at the points of the curve, which are then shown instead
+    pressures : contact pressures at loads, those shown and maybe others
 
     Raises
     ------
@@ -108,13 +127,16 @@ def wheel_stage(orientation: float, files: Sequence[tuple[float, Path]], points:
     """
     read = [(load, *read_fields(path)) for load, path in files]
     _, surface, first = read[0]
-    still = WheelField(displacement=0.0 * first.displacement, von_mises=0.0 * first.von_mises)
+    nothing = 0.0 * first.von_mises
+    still = WheelField(displacement=0.0 * first.displacement, von_mises=nothing, pressure=nothing)
     shown = [(load, field) for load, _, field in read]
     if points is not None:
         shown = [(load, WheelField(displacement=u, von_mises=s)) for load, u, s in read_points(points)]
         if any(len(field.von_mises) != len(still.von_mises) for _, field in shown):
             rule = f"must hold the {len(still.von_mises)} nodes of the mesh"
             raise InputError("field file", points, rule, "run the report again, or take the file out of the folder")
+    if pressures is not None:
+        shown = _with_pressures(shown, pressures)
     phi = np.radians(orientation)
     return WheelStage(
         surface=surface,
@@ -177,6 +199,17 @@ class RoverStage:
         return Camera(eye=_three(eye), up=_three(up), centre=_three(0.5 * (low + high)), half_height=float(half))
 
 
+def _with_pressures(shown: list[tuple[float, WheelField]], path: Path) -> list[tuple[float, WheelField]]:
+    """Fields with the contact pressures of their loads; as they are where one of them has none."""
+    found = read_pressures(path)
+    if any(load not in found for load, _ in shown):
+        return shown
+    if any(found[load].shape != field.von_mises.shape for load, field in shown):
+        rule = f"must hold the {len(shown[0][1].von_mises)} nodes of the mesh"
+        raise InputError("pressure file", path, rule, "run the report again, or take the file out of the folder")
+    return [(load, replace(field, pressure=found[load])) for load, field in shown]
+
+
 class Results:
     """A folder with its stages; what cannot be read is said before the page opens.
 
@@ -192,7 +225,7 @@ class Results:
         self.wheels: dict[tuple[str, float], WheelStage] = {}
         for key in dict.fromkeys((one.model, one.orientation) for one in folder.fields):
             files = [(one.load, one.path) for one in folder.fields if (one.model, one.orientation) == key]
-            self.wheels[key] = wheel_stage(key[1], files, folder.points.get(key))
+            self.wheels[key] = wheel_stage(key[1], files, folder.points.get(key), folder.pressures.get(key))
         self.rovers = {key: RoverStage(path) for key, path in folder.motions.items()}
 
 

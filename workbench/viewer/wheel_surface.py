@@ -29,10 +29,13 @@ _PLANE = 1e-9
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class WheelField:
-    """Fields at the mesh's nodes: displacement (n, 3) [m] and von Mises stress (n,) [Pa]."""
+    """Fields at the mesh's nodes: displacement (n, 3) [m], von Mises stress (n,) [Pa], and if it is known contact
+    pressure (n,) [Pa].
+    """
 
     displacement: FloatArray
     von_mises: FloatArray
+    pressure: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -84,13 +87,16 @@ class Probe:
     part: int
 
 
-def wheel_surface(points: FloatArray, cells: IntArray, tags: IntArray) -> WheelSurface:
+def wheel_surface(points: FloatArray, cells: IntArray, tags: IntArray, moved: FloatArray | None = None) -> WheelSurface:
     """Boundary of hexahedra in VTK's node order, points (n, 3) [m], cells (m, 8 or 27), tags of parts (m,).
 
-    A mesh on one side of y = 0 is half a wheel: its cut is left out and its mirror image added.
+    A mesh that ends at y = 0 is half a wheel if no node there is moved (n, 3) across that plane, or nothing is said of
+    it: its cut is left out, its mirror image added.
     """
     facets, parts = _outside(points, cells, tags)
-    whole = float(points[:, 1].min()) < -_PLANE
+    low, high = float(points[:, 1].min()), float(points[:, 1].max())
+    across = np.abs(points[:, 1]) <= _PLANE
+    whole = min(abs(low), abs(high)) > _PLANE or (moved is not None and bool(moved[across, 1].any()))
     if not whole:
         inside = np.abs(points[facets, 1]).max(axis=1) > _PLANE
         facets, parts = facets[inside], parts[inside]

@@ -19,14 +19,26 @@ from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry.hexahedra import VTK_FROM_GMSH
 
-__all__ = ["POINTS_FILE", "Fields", "read_points", "write_fields", "write_points"]
+__all__ = [
+    "POINTS_FILE",
+    "PRESSURE_FILE",
+    "Fields",
+    "read_points",
+    "read_pressures",
+    "write_fields",
+    "write_points",
+    "write_pressures",
+]
 
 POINTS_FILE = "points.npz"
 """Fields at the points of a curve, in a task's folder."""
+PRESSURE_FILE = "pressure.npz"
+"""Contact pressures at the nodes, in a footprint task's folder."""
 _HINT = "run the report again, or take the file out of the folder"
 _LARGEST = 1_000_000_000
 """Bytes of the arrays along one curve: a mesh of a million nodes at sixty points."""
 _NAMES = ("load", "displacement", "von_mises")
+_PRESSURES = ("load", "contact_pressure")
 
 
 class Fields(Protocol):
@@ -87,3 +99,28 @@ def read_points(path: Path) -> Iterator[tuple[float, NDArray[np.float64], NDArra
     if not sound:
         raise InputError("field file", path, "must hold finite fields of nodes at each load", _HINT)
     yield from zip(load.tolist(), moved, stress, strict=True)
+
+
+def write_pressures(pressures: Sequence[tuple[float, NDArray[np.float64]]], path: Path) -> None:
+    """One archive in single precision: ``load`` (n,) [N] and ``contact_pressure`` (n, n_points) at the nodes [Pa]."""
+    load, pressure = zip(*pressures, strict=True) if pressures else ((), ())
+    single = (np.array(values, dtype=np.float32) for values in (load, pressure))
+    np.savez_compressed(path, allow_pickle=False, **dict(zip(_PRESSURES, single, strict=True)))
+
+
+def read_pressures(path: Path) -> dict[float, NDArray[np.float64]]:
+    """Pressures at the nodes by load, as `write_pressures` has them.
+
+    Raises
+    ------
+    InputError
+        If the file is not what `write_pressures` writes.
+    """
+    arrays = read_archive(path, "pressure file", _LARGEST, _PRESSURES)
+    if set(arrays) != set(_PRESSURES) or any(array.dtype.kind not in "iuf" for array in arrays.values()):
+        raise InputError("pressure file", path, f"cannot be read (it lacks numbers of {', '.join(_PRESSURES)})", _HINT)
+    load, pressure = (np.asarray(arrays[name], dtype=np.float64) for name in _PRESSURES)
+    sound = load.ndim == 1 and pressure.ndim in (1, 2) and len(load) == len(pressure)
+    if not (sound and np.isfinite(load).all() and np.isfinite(pressure).all()):
+        raise InputError("pressure file", path, "must hold a finite pressure of nodes at each load", _HINT)
+    return dict(zip(load.tolist(), pressure, strict=True))
