@@ -15,6 +15,7 @@ from workbench.execution.runner import Computing
 from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
 from workbench.questions.registry import questions_of
 from workbench.questions.study_graph import report_tasks
+from workbench.questions.sweep.graph import sweep_graph
 from workbench.questions.travels import travel_tasks
 from workbench.questions.wheel.graph import own_mesh_task
 from workbench.questions.wheel.own_mesh_task import own_content, wheel_in
@@ -24,6 +25,7 @@ from workbench.study.model import Study
 from workbench.study.own_mesh import materials_by_part, own_mesh, sized_mesh, sizes_and_rules
 from workbench.study.own_mesh_rules import NEEDS_WHEEL
 from workbench.study.reading import built_in_study, study_of
+from workbench.study.sweep_points import sweep_points
 
 SPIRAL = Path(__file__).parents[2] / "studies" / "spiral.toml"
 
@@ -84,7 +86,6 @@ def test_the_content_of_the_file_decides_the_key(tmp_path: Path) -> None:
 
 SECTIONS: dict[str, Any] = {
     **{name: tomllib.loads(built_in_study().read_text(encoding="utf-8")).get(name, {}) for name in NEEDS_WHEEL},
-    "sweep": {"models": ["fe"], "parameters": {"fe.friction": [0.0, 0.3]}},
 }
 
 
@@ -186,6 +187,30 @@ def test_what_is_of_our_wheels_is_refused(section: str, change: dict[str, object
     table[section] = table.get(section, {}) | change
     with pytest.raises(StudyError) as told:
         study_of(SPIRAL, table)
+    assert told.value.key == key
+
+
+def test_a_sweep_varies_what_is_not_of_the_wheel() -> None:
+    table = _table() | {"sweep": {"models": ["fe"], "fe.friction": [0.0, 0.3], "mesh.factor": [1, 2]}}
+    points = sweep_points(SPIRAL, table)
+    assert len(points) == 5
+    graph = sweep_graph(points, ("fe",))
+    assert len({task.key({}) for task in graph.tasks if task.name.endswith("/mesh")}) == 2
+    assert len([task for task in graph.tasks if task.name.endswith("/fe_phi000")]) == 4
+
+
+@pytest.mark.parametrize(
+    ("sweep", "key"),
+    [
+        ({"models": ["section"], "fe.friction": [0.0, 0.3]}, "sweep.models"),
+        ({"models": ["fe"], "strip_thickness": ["1 mm", "2 mm"]}, "sweep.strip_thickness"),
+        ({"models": ["fe"], "wheel.tire.width": ["60 mm"]}, "sweep.wheel.tire.width"),
+        ({"models": ["brush"], "fe.friction": [0.0]}, "sweep.models, brush"),
+    ],
+)
+def test_what_a_sweep_needs_of_the_wheel_is_refused(sweep: dict[str, Any], key: str) -> None:
+    with pytest.raises(StudyError) as told:
+        study_of(SPIRAL, _table() | {"sweep": sweep})
     assert told.value.key == key
 
 

@@ -14,6 +14,7 @@ from workbench.study.broken_rule import BrokenRule
 from workbench.study.model import Study
 from workbench.study.own_mesh import own_mesh
 from workbench.study.own_mesh_section import OwnMeshSection
+from workbench.study.sweep import tied_keys
 
 __all__ = ["NEEDS_WHEEL", "broken_own_mesh"]
 
@@ -25,11 +26,14 @@ NEEDS_WHEEL = {
     "ancf_fit": "is not offered for a wheel whose mesh comes from a file",
     "ancf_wheel": "makes plates of the strips of [wheel], which a mesh from a file does not have",
     "environment": "lets hubs expand with their part of [wheel], which a mesh from a file does not have",
-    "rover": "needs the dimensions of [wheel]",
-    "sweep": "varies the dimensions of [wheel], which a mesh from a file does not have",
-    "input_uncertainty": "varies the dimensions of [wheel], which a mesh from a file does not have",
+    "rover": "stands on the wheel by curves over a period of [wheel], as deep as the room between its rim and hub",
+    "input_uncertainty": "samples the section model, which needs the dimensions of [wheel]",
 }
 """Section -> why it cannot stand beside mesh.file."""
+_OF_STRIPS = ("strip_thickness", "strip_scale", "orientation_step")
+"""Parameters of a sweep that are several keys of [wheel], or a step over its period."""
+_SWEPT = ("fe", "ancf", "brush")
+"""Models that a sweep has without [wheel]."""
 
 
 def broken_own_mesh(study: Study) -> Iterator[BrokenRule]:
@@ -54,8 +58,27 @@ def broken_own_mesh(study: Study) -> Iterator[BrokenRule]:
         shown = ", ".join(f"{factor:g}" for factor in study.mesh_study.factors)
         rule = "must be whole numbers: into so many the cells of a mesh from a file are divided"
         yield BrokenRule(key="mesh_study.factors", value=shown, rule=rule, hint="e.g. 1, 2, 3")
+    yield from _of_the_sweep(study)
     yield from _of_the_file(mesh)
     yield from _of_the_names(mesh)
+
+
+def _of_the_sweep(study: Study) -> Iterator[BrokenRule]:
+    """Models, parameters and choices of [sweep] that need the dimensions of [wheel]."""
+    sweep = study.sweep
+    if sweep is None:
+        return
+    rule = "needs the dimensions of [wheel], which a mesh from a file does not have"
+    for model in sweep.models:
+        if model not in _SWEPT:
+            hint = f'give models = ["fe"], or one of {", ".join(_SWEPT)}'
+            yield BrokenRule(key="sweep.models", value=model, rule=rule, hint=hint)
+    for keys in sweep.parameters:
+        if keys in _OF_STRIPS or any(name.partition(".")[0] == "wheel" for _, name in tied_keys(keys)):
+            yield BrokenRule(key=f"sweep.{keys}", value="", rule=rule, hint="vary another key, or describe the wheel")
+    for key, given in (("scaled", sweep.scaled), ("confirm", sweep.confirm > 0)):
+        if given:
+            yield BrokenRule(key=f"sweep.{key}", value=str(getattr(sweep, key)), rule=rule, hint="remove it")
 
 
 def _of_the_file(mesh: OwnMeshSection) -> Iterator[BrokenRule]:

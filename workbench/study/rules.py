@@ -57,6 +57,7 @@ def broken_rules(study: Study) -> Iterator[BrokenRule]:
     """Every rule between sections that the study breaks, in the order of the file."""
     yield from _of_the_curves(study)
     yield from broken_reference(study)
+    yield from _of_the_sweep(study)
     if study.ancf is not None:
         preset = ancf_preset(study)
         yield from _room("ancf", study.ancf.max_deflection, preset.zero_radius - preset.hub_radius)
@@ -76,7 +77,6 @@ def _of_the_wheel(study: Study) -> Iterator[BrokenRule]:
                 hint=f"use {', '.join(design.materials)}",
             )
     yield from _lonely(study)
-    yield from _of_the_sweep(study)
     gap = design.tire.inner_radius - design.outer_hub.outer_radius
     yield from _room("fe", study.fe.max_deflection, gap)
     if study.input_uncertainty is not None:

@@ -21,10 +21,10 @@ from contracts.errors import InputError, StudyError
 from workbench.study.full import steps_around
 from workbench.study.key_units import is_whole_number, parts_of
 from workbench.study.model import Study
+from workbench.study.own_mesh import materials_by_part
 from workbench.study.quantities import number_and_unit, to_si
 from workbench.study.reading import study_of
 from workbench.study.sweep import SweepRange, SweepSection, Value, tied_keys
-from workbench.study.wheel_design import wheel_design
 
 __all__ = [
     "Point",
@@ -253,7 +253,7 @@ def _temperature(path: Path, study: Study, value: Value | None) -> float | None:
         return None
     try:
         temperature = to_si(value, "K")
-        for material in wheel_design(study).materials.values():
+        for material in materials_by_part(study).values():
             material.at(temperature)
     except PydanticCustomError as error:
         context = error.context or {}

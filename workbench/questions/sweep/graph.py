@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from workbench.execution.task import Task, bare_name
 from workbench.questions.curve_graph import stiffness_tasks
 from workbench.questions.fe.graph import material_inputs
+from workbench.study.own_mesh import materials_by_part
 from workbench.study.sweep import SweptModel
 from workbench.study.sweep_points import Point
-from workbench.study.wheel_design import wheel_design
 
 __all__ = ["SweepGraph", "SweepRun", "sweep_graph"]
 
@@ -71,6 +71,6 @@ def _model_tasks(point: Point, model: SweptModel) -> list[Task]:
     tasks = stiffness_tasks(point.study, model, ())
     if point.temperature is None:
         return list(tasks)
-    design = wheel_design(point.study).materials
-    warm = {"materials": material_inputs({part: m.at(point.temperature) for part, m in design.items()})}
+    cold = materials_by_part(point.study)
+    warm = {"materials": material_inputs({part: m.at(point.temperature) for part, m in cold.items()})}
     return [replace(t, inputs={**t.inputs, **warm}) if t.name.startswith("fe_phi") else t for t in tasks]
