@@ -15,14 +15,14 @@ from geometry.step import write_named
 
 __all__ = ["draw_disc", "draw_wheel"]
 
-HALF_WIDTH, BORE, HUB, INNER, OUTER = 0.02, 0.015, 0.03, 0.095, 0.1
+HALF_WIDTH, BORE, HUB, INNER, OUTER = 0.02, 0.015, 0.03, 0.093, 0.1
 """Of the spoked wheel [m]."""
-SPOKES, THICKNESS, LEAN = 5, 0.005, math.radians(40.0)
+SPOKES, THICKNESS, LEAN = 5, 0.007, math.radians(20.0)
 """Their number, thickness [m], and how far a spoke's outer end lies ahead of its inner end [rad]."""
 
 
 def draw_wheel(path: Path) -> None:
-    """The half at y > 0 of a wheel: hub, spokes bent along arcs with a hole in each, rim."""
+    """The half at y > 0 of a wheel: hub, spokes bent along arcs, rim."""
     with gmsh_session("wheel") as gmsh:
         occ = gmsh.model.occ
         hub, rim = (_ring(occ, *radii, 0.0, HALF_WIDTH) for radii in ((BORE, HUB), (INNER, OUTER)))
@@ -59,7 +59,7 @@ def _ring(occ: Any, inner: float, outer: float, start: float, width: float) -> t
 
 
 def _spoke(occ: Any, at: float) -> tuple[int, int]:
-    """A plate between two arcs, a hole through its middle; its ends stick out into hub and rim."""
+    """A plate between two arcs; its ends stick out into hub and rim."""
     ends = 0.5 * (BORE + HUB), 0.5 * (INNER + OUTER)
     start, end = (_place(radius, at + turn) for radius, turn in zip(ends, (0.0, LEAN), strict=True))
     along = end[0] - start[0], end[1] - start[1]
@@ -79,9 +79,7 @@ def _spoke(occ: Any, at: float) -> tuple[int, int]:
     (low, first), (high, second) = sides
     loop = occ.addCurveLoop([first, occ.addLine(low[1], high[1]), second, occ.addLine(high[0], low[0])])
     body = [one for one in occ.extrude([(2, occ.addPlaneSurface([loop]))], 0.0, width, 0.0) if one[0] == 3]
-    middle = [start[i] + 0.5 * along[i] for i in (0, 1)]
-    hole = occ.addCylinder(middle[0], 0.0, middle[1], 0.04 * across[0], 0.0, 0.04 * across[1], 0.5 * width)
-    found: tuple[int, int] = occ.cut(body, [(3, hole)])[0][0]
+    found: tuple[int, int] = body[0]
     return found
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from contracts.errors import InputError
 from contracts.input_file import require_ordinary_file
+from geometry.own_mesh.exodus_files import read_exodus
 from geometry.own_mesh.file_mesh import FileMesh
 from geometry.own_mesh.gmsh_files import read_gmsh
 from geometry.own_mesh.inp_files import read_inp
@@ -20,7 +21,7 @@ LARGEST_FILE = 2_000_000_000
 """Of a mesh file [byte]: two million 27-node cells as text."""
 _READERS = {
     **{".msh": read_gmsh, ".med": read_gmsh, ".inp": read_inp},
-    **{".vtu": read_meshio, ".vtk": read_meshio, ".exo": read_meshio, ".e": read_meshio},
+    **{".vtu": read_meshio, ".vtk": read_meshio, ".exo": read_exodus, ".e": read_exodus},
 }
 ENDINGS = tuple(_READERS)
 

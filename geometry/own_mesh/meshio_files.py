@@ -1,4 +1,4 @@
-"""Reads VTK's files, .vtu and .vtk, and Exodus' .exo by meshio.
+"""Reads VTK's files, .vtu and .vtk, by meshio.
 
 VTK's files have no groups: every value of an integer cell array is a group by its number, of solid cells a part, of
 plane cells faces; a point array that is 0 and 1 names faces. Verified by tests/unit/test_own_mesh_files.py.
@@ -24,7 +24,7 @@ __all__ = ["read_meshio"]
 
 Index = NDArray[np.int64]
 
-_MODULES = {".vtu": "vtu", ".vtk": "vtk", ".exo": "exodus", ".e": "exodus"}
+_MODULES = {".vtu": "vtu", ".vtk": "vtk"}
 _SOLID = {
     "hexahedron": ("8-node hexahedra", tuple(range(8))),
     "hexahedron20": ("20-node hexahedra", TWENTY_NODES),
@@ -38,7 +38,7 @@ _SOLID_WORDS = ("hexa", "tetra", "wedge", "pyramid", "VTK_LAGRANGE", "poly")
 
 
 def read_meshio(path: Path) -> FileMesh:
-    """Groups by number and name, see above; Exodus' element blocks and node sets by name.
+    """Groups by number and name, see above.
 
     Raises
     ------
@@ -49,9 +49,6 @@ def read_meshio(path: Path) -> FileMesh:
     try:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             found = module.read(str(path))
-    except ModuleNotFoundError as error:
-        rule = f"cannot be read without the library {error.name}"
-        raise InputError("mesh file", path, rule, "install it with pip, or save the mesh as .msh") from error
     except (Exception, SystemExit) as error:  # meshio raises whatever its parsers raise
         said = " ".join(str(error).split())[:120] or type(error).__name__
         raise InputError("mesh file", path, f"cannot be read ({said})", "write it again, or save it as .msh") from error

@@ -35,6 +35,9 @@ LARGEST_STEP = 200_000_000
 _OF_AN_EDGE = 2.0**-1.5 / 3.0
 """Volume of a regular tetrahedron over its edge's third power [-]."""
 _NO_NAME = re.compile(r"Open CASCADE STEP translator.*|SOLID|COMPOUND|COMPSOLID|SHELL|Shapes|\d+|")
+_FLAT, _BENT = 0.1, 0.5
+"""Radius of the inscribed over that of the circumscribed sphere (1 if regular), and scaled Jacobian of the map (1 if
+straight), below which tetrahedra are improved [-]: in walls of one element some have all corners on one face."""
 _SAME_VOLUME = 1e-6
 """Of the solids before they are joined and after: more is an overlap."""
 
@@ -72,6 +75,7 @@ def _options(gmsh: Any, sizes: StepSizes) -> Iterator[None]:
         "Mesh.MeshSizeFromCurvature": float(sizes.around),
         "Mesh.MeshSizeExtendFromBoundary": 1.0,
         "Mesh.Optimize": 1.0,
+        "Mesh.HighOrderThresholdMin": _BENT,
     }
     before = {name: gmsh.option.getNumber(name) for name in wanted}
     for name, value in wanted.items():
@@ -168,8 +172,10 @@ def _meshed(gmsh: Any, path: Path, names: Mapping[int, str]) -> None:
     mesh = gmsh.model.mesh
     try:
         mesh.generate(3)
+        if _worst(gmsh, 4, "gamma") < _FLAT:
+            mesh.optimize("Netgen")
         mesh.setOrder(2)
-        if min(mesh.getElementQualities(mesh.getElementsByType(11)[0], "minSJ"), default=0.0) <= 0.0:
+        if _worst(gmsh, 11, "minSJ") < _BENT:
             mesh.optimize("HighOrder")
     except Exception as error:  # gmsh raises nothing more special
         said = " ".join(str(error).split())[:200]
@@ -179,6 +185,12 @@ def _meshed(gmsh: Any, path: Path, names: Mapping[int, str]) -> None:
     if empty:
         hint = "choose smaller elements, or repair the shape"
         raise InputError("mesh file", path, f"cannot be meshed: no element in {', '.join(empty)}", hint)
+
+
+def _worst(gmsh: Any, kind: int, measure: str) -> float:
+    """Quality [-] of the worst tetrahedron of one of gmsh's kinds, 4 or 10 nodes."""
+    tags = gmsh.model.mesh.getElementsByType(kind)[0]
+    return float(min(gmsh.model.mesh.getElementQualities(tags, measure), default=0.0))
 
 
 def _body(gmsh: Any, names: Mapping[int, str], solids: Sequence[StepSolid]) -> StepBody:

@@ -101,7 +101,7 @@ BROKEN: dict[str, tuple[str, bytes, str]] = {
     "garbage as .med": ("wheel.med", b"\x89HDF\r\n\x1a\n" + bytes(200), "cannot be read"),
     "garbage as .vtu": ("wheel.vtu", b"<VTKFile type=", "cannot be read"),
     "garbage as .vtk": ("wheel.vtk", bytes(range(256)), "cannot be read"),
-    "Exodus": ("wheel.exo", b"CDF\x01" + bytes(50), "cannot be read"),
+    "Exodus": ("wheel.exo", b"CDF\x01" + bytes(50), "has no coordinates in space"),
     "bytes as .inp": ("wheel.inp", bytes(range(256)), "is not UTF-8 text"),
     "words as .inp": ("wheel.inp", b"hello\nworld", "has no keyword such as"),
     "two coordinates": ("wheel.inp", b"*NODE\n1,2,3\n", "from line 1 on, .NODE .a node needs"),

@@ -55,7 +55,13 @@ def test_contact_pressure_is_offered_where_every_load_has_one(tmp_path: Path) ->
     path = tmp_path / "fields" / "fe_phi030_pressure.npz"
     write_pressures([(100.0, np.full(nodes, 1e5)), (200.0, np.full(nodes, 2e5))], path)
     assert read_folder(tmp_path).pressures == {("fe", 30.0): path}
-    stage = wheel_stage(30.0, files, pressures=path)
+    stage, scene = wheel_stage(30.0, files, pressures=path), Scene()
+    grounds = []
+    for quantity in ("stress", "pressure", "displacement"):
+        stage.show(scene, 2, quantity)
+        grounds.append(bool(scene._now.below.visibility))
+    scene.close()
+    assert grounds == [True, False, True], "the ground would hide what presses on it"
     assert stage.quantities == ("stress", "displacement", "pressure")
     assert [float(stage.values(k, "pressure").max()) for k in range(3)] == pytest.approx([0.0, 1e5, 2e5])
     write_pressures([(100.0, np.full(nodes, 1e5))], path)

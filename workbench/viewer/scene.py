@@ -88,6 +88,7 @@ class _Drawn:
     moving: list[tuple[Any, int]] = field(default_factory=list)
     shapes: list[pv.PolyData] = field(default_factory=list)
     ground: pv.PolyData | None = None
+    below: Any = None
 
 
 class Scene:
@@ -133,7 +134,7 @@ class Scene:
         self._now.shapes.append(drawn)
         if ground is not None:
             self._now.ground = _surface(*ground)
-            self._add(self._now.ground, color=_GROUND)
+            self._now.below = self._add(self._now.ground, color=_GROUND)
 
     def move_shape(self, points: FloatArray, colours: Colours, ground: Quads | None) -> None:
         """Other places (n, 3) [m] and colours of the surface that is shown, and other places of its ground."""
@@ -142,6 +143,11 @@ class Scene:
         drawn.point_data["colour"] = colours
         if ground is not None and self._now.ground is not None:
             self._now.ground.points = ground[0]
+
+    def show_ground(self, *, shown: bool) -> None:
+        """Show or hide what the wheel stands on, which is there at other times."""
+        if self._now.below is not None:
+            self._now.below.visibility = shown
 
     def mark(self, place: FloatArray | None, radius: float) -> None:
         """A ball [m] at a place that was probed, or none."""

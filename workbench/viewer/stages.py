@@ -92,6 +92,7 @@ class WheelStage:
             scene.move_shape(places, colours, self._ground(places))
         else:
             scene.add_shape((places, self.surface.quads), colours, self._ground(places))
+        scene.show_ground(shown=quantity != "pressure")  # which lies under it
 
     def camera(self) -> Camera:
         """From the side and a little above, with the ground below."""
