@@ -11,9 +11,11 @@ import numpy as np
 
 from benchmarks.peer_codes.case import TOLERANCE, LoadCase
 from benchmarks.peer_codes.outcome import Outcome, measured
+from contracts.material_laws import J2Plasticity, MooneyRivlin, StVenantKirchhoff
+from contracts.materials import Material
 from geometry.inp import TWENTY_NODES, write_inp
 
-__all__ = ["PROGRAM", "solve", "version"]
+__all__ = ["PROGRAM", "material_lines", "solve", "version"]
 
 PROGRAM = "ccx"
 
@@ -55,13 +57,38 @@ def solve(case: LoadCase, folder: Path, threads: int, limit_s: float, element: s
     )
 
 
+def material_lines(name: str, material: Material) -> list[str]:
+    """The material as its block of a deck; raises NotImplementedError for a law that is not written here.
+
+    Its Mooney-Rivlin law has (J - 1)^2 K/2 where ours has (ln J)^2 K/2, its plasticity a hardening curve in points
+    (user's manual 2.20, *HYPERELASTIC, *PLASTIC). Verified by tests/verification/test_calculix_laws.py.
+    """
+    elastic = ["*ELASTIC", f"{material.young_modulus!r}, {material.poisson_ratio!r}"]
+    match material.law:
+        case None | StVenantKirchhoff():
+            lines = elastic
+        case MooneyRivlin(c10=c10, c01=c01, bulk_modulus=bulk):
+            lines = ["*HYPERELASTIC, MOONEY-RIVLIN", f"{c10!r}, {c01!r}, {2.0 / bulk!r}"]
+        case J2Plasticity() as law:
+            assert material.yield_strength is not None
+            strain = np.concatenate([[0.0], np.geomspace(1e-4, 1.0, 80)])
+            end = law.saturation_stress or material.yield_strength
+            gone = np.exp(-law.saturation_rate * strain)
+            stress = end + (material.yield_strength - end) * gone + law.hardening_modulus * strain
+            points = zip(stress.tolist(), strain.tolist(), strict=True)
+            lines = [*elastic, "*PLASTIC", *(f"{a!r}, {b!r}" for a, b in points)]
+        case other:
+            raise NotImplementedError(f"a deck for {type(other).__name__}")
+    return [f"*MATERIAL, NAME={name}", *lines]
+
+
 def _deck(case: LoadCase) -> str:
     step, axis = 1.0 / case.steps, case.component + 1
     symmetry = f"{case.symmetry.upper()}, 2, 2\n" if case.symmetry else ""
     sections = "".join(f"*SOLID SECTION, ELSET={part.upper()}, MATERIAL=M\n" for part in case.mesh.parts)
     return (
         "*INCLUDE, INPUT=mesh.inp\n"
-        f"*MATERIAL, NAME=M\n*ELASTIC\n{case.material.young_modulus!r}, {case.material.poisson_ratio!r}\n{sections}"
+        f"{'\n'.join(material_lines('M', case.material))}\n{sections}"
         f"*BOUNDARY\nHELD, 1, 3\n{symmetry}"
         "*STEP, NLGEOM, INC=2000\n*STATIC, SOLVER=SPOOLES\n"
         f"{step!r}, 1., 1e-6, {step!r}\n"

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.peer_codes.calculix import PROGRAM
+from benchmarks.peer_codes.calculix import PROGRAM, material_lines
 from benchmarks.peer_codes.outcome import measured
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
@@ -135,8 +135,7 @@ def _sections(deck: WheelDeck) -> list[str]:
     some = next(iter(deck.materials.values()))
     lines = []
     for part in (*deck.mesh.parts, "block"):
-        m = deck.materials.get(part, some)
-        lines += [f"*MATERIAL, NAME=OF_{part.upper()}", "*ELASTIC", f"{m.young_modulus!r}, {m.poisson_ratio!r}"]
+        lines += material_lines(f"OF_{part.upper()}", deck.materials.get(part, some))
         lines.append(f"*SOLID SECTION, ELSET={part.upper()}, MATERIAL=OF_{part.upper()}")
     return lines
 
