@@ -25,14 +25,15 @@ class Discretisation:
 
     Attributes
     ----------
-    law : stored energy
+    law : of parts whose material leaves it open
     family, degree : shape functions of the displacement, degree 1 or 2
     gauss_points : Gauss points along each of the cell's local axes, two axes for a planar mesh; quadratic cells keep
         full rank as long as all but one have 3 points. 2 along the curved axis (see `orientation.curved_axis_first`)
         cures membrane locking
-    mixed_integration_points : store the stress at the points for the geometric stiffness; False is plain Newton
-    compiled : assemble St. Venant-Kirchhoff cells by our own compiled loops where they can (mixed integration points, a
-        solid mesh); False, and everywhere else, by UFL forms: same numbers, five times slower
+    mixed_integration_points : store stress, and pressure where a law has one, for the tangent; False is plain Newton
+    compiled : assemble the cells of a solid mesh by our own compiled loops (St. Venant-Kirchhoff alone only with mixed
+        integration points); False, and everywhere else, by UFL forms, which know St. Venant-Kirchhoff and neo-Hookean:
+        same numbers, the tangent takes three to six times as long
     """
 
     law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF

@@ -1,7 +1,7 @@
 """Claim: CalculiX finds our forces with plasticity and rubber too, on the way up and on the way back.
 
-Source: CalculiX 2.20 on the same hexahedra with 20 of our 27 nodes. A strip between two clamps is bent by a fifth of its
-length until both ends are plastic hinges, and most of the way back, where the force has turned: J2 plasticity.
+Source: CalculiX 2.20 on the same hexahedra with 20 of our 27 nodes. A strip between two clamps is bent by a fifth of
+its length until both ends are plastic hinges, and most of the way back, where the force has turned: J2 plasticity.
 A rubber bar is pulled to four thirds of its length and across: Mooney-Rivlin, bulk modulus 50 times that of shear.
 Tolerance 1 % of the largest force (found 0.7 and 0.2 %): other elements and, of the rubber, another volumetric energy.
 Negative controls: a yield strength and a rubber 3 % off.
