@@ -80,6 +80,13 @@ def test_the_wheel_repeats_itself_after_the_common_divisor_of_its_counts(study: 
     assert rotational_period(study.model_copy(update={"wheel": bare})) == 120.0
 
 
+def test_a_lattice_repeats_itself_after_a_cell_and_is_its_own_mirror_image() -> None:
+    honeycomb = read_study(built_in_study().with_name("honeycomb.toml"))
+    assert rotational_period(honeycomb) == 22.5
+    assert is_mirrored(honeycomb)
+    assert not is_mirrored(read_study(built_in_study().with_name("leaves.toml")))
+
+
 def test_orientations_stand_for_arcs_of_the_period(study: Study, hoops: Study) -> None:
     """A mirrored wheel has half a period, 60 deg, whose ends count half; a one-way wheel a circle of 120 deg."""
     assert around(hoops).weights([0.0, 15.0, 30.0, 45.0, 60.0]) == pytest.approx([0.125, 0.25, 0.25, 0.25, 0.125])
