@@ -14,7 +14,7 @@ from contracts.errors import InputError
 from geometry.counting import LARGEST_MESH
 from geometry.hexahedra import VTK_FROM_GMSH, gauss_points, jacobians, reference_nodes
 from geometry.inp import TWENTY_NODES
-from geometry.own_mesh.completion import completed
+from geometry.own_mesh.completion import TETRAHEDRON_EDGES, completed
 from geometry.own_mesh.file_mesh import KINDS, FileMesh
 
 __all__ = ["require_finite", "require_sound", "solid_cells"]
@@ -26,7 +26,6 @@ _FAR = 0.3
 """Distance of an edge's middle node from the middle of its ends, over its length, that no sound edge has [-]: a
 quarter makes the map along a straight edge singular at its end, an arc of 120 degrees has 0.29."""
 _EDGES = np.array(((0, 1), (0, 3), (0, 4), (1, 2), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 7), (5, 6), (6, 7)))
-_TETRAHEDRON_EDGES = np.array(((0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (1, 3)))
 _ORDERS = {
     20: {"VTK, Abaqus and meshio": TWENTY_NODES},
     27: {"VTK and meshio": VTK_FROM_GMSH},
@@ -120,7 +119,7 @@ def _require_order(points: Array, cells: Index, name: Callable[[int], str]) -> N
 def _off_middle(points: Array, cells: Index) -> Array:
     """Largest distance of a middle node from the middle of its edge, over the edge's length, (n_cells,) [-]."""
     tetrahedra = cells.shape[1] == 10
-    edges, first = (_TETRAHEDRON_EDGES, 4) if tetrahedra else (_EDGES, 8)
+    edges, first = (np.array(TETRAHEDRON_EDGES), 4) if tetrahedra else (_EDGES, 8)
     ends, middles = points[cells[:, edges]], points[cells[:, first : first + len(edges)]]
     length = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
     off = np.linalg.norm(middles - ends.mean(axis=2), axis=2)

@@ -13,14 +13,22 @@ from numpy.typing import NDArray
 
 from geometry.hexahedra import FACE_CORNERS, face_nodes, reference_nodes
 
-__all__ = ["TETRAHEDRON_FACES", "Hexahedra", "completed", "corners_of_faces", "refined"]
+__all__ = [
+    "TETRAHEDRON_EDGES",
+    "TETRAHEDRON_FACES",
+    "Hexahedra",
+    "completed",
+    "corners_of_faces",
+    "refined",
+    "tetrahedron_gradients",
+]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 TETRAHEDRON_FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (3, 1, 2))
 """Corners of the four faces, seen from outside anticlockwise; numbered as gmsh does."""
-_TETRAHEDRON_EDGES = ((0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (1, 3))
+TETRAHEDRON_EDGES = ((0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (1, 3))
 """Ends of the edges whose middles are nodes 4 to 9 of gmsh's 10-node tetrahedron."""
 
 
@@ -133,8 +141,18 @@ def _tetrahedron_shapes(at: Array, n_nodes: int) -> Array:
     """Shape functions (q, n_nodes) at barycentric coordinates (q, 4)."""
     if n_nodes == 4:
         return at
-    middles = np.stack([4.0 * at[:, i] * at[:, j] for i, j in _TETRAHEDRON_EDGES], axis=1)
+    middles = np.stack([4.0 * at[:, i] * at[:, j] for i, j in TETRAHEDRON_EDGES], axis=1)
     return np.hstack([at * (2.0 * at - 1.0), middles])
+
+
+def tetrahedron_gradients(at: Array, n_nodes: int) -> Array:
+    """Derivatives (q, n_nodes, 4) of the shape functions by each barycentric coordinate at such coordinates (q, 4)."""
+    unit = np.eye(4)
+    if n_nodes == 4:
+        return np.broadcast_to(unit, (len(at), 4, 4))
+    corners = (4.0 * at - 1.0)[:, :, None] * unit
+    middles = [4.0 * (at[:, i, None] * unit[j] + at[:, j, None] * unit[i]) for i, j in TETRAHEDRON_EDGES]
+    return np.concatenate([corners, np.stack(middles, axis=1)], axis=1)
 
 
 def _shared(corners: Index, keys: Index) -> Index:

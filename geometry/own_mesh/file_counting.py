@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.counting import MeshCount
-from geometry.own_mesh.completion import corners_of_faces
+from geometry.own_mesh.completion import TETRAHEDRON_EDGES, corners_of_faces
 
 __all__ = ["count_cells"]
 
 Index = NDArray[np.int64]
 
-_TETRAHEDRON_EDGES = ((0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (1, 3))
 _HEXAHEDRON_EDGES = ((0, 1), (0, 3), (0, 4), (1, 2), (1, 5), (2, 3), (2, 6), (3, 7), (4, 5), (4, 7), (5, 6), (6, 7))
 
 
@@ -29,7 +28,7 @@ def count_cells(cells: Index, factor: int = 1) -> MeshCount:
     """
     tetrahedra = cells.shape[1] in (4, 10)
     corners = cells[:, : 4 if tetrahedra else 8]
-    edges = _different(corners, _TETRAHEDRON_EDGES if tetrahedra else _HEXAHEDRON_EDGES)
+    edges = _different(corners, TETRAHEDRON_EDGES if tetrahedra else _HEXAHEDRON_EDGES)
     faces = _different(corners, corners_of_faces(cells.shape[1]))
     points, solids = len(np.unique(corners)), len(cells)
     if tetrahedra:  # an edge is two, a face three quadrangles about a point, a cell four hexahedra about one

@@ -75,6 +75,7 @@ def _options(gmsh: Any, sizes: StepSizes) -> Iterator[None]:
         "Mesh.MeshSizeFromCurvature": float(sizes.around),
         "Mesh.MeshSizeExtendFromBoundary": 1.0,
         "Mesh.Optimize": 1.0,
+        "Mesh.OptimizeThreshold": 0.6,
         "Mesh.HighOrderThresholdMin": _BENT,
     }
     before = {name: gmsh.option.getNumber(name) for name in wanted}

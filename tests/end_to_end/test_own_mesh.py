@@ -192,7 +192,7 @@ def test_a_wheel_of_solids_is_solved(tmp_path: Path) -> None:
     done = said("new", tmp_path / "mine.toml", "--from", "spoked")
     assert done.returncode == 0, done.stderr
     text = (tmp_path / "mine.toml").read_text()
-    short = text.replace('max_deflection = "2 mm"', 'max_deflection = "0.5 mm"').replace("points = 8", "points = 2")
+    short = text.replace('max_deflection = "1.5 mm"', 'max_deflection = "0.5 mm"').replace("points = 6", "points = 2")
     (tmp_path / "mine.toml").write_text(short)
     options = ("--orientation", "0", "--out", tmp_path / "out", "--store", tmp_path / "store")
     done = run("stiffness", tmp_path / "mine.toml", *options)

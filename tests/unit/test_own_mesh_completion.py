@@ -11,6 +11,7 @@ from geometry.assembly import boundary_facets
 from geometry.hexahedra import face_nodes, gauss_points, jacobians, reference_nodes
 from geometry.own_mesh.completion import completed, refined
 from geometry.own_mesh.file_counting import count_cells
+from geometry.own_mesh.tetrahedron_quality import scaled_jacobians_of_tetrahedra
 from tests.ring_wheel import ring_wheel
 
 CUBE = reference_nodes(27)
@@ -71,6 +72,24 @@ def test_straight_tetrahedra_of_both_orders_are_the_same_hexahedra() -> None:
     at = reference_nodes(27)
     ours, theirs = (jacobians(found.points, found.cells, at) for found in (linear, quadratic))
     assert theirs == pytest.approx(ours, abs=1e-14)
+
+
+REGULAR = np.array([[1.0, 1, 1], [-1, 1, -1], [1, -1, -1], [-1, -1, 1]])
+
+
+def test_the_shape_of_a_tetrahedron_is_its_own() -> None:
+    """1 if it is regular, 0.71 in the corner of a cube, as its heights if it is flat, < 0 inside out; turned or not."""
+    cube = np.vstack([np.zeros(3), np.eye(3)])
+    flat = REGULAR * (1.0, 1.0, 1e-3)
+    for nodes, value in ((REGULAR, 1.0), (cube, 0.5**0.5), (REGULAR[[1, 0, 2, 3]], -1.0)):
+        assert scaled_jacobians_of_tetrahedra(nodes, np.arange(4)[None]) == pytest.approx([value])
+    assert 0.0 < scaled_jacobians_of_tetrahedra(flat, np.arange(4)[None])[0] < 3e-3
+    edges = ((0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (1, 3))
+    straight = np.vstack([REGULAR, [REGULAR[list(e)].mean(axis=0) for e in edges]])
+    assert scaled_jacobians_of_tetrahedra(straight, np.arange(10)[None]) == pytest.approx([1.0])
+    bent = straight.copy()
+    bent[4] += 0.3 * (REGULAR[2] - bent[4])
+    assert scaled_jacobians_of_tetrahedra(bent, np.arange(10)[None])[0] < 0.7
 
 
 def _volume(nodes: np.ndarray) -> float:

@@ -16,10 +16,12 @@ import numpy as np
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
 from geometry.measures import mesh_quality, mesh_volume
+from geometry.own_mesh.cell_checks import solid_cells
 from geometry.own_mesh.file_mesh import FileMesh
 from geometry.own_mesh.files import read_mesh_file
 from geometry.own_mesh.step_body import StepBody
 from geometry.own_mesh.step_files import STEP_ENDINGS, read_step
+from geometry.own_mesh.tetrahedron_quality import scaled_jacobians_of_tetrahedra
 from geometry.own_mesh.wheel_checks import outer_radius
 from geometry.own_mesh.wheel_mesh import wheel_of_file
 from workbench.execution.fingerprint import file_sha256
@@ -38,10 +40,11 @@ def read(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     path = needs[OWN_FILE]
     if file_sha256(path) != inputs["sha256"]:
         raise InputError("mesh file", path, "has changed since the run began", "run the command again")
-    mesh = wheel_in(own_content(path, inputs["mesh"]), inputs["mesh"], path)
+    content = own_content(path, inputs["mesh"])
+    mesh = wheel_in(content, inputs["mesh"], path)
     progress(0.7)
     write_mesh(mesh, out / MESH)
-    write_result(out, measure_own(mesh, inputs["mesh"]["ground"], inputs["densities"]))
+    write_result(out, measure_own(mesh, content, inputs["mesh"]["ground"], inputs["densities"]))
     progress(1.0)
     return 0
 
@@ -74,8 +77,10 @@ def _at_its_key(path: Path) -> Iterator[None]:
         raise InputError(place + what, value, error.rule, error.hint) from error
 
 
-def measure_own(mesh: TaggedMesh, ground: list[str], densities: Mapping[str, float]) -> dict[str, Any]:
-    """Size, quality, and volume and mass of each part as meshed [m, m^3, kg]."""
+def measure_own(
+    mesh: TaggedMesh, content: FileMesh | StepBody, ground: list[str], densities: Mapping[str, float]
+) -> dict[str, Any]:
+    """Size, quality, and volume and mass of each part as meshed [m, m^3, kg]; the shape of tetrahedra is their own."""
     volumes = mesh_volume(mesh)
     parts = {
         name: {
@@ -89,10 +94,19 @@ def measure_own(mesh: TaggedMesh, ground: list[str], densities: Mapping[str, flo
         "half_width": "symmetry" in mesh.faces,
         "outer_radius": outer_radius(mesh, ground),
         "width": float(np.ptp(mesh.points[:, 1])),
-        "quality": asdict(mesh_quality(mesh)),
+        "quality": asdict(mesh_quality(mesh)) | _shape(content),
         "parts": parts,
         "facets": {name: int(np.count_nonzero(mesh.facet_tags == tag)) for name, tag in mesh.faces.items()},
         "total_volume": sum(volumes.values()),
         "total_mass": sum(part["mass"] for part in parts.values()),
         "hash": mesh.hash(),
     }
+
+
+def _shape(content: FileMesh | StepBody) -> dict[str, float]:
+    """Smallest scaled Jacobian of a file's tetrahedra; nothing of hexahedra, which are solved as they are."""
+    file = content.file if isinstance(content, StepBody) else content
+    cells, _ = solid_cells(file)
+    if cells.shape[1] not in (4, 10):
+        return {}
+    return {"min_scaled_jacobian": float(scaled_jacobians_of_tetrahedra(file.points, cells).min())}

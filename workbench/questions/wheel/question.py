@@ -134,7 +134,7 @@ def mesh_checks(mesh: MeshNumbers, whole: MeshNumbers, tolerances: ToleranceSect
         quantity="scaled Jacobian",
         unit="-",
         role="gate",
-        source="scaled Jacobian of a hexahedron, Stimpson et al. 2007, SAND2007-1751; the limit is ours",
+        source="scaled Jacobian of the cell, Stimpson et al. 2007, SAND2007-1751; the limit is ours",
     )
     worst = min(m.quality.min_scaled_jacobian for m in (mesh, whole))
     cells = at_least(shape, lambda: worst, tolerances.min_scaled_jacobian)
