@@ -276,7 +276,7 @@ class _WheelRun:
         problem, last, now = self.problem, self.rows[-2], self.rows[-1]
         here, control = problem.state(), now["deflection_m"]
         begun = control
-        if self.yields:  # what has flowed since does not flow back
+        if self.yields or self.load_case.friction > 0.0:  # what has flowed or slid since does not go back
             problem.restore(start)
             begun = last["deflection_m"]
         fraction = (wanted - last["load_N"]) / (now["load_N"] - last["load_N"])

@@ -19,12 +19,11 @@ __all__ = ["strength_figures"]
 
 def strength_figures(study: Study, results: StrengthResults) -> dict[str, str]:
     """Utilisation of the most stressed part at each orientation, and of each part at its worst orientation."""
-    share = "plastic strain / 0.2 %" if results.flows else "largest stress / yield strength"
-    around = empty_figure("load on the wheel [N]", share)
+    around = empty_figure("load on the wheel [N]", "largest stress / yield strength")
     for i, (orientation, curve) in enumerate(results.curves.items()):
         most = np.max(list(utilisation(curve, results.yield_strength).values()), axis=0)
         add_plain(around, curve.load, most, f"{orientation:g}°", ORIENTATION_COLOURS[i % 6], mode="lines+markers")
-    parts = empty_figure("load on the wheel [N]", share)
+    parts = empty_figure("load on the wheel [N]", "largest stress / yield strength")
     for i, (part, (orientation, _)) in enumerate(results.by_part.items()):
         curve = results.curves[orientation]
         name = f"{part.replace('_', ' ')}, {orientation:g}°"

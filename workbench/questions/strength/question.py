@@ -6,11 +6,10 @@ tests/end_to_end/test_report.py.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from contracts.records import Check
 from workbench.questions.mesh_study.question import mesh_study_of
@@ -34,7 +33,6 @@ __all__ = ["STRENGTH", "yield_check"]
 _MEASURE = (
     "strips by their stress linearised through the thickness, one thickness from every joint and four from free edges"
 )
-_FLOWING = "; parts that flow by their largest plastic strain, over the 0.2 % that define R_p0.2"
 
 
 def yield_check(
@@ -51,7 +49,7 @@ def yield_check(
         quantity="stress / yield",
         unit="-",
         role="finding",
-        source=f"yield strengths of the study's materials; {_measure(curves)}",
+        source=f"yield strengths of the study's materials; {_MEASURE}",
     )
 
     def check(allowed: float) -> Check:
@@ -61,12 +59,6 @@ def yield_check(
         return at_most(claim, largest, 1.0)
 
     return _noted(check, uncertainty)
-
-
-def _measure(curves: Iterable[StiffnessCurve]) -> str:
-    """What is held against yield, in words."""
-    flows = any(name.startswith("max_plastic_strain") and c.columns[name].any() for c in curves for name in c.columns)
-    return f"{_MEASURE}{_FLOWING * flows}"
 
 
 def _noted(check: Callable[[float], Check], uncertainty: float | None) -> Check:
@@ -119,7 +111,7 @@ def _checks(study: Study, results: StrengthResults) -> list[Check]:
         quantity="load",
         unit="N",
         role="finding",
-        source=f"yield strengths of the study's materials; {up_to:g} N is {which}; {_measure(results.curves.values())}",
+        source=f"yield strengths of the study's materials; {up_to:g} N is {which}; {_MEASURE}",
     )
 
     strengths, uncertainty = yield_strengths(study), results.uncertainty

@@ -1,9 +1,9 @@
 """Stress against yield along a curve: utilisation of each part, peak stress at a load, load at first yield.
 
-A part that flows is judged by its equivalent plastic strain: its yield strength is defined by 0.2 % of it.
 Strips are judged by their stress linearised through the thickness, one thickness from every joint and four from free
 edges: the elastic stress at a weld's end has no limit under refinement. What is no strip (grousers, hubs) has its
-largest von Mises stress.
+largest von Mises stress. A part that flows is judged alike: its linearised stress grows with the moment, to one and a
+half times yield where the whole thickness flows; a part without lines comes to its limit where it begins to flow.
 
 Verified by tests/unit/test_workbench_yielding.py.
 """
@@ -22,7 +22,6 @@ from contracts.errors import InputError
 from workbench.questions.model_curves import ModelCurves
 
 __all__ = [
-    "PROOF_STRAIN",
     "FirstYield",
     "PeakStress",
     "StrengthResults",
@@ -36,13 +35,9 @@ __all__ = [
 ]
 
 
-PROOF_STRAIN = 0.002
-"""Plastic strain that defines the strength R_p0.2 [-]."""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FirstYield:
-    """Where stress first reaches yield on a curve, or plastic strain `PROOF_STRAIN`.
+    """Where the stress that is judged first reaches yield on a curve.
 
     Attributes
     ----------
@@ -64,7 +59,7 @@ class PeakStress:
     load, deflection : where on the curve [N, m]
     part : name of the part
     stress : the one that is judged [Pa], see `judged_stress`
-    used : that stress over yield strength, of a part that flows up to there plastic strain over `PROOF_STRAIN` [-]
+    used : that stress over yield strength, see `utilisation` [-]
     strength : yield strength [Pa]
     local : largest von Mises stress anywhere in the part [Pa], which near a weld's end has no limit under refinement;
         the judged one of a curve that has no other
@@ -133,13 +128,15 @@ def utilisation(
 ) -> dict[str, NDArray[np.float64]]:
     """Stress that is judged over yield strength at each point of the curve, by part that has a stress [-].
 
-    Of a part that flows plastic strain over `PROOF_STRAIN`; of both as many times as ``allowed`` [-].
+    At least 1 where a part without lines has flowed; as many times as ``allowed`` [-].
     """
     found = {}
     for part, strength in yield_strength.items():
         stress, strain = judged_stress(curve, part), plastic_strain(curve, part)
         if stress is not None:
-            found[part] = (stress / strength if strain is None else strain / PROOF_STRAIN) / allowed
+            flowed = strain is not None and stress is curve.columns.get(f"max_von_mises_{part}_Pa")
+            used = np.maximum(stress / strength, strain > 0.0) if flowed else stress / strength
+            found[part] = used / allowed
     return found
 
 
