@@ -147,7 +147,7 @@ class _Place:
         return goal, goal - self.reached
 
     def ahead(self, displacement: NDArray[np.float64], goal: float) -> NDArray[np.float64]:
-        """The displacement at the goal if it goes on as between the last two states, (n_dofs,) [m]; not round a turn."""
+        """Displacement at the goal if it goes on as between the last two states, (n_dofs,) [m]; not beyond a turn."""
         share = 0.0 if self.before is None else (goal - self.reached) / (self.reached - self.before[0])
         if self.before is None or share < 0.0:  # it comes back elastically, not the way it went
             return displacement
