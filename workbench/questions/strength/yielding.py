@@ -134,8 +134,9 @@ def utilisation(
     for part, strength in yield_strength.items():
         stress, strain = judged_stress(curve, part), plastic_strain(curve, part)
         if stress is not None:
-            flowed = strain is not None and stress is curve.columns.get(f"max_von_mises_{part}_Pa")
-            used = np.maximum(stress / strength, strain > 0.0) if flowed else stress / strength
+            used = stress / strength
+            if strain is not None and stress is curve.columns.get(f"max_von_mises_{part}_Pa"):
+                used = np.maximum(used, strain > 0.0)
             found[part] = used / allowed
     return found
 
