@@ -12,7 +12,7 @@ with U(J) = K/2 (ln J)^2. What solves them: `reference_fe.material`. Verified by
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Annotated, Any
 
@@ -52,7 +52,7 @@ class MooneyRivlin:
 
     Attributes
     ----------
-    c10, c01 : constants of the first and the second invariant [Pa], their sum > 0
+    c10, c01 : constants of the first and the second invariant [Pa], their sum > 0; either may be zero
     bulk_modulus : K of U(J) [Pa]
     """
 
@@ -62,7 +62,7 @@ class MooneyRivlin:
 
     def __post_init__(self) -> None:
         require_declared(self, "Mooney-Rivlin")
-        _require_stiff(self.shear_modulus)
+        _require_stiff(self.shear_modulus, "c10", (self.c10,), f"with c01 = {1e-6 * self.c01:g} MPa")
 
     @property
     def shear_modulus(self) -> float:
@@ -77,7 +77,7 @@ class Ogden:
     Attributes
     ----------
     moduli : mu_p of each term [Pa]
-    exponents : alpha_p of each term [-], none of them zero
+    exponents : alpha_p of each term [-], none of them zero, of either sign; what is usual is their absolute value
     bulk_modulus : K of U(J) [Pa]
     """
 
@@ -88,11 +88,12 @@ class Ogden:
     def __post_init__(self) -> None:
         require_declared(self, "Ogden")
         if len(self.moduli) != len(self.exponents) or not self.moduli:
-            rule = f"must be as many as the exponents, {len(self.exponents)}, and at least one"
-            raise InputError("Ogden moduli", len(self.moduli), rule, "give one modulus an exponent", key="moduli")
+            rule = f"must be as many as the exponents ({_listed(self.exponents) or 'none'}), and at least one"
+            value, hint = _listed(self.moduli, 1e-6, " MPa"), "give one modulus an exponent"
+            raise InputError("Ogden moduli", value, rule, hint, key="moduli")
         if 0.0 in self.exponents:
             raise InputError("Ogden exponents", 0.0, "must not be zero", "leave the term out", key="exponents")
-        _require_stiff(self.shear_modulus)
+        _require_stiff(self.shear_modulus, "moduli", self.moduli, f"with the exponents {_listed(self.exponents)}")
 
     @property
     def shear_modulus(self) -> float:
@@ -111,7 +112,7 @@ class J2Plasticity:
     Attributes
     ----------
     hardening_modulus : slope of the linear part [Pa]
-    saturation_stress : what the saturating part tends to [Pa]; None leaves that part out
+    saturation_stress : what the saturating part tends to [Pa], no less than R; left out, so is that part
     saturation_rate : how fast it does [-]
     """
 
@@ -171,7 +172,11 @@ def elastic_constants(law: Rubber) -> tuple[float, float]:
     return 9.0 * bulk * mu / (3.0 * bulk + mu), (3.0 * bulk - 2.0 * mu) / (2.0 * (3.0 * bulk + mu))
 
 
-def _require_stiff(shear_modulus: float) -> None:
+def _listed(values: Sequence[float], scale: float = 1.0, unit: str = "") -> str:
+    return ", ".join(f"{scale * value:g}{unit}" for value in values)
+
+
+def _require_stiff(shear_modulus: float, key: str, given: Sequence[float], beside: str) -> None:
     if not shear_modulus > 0.0:
-        rule = "must be > 0: the constants give no stiffness against shear at small strain"
-        raise InputError("initial shear modulus", f"{shear_modulus:g} Pa", rule, "check signs of the constants")
+        rule = f"{beside} gives no stiffness against shear at small strain: {1e-6 * shear_modulus:g} MPa, must be > 0"
+        raise InputError(key, _listed(given, 1e-6, " MPa"), rule, "check signs of the constants", key=key)

@@ -23,7 +23,7 @@ class Material:
     young_modulus : E > 0 [Pa], of rubber that of its law at small strain
     poisson_ratio : nu, -1 < nu < 0.5 [-], of rubber that of its law at small strain
     density : rho > 0 [kg/m^3]
-    yield_strength : R_p0.2 > 0 [Pa]; None for what does not yield, such as rubber
+    yield_strength : R_p0.2 > 0 [Pa]; left out for what does not yield, such as rubber
     source : where the numbers come from
     temperature_data : name of its data in `contracts.materials_temperature`; None if its change is not known
     temperature : temperature of these values [K]
@@ -33,7 +33,7 @@ class Material:
     Raises
     ------
     InputError
-        For a value that is not finite or out of its range.
+        For a value that is not finite or out of its range, or a law that does not go with the others.
 
     Verified by tests/unit/test_materials.py.
     """
@@ -58,6 +58,19 @@ class Material:
             raise InputError(
                 f"{self.name}: yield strength", "", "is where plasticity begins", hint, key="yield_strength"
             )
+        self._require_hardening()
+        if self.temperature_data is not None and isinstance(self.law, MooneyRivlin | Ogden):
+            rule = "has no temperature data: there are those of metals alone, and its law is of rubber"
+            what = f"{self.name}:"
+            raise InputError(what, self.temperature_data, rule, "leave temperature_data out", key="temperature_data")
+
+    def _require_hardening(self) -> None:
+        """Refuse plasticity whose saturating part goes down from the yield strength."""
+        saturation = self.law.saturation_stress if isinstance(self.law, J2Plasticity) else None
+        if saturation is not None and self.yield_strength is not None and saturation < self.yield_strength:
+            rule = f"lies below yield_strength = {1e-6 * self.yield_strength:g} MPa: the metal would soften"
+            value, hint = f"{1e-6 * saturation:g} MPa", "give what its stress tends to, or a lower strength"
+            raise InputError(f"{self.name}:", value, rule, hint, key="law.saturation_stress")
 
     def at(self, temperature: float) -> Material:
         """The material at another temperature [K], from its values at 20 C and its temperature data.
@@ -77,9 +90,6 @@ class Material:
             rule = "must be that at 20 C, from which the data count"
             raise InputError("material", f"{self.name} at {self.temperature:g} K", rule, "start from 20 C")
         data, law, strength = temperature_data(self.temperature_data), self.law, self.yield_strength
-        if isinstance(law, MooneyRivlin | Ogden):
-            rule = f"has no temperature data: those of {self.temperature_data} are of a metal, its law is of rubber"
-            raise InputError("material", self.name, rule, "leave temperature_data out")
         yielding = 1.0 if data.yield_ratio is None else data.yield_ratio.at(temperature)
         return replace(
             self,

@@ -164,7 +164,7 @@ class SpringSet:
             rule = f"makes the strip {thinnest * 1e3:.3g} mm thick where it is thinnest, with these ends"
             value = f"{self._thicknesses[1] * 1e3:g} mm"
             hint = "give a middle nearer to the ends"
-            raise InputError(f"{self.name} thickness middle", value, rule, hint, key="thickness_middle")
+            raise InputError(f"thickness_middle of {self.name}", value, rule, hint, key="thickness_middle")
 
     @property
     def tapered(self) -> bool:

@@ -116,7 +116,8 @@ def axial_levels(design: WheelDesign, parts: Parts, half_width: bool) -> NDArray
             continue
         if half_width and not _symmetric(bands):
             rule = "half width needs bands that mirror each other about y = 0"
-            raise InputError(f"{name} bands", bands, rule, "mesh the full width (half_width=False)")
+            shown = ", ".join(f"{1e3 * y0:g}..{1e3 * y1:g} mm" for y0, y1 in bands)
+            raise InputError(f"{name} bands", shown, rule, "mesh the full width (half_width = false)")
         levels += [y for band in bands for y in band]
     if design.sidewall_springs is not None:
         inner = 0.5 * design.tire.width - design.sidewall_springs.weld_length

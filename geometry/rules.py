@@ -38,7 +38,9 @@ def require_name(what: str, value: str, key: str = "") -> None:
 def require_bands(what: str, bands: Sequence[tuple[float, float]], key: str = "") -> None:
     """Raise InputError unless the axial bands ``((y0, y1), ...)`` [m] are finite, rising and apart from each other."""
     if not bands:
-        raise InputError(what, "no band", "needs at least one axial band", "give ((-0.02, 0.02),)", key=key)
+        raise InputError(
+            what, "no band", "needs at least one axial band", 'give one, in a study [["-20 mm", "20 mm"]]', key=key
+        )
     for y0, y1 in bands:
         text = f"{y0 * 1e3:g}..{y1 * 1e3:g} mm"
         if not (math.isfinite(y0) and math.isfinite(y1)):
@@ -46,7 +48,7 @@ def require_bands(what: str, bands: Sequence[tuple[float, float]], key: str = ""
         if y1 <= y0:
             raise InputError(what, text, "must end after it begins", "give the smaller y first", key=key)
     ordered = sorted(bands)
-    for (_, end), (start, _) in pairwise(ordered):
+    for (first, end), (start, last) in pairwise(ordered):
         if start < end:
-            text = f"{start * 1e3:g} mm begins before {end * 1e3:g} mm"
-            raise InputError(what, text, "bands of one set must not overlap", "shorten or join the bands", key=key)
+            text = f"{first * 1e3:g}..{end * 1e3:g} and {start * 1e3:g}..{last * 1e3:g} mm"
+            raise InputError(f"{what}s", text, "must not overlap", "shorten or join the bands", key=key)

@@ -84,6 +84,9 @@ def _check_names(design: _Parts) -> None:
     for name, place in zip(names, places, strict=False):
         if name in RESERVED_NAMES:
             raise InputError("spring set name", name, "is the name of another part", "choose another name", key=place)
+        if name.lower() in RESERVED_NAMES:
+            rule = f"differs from the name of another part, {name.lower()}, in capitals alone"
+            raise InputError("spring set name", name, rule, "choose another name", key=place)
         if names.count(name) > 1:
             raise InputError("spring set name", name, "is used twice", "give each spring set its own name", key=place)
     if design.impact_springs is not None and design.impact_springs.name != "impact_springs":

@@ -75,7 +75,7 @@ class GroundContact:
             raise InputError("ground", type(terrain).__name__, rule, "leave out the travel")
         if travel is not None and wheel.sides > 1.0 and travel.way is not Way.FORE_AFT:
             rule = "is not symmetric about the wheel's middle plane"
-            raise InputError("travel", travel.way.value, rule, "build the full width (half_width=False)")
+            raise InputError("travel", travel.way.value, rule, "build the full width (half_width = false)")
         self._rows, self._knots, _ = terrain.pieces()
         if wheel.sides > 1.0:
             _require_symmetric(self._rows, frame)
@@ -177,7 +177,7 @@ def _require_symmetric(rows: Array, frame: Array) -> None:
     across = np.where(plane, rows[:, 2], rows[:, 2] * (rows[:, 0] != _FIELD))
     if abs(frame[2, 1]) > 1e-12 or (np.abs(across) > 1e-12).any() or (rows[:, 0] == _FIELD).any():
         rule = "is not symmetric about the wheel's middle plane"
-        raise InputError("ground", "turned or uneven", rule, "build the full width (half_width=False)")
+        raise InputError("ground", "turned or uneven", rule, "build the full width (half_width = false)")
 
 
 @compiled

@@ -13,7 +13,7 @@ from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
 from workbench.questions.orientations.question import ORIENTATIONS, OrientationMap
 from workbench.questions.study_graph import report_tasks
-from workbench.study.full import around, full_study, is_mirrored, rotational_period
+from workbench.study.full import around, full_study, is_mirrored, rotational_period, steps_around
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.rules import broken_rules
@@ -112,6 +112,25 @@ def test_a_step_that_does_not_fit_is_refused(study: Study, step: float, word: st
     full = study.full.model_copy(update={"orientation_step": math.radians(step)})
     with pytest.raises(InputError, match=word):
         full_study(study.model_copy(update={"full": full}))
+
+
+@pytest.mark.parametrize(
+    ("period", "step", "told"),
+    [(72.0, 11.25, ["9", "12"]), (90.0, 120.0, ["90"]), (360.0 / 7.0, 20.0, ["17.14285714", "25.71428571"])],
+)
+def test_steps_that_divide_the_period_are_named(
+    study: Study, period: float, step: float, told: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("workbench.study.full.rotational_period", lambda _: period)
+
+    def stepped(angle: float) -> Study:
+        full = study.full.model_copy(update={"orientation_step": math.radians(angle)})
+        return study.model_copy(update={"full": full})
+
+    with pytest.raises(InputError, match=f"choose {' or '.join(told)} deg"):
+        steps_around(stepped(step))
+    for one in map(float, told):
+        assert len(steps_around(stepped(one))) == round(period / one)
 
 
 def _map(orientations: tuple[float, ...] = (0.0, 30.0, 60.0, 90.0), damage: float = 0.0) -> OrientationMap:

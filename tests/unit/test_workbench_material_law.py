@@ -37,11 +37,16 @@ c01 = "0.05 MPa"
 bulk_modulus = "1 GPa"
 """
 FIRST = built_in_study().with_name("first.toml")
+OGDEN = (
+    RUBBER.partition("kind")[0]
+    + 'kind = "ogden"\nmoduli = ["0.6 MPa", "0.1 MPa"]\nexponents = [2]\nbulk_modulus = "1 GPa"\n'
+)
 PLASTIC = """
 [materials.Ti-6Al-4V.law]
 kind = "j2_plasticity"
 hardening_modulus = "2 GPa"
 """
+SOFTENING = PLASTIC + 'saturation_stress = "500 MPa"\nsaturation_rate = 20\n'
 
 
 def study_with(tmp_path: Path, more: str, *, tire: str = "") -> Study:
@@ -92,7 +97,18 @@ def test_the_wheel_of_a_mesh_task_keeps_the_law(tmp_path: Path) -> None:
         (RUBBER.replace("mooney_rivlin", "rubber"), r"materials.rubber.law.kind = 'rubber': must be one of st_venant"),
         (RUBBER.replace('c10 = "0.3 MPa"\n', ""), "materials.rubber.law.c10: is missing"),
         (RUBBER.replace("0.3 MPa", "0.3 mm"), "materials.rubber.law.c10 = '0.3 mm': must be a pressure"),
-        (RUBBER.replace("0.3 MPa", "-0.3 MPa"), "materials.rubber.law.*no stiffness against shear"),
+        (
+            RUBBER.replace("0.3 MPa", "-0.3 MPa"),
+            "materials.rubber.law.c10 = -0.3 MPa: .*c01 = 0.05 MPa gives no stiffness against shear .* -0.5 MPa",
+        ),
+        (OGDEN, r"materials.rubber.law.moduli = 0.6 MPa, 0.1 MPa: .*must be as many as the exponents \(2\)"),
+        (OGDEN.replace("[2]", "[2, -14]"), r"law.moduli = 0.6 MPa, 0.1 MPa: .*the exponents 2, -14 .* -0.1 MPa"),
+        (
+            RUBBER.replace("density", 'temperature_data = "AISI 301"\ndensity'),
+            "rubber.temperature_data = AISI 301.*rubber",
+        ),
+        (SOFTENING, "Ti-6Al-4V.law.saturation_stress = 500 MPa.*lies below yield_strength = 880 MPa"),
+        ("[materials.law]\nkind = 'ogden'\nmoduli = [1]\n", r"materials.law.kind.*known key; .*\[materials.NAME.law"),
         (RUBBER.replace("c01", "mu"), "materials.rubber.law.mu"),
         (RUBBER.replace("density", 'young_modulus = "2 MPa"\ndensity'), "young_modulus.*must be left out"),
         (RUBBER.replace("density", "poisson_ratio = 0.4\ndensity"), "poisson_ratio.*must be left out"),
@@ -107,6 +123,28 @@ def test_what_is_wrong_with_a_law_is_told_with_file_and_key(more: str, told: str
     with pytest.raises(StudyError, match=told) as caught:
         study_with(tmp_path, more)
     assert str(tmp_path / "study.toml") in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("[fe]", '[fe]\nmaterial_law = "mooney_rivlin"'),
+        ("[fe]", '[fe]\nlaw = "ogden"'),
+        ("[[wheel.springs]]", '[[wheel.springs]]\nlaw = "ogden"'),
+    ],
+)
+def test_a_law_elsewhere_is_told_its_place(old: str, new: str, tmp_path: Path) -> None:
+    path, text = tmp_path / "study.toml", FIRST.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(StudyError, match=r"law = .*; other laws stand with their material: \[materials.NAME.law\]"):
+        read_study(path)
+
+
+def test_rubber_of_the_second_invariant_alone_and_saturation_at_yield_are_read(tmp_path: Path) -> None:
+    assert materials_by_part(study_with(tmp_path, RUBBER.replace("0.3 MPa", "0 MPa"), tire="rubber"))["tire"].law
+    level = SOFTENING.replace("500 MPa", "880 MPa")
+    assert "tire" in plastic_parts(study_with(tmp_path, level))
 
 
 def test_parts_that_do_not_yield_are_not_judged(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from contracts.curves import read_curve
-from contracts.errors import InputError
+from contracts.errors import InputError, StudyError
 from contracts.input_file import input_text
 from workbench.commands.computing import read_and_warn, tell_kept
 from workbench.execution.errors import RunError
@@ -46,7 +46,8 @@ def run_calibrate(study_path: Path | None, target: str | None, out: Path, store:
     path = study_path or built_in_study()
     study = read_and_warn(path)
     if (reason := without_planar_model(study)) is not None:
-        raise reason
+        hint = "calibration steps by the section model: take it out, or try thicknesses with workbench stiffness"
+        raise StudyError(path, reason.what, reason.value, reason.rule, hint)
     if target is None:
         wanted = _of_the_reference(study)
     else:

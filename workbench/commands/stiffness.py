@@ -52,9 +52,10 @@ def run_stiffness(
         warn(study_path, ["the brush is the same at every orientation: --orientation changes nothing"])
     check_folder(out)
     check_targets(out, ("curves/any", "fields/any", "footprints/any", f"{model}_peak_stress.csv"))
-    tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
-    if model == "fe":
-        tasks += tuple(footprint_tasks(study, [task for task in tasks if task.name.startswith("fe_")]))
+    with naming(study_path):
+        tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
+        if model == "fe":
+            tasks += tuple(footprint_tasks(study, [task for task in tasks if task.name.startswith("fe_")]))
     entries = computed(study_path, tasks, store, computing)
     folders = {name: entry.path for name, entry in entries.items()}
     with naming(study_path):

@@ -78,7 +78,7 @@ def steps_around(study: Study) -> list[float]:
     period, step = rotational_period(study), degrees(study.full.orientation_step)
     if not _is_whole(period / step):
         rule = f"must divide {period:g} deg, after which the wheel repeats itself"
-        raise InputError("full.orientation_step", f"{step:g} deg", rule, "choose 5 or 10 deg")
+        raise InputError("full.orientation_step", f"{step:g} deg", rule, _steps_near(period, step))
     return [i * step for i in range(round(period / step))]
 
 
@@ -128,6 +128,16 @@ def _all_runs(rover: RoverSection | None) -> RoverSection | None:
     if rover is None or rover.on_ancf_tires == "none":
         return rover
     return rover.model_copy(update={"on_ancf_tires": "all"})
+
+
+def _steps_near(period: float, step: float) -> str:
+    """What to try in place of a step [deg] that does not divide the period [deg]: the next that do, round if any is."""
+    every = [period / count for count in range(1, 361)]
+    known = [one for one in every if _is_whole(4.0 * one)] or every
+    near = {min(known, key=lambda one: abs(one - step))}
+    for side in ([one for one in known if one < step], [one for one in known if one > step]):
+        near |= {min(side, key=lambda one: abs(one - step))} if side else set()
+    return f"choose {' or '.join(f'{one:.10g}' for one in sorted(near))} deg"
 
 
 def _is_whole(number: float) -> bool:

@@ -5,7 +5,8 @@ Verified by tests/unit/test_workbench_material_law.py.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Sequence
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field
 
@@ -13,7 +14,7 @@ from contracts.material_laws import J2Plasticity, MooneyRivlin, NeoHookean, Ogde
 from workbench.study.declared import reads
 from workbench.study.section import Section
 
-__all__ = ["LawSection"]
+__all__ = ["LawSection", "hint_of_its_place"]
 
 
 @reads(StVenantKirchhoff)
@@ -60,3 +61,12 @@ LawSection = Annotated[
     StVenantKirchhoffSection | NeoHookeanSection | MooneyRivlinSection | OgdenSection | J2PlasticitySection,
     Field(discriminator="kind"),
 ]
+
+
+def hint_of_its_place(key: Sequence[str | int]) -> str | None:
+    """Where a law stands, for a key that is wrong since it is a law's somewhere else; None for any other."""
+    names = {name for kind in get_args(get_args(LawSection)[0]) for name in kind.model_fields}
+    below = len(key) == 3 and tuple(key[:2]) == ("materials", "law") and key[2] in names
+    if key[-1] == "law" or tuple(key) == ("fe", "material_law") or below:
+        return "other laws stand with their material: [materials.NAME.law]"
+    return None

@@ -23,6 +23,7 @@ from contracts.text import one_line
 from workbench.study.curve_file import in_si, read_measured_curve
 from workbench.study.key_units import nearest_key, parts_of, words_of
 from workbench.study.magnitudes import impossible, numbers_of
+from workbench.study.material_law import hint_of_its_place
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
 from workbench.study.own_mesh import materials_by_part, own_mesh
@@ -193,6 +194,8 @@ def _study_error(path: Path, error: ValidationError, table: Any) -> StudyError:
             shown = f"{math.degrees(limit):g} deg" if "deg" in first["input"] else f"{limit:g} in SI units"
             rule = re.sub(r"\S+$", lambda _: shown, rule)  # pydantic writes 0.0 as 0
         hint = "see studies/exomars.toml for an example"
+    if first["type"] in ("extra_forbidden", "literal_error"):
+        hint = hint_of_its_place(place) or hint
     return StudyError(path, key, value, rule, hint)
 
 

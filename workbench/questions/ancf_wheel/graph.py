@@ -56,7 +56,7 @@ def require_ancf_wheel(study: Study) -> None:
     """Raise InputError for a study with what the ANCF model of its wheel has not."""
     if (lacking := without_ancf_wheel(study)) is not None:
         rule = "is not in the ANCF model of the wheel"
-        raise InputError(f"{study.name}: {lacking}", "", rule, "take it out of the study, or ask for another model")
+        raise InputError(lacking, "", rule, "take it out of the study, or ask for another model")
 
 
 def _curve_tasks(study: Study, section: AncfWheelSection, orientations_deg: Sequence[float]) -> list[Task]:

@@ -20,14 +20,16 @@ __all__ = ["section_task", "section_tasks", "without_planar_model"]
 def without_planar_model(study: Study) -> InputError | None:
     """Why a study's wheel has no planar model here; None if it has one."""
     if study.fe.turned:
-        return InputError("fe.camber or yaw", "not 0", "turns the ground out of the section plane", "use --model fe")
+        return InputError(
+            "fe.camber or yaw", "not 0", "turns the ground out of the section plane", "use the solid model alone"
+        )
     if (reason := without_wheel(study, "the section model")) is not None:
         return reason
     if study.parametric.sidewall_springs is not None:
         rule = "bend out of the plane of a section model"
-        return InputError("wheel.sidewall_springs", "given", rule, "use the solid model (--model fe)")
+        return InputError("wheel.sidewall_springs", "given", rule, "use the solid model alone")
     if (other := other_law(study)) is not None:
-        return InputError(*other, "has no planar form", "use st_venant_kirchhoff, or the solid model (--model fe)")
+        return InputError(*other, "has no planar form", "use st_venant_kirchhoff, or the solid model alone")
     return None
 
 
