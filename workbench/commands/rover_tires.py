@@ -18,6 +18,7 @@ from workbench.execution.task import Task, needed_for
 from workbench.questions.models.driving_brush import driving_brush
 from workbench.study.model import Study
 from workbench.study.model_parameters import rover_brush, rover_on_ancf
+from workbench.study.own_mesh import own_mesh
 from workbench.study.wheel_design import wheel_design
 
 __all__ = ["FITTED", "TIRES", "TireSource", "check_tire", "file_name", "on_tires"]
@@ -167,7 +168,7 @@ def on_tires(scenario: Scenario, name: str, source: TireSource, design: RoverDes
     """
     study = source.study
     if study is not None:
-        _check_wheel(study, design)
+        _check_wheel(source, study, design)
     if name.startswith(FITTED):
         driven = _on_fitted(scenario, source, design, name.removeprefix(FITTED))
     else:
@@ -175,8 +176,19 @@ def on_tires(scenario: Scenario, name: str, source: TireSource, design: RoverDes
     return driven if study is None else on_friction(driven, study.ground.friction)
 
 
-def _check_wheel(study: Study, design: RoverDesign) -> None:
+def _check_wheel(source: TireSource, study: Study, design: RoverDesign) -> None:
     """The rover must stand on the study's wheel: places of its joints and its own wheels are those of one size."""
+    if own_mesh(study) is not None:
+        from workbench.commands.computing import naming
+        from workbench.execution.result_files import read_result
+        from workbench.questions.wheel.graph import MESH, own_mesh_task
+        from workbench.questions.wheel.own_mesh_task import require_rover_wheel
+
+        _, path = _studied(source)
+        found = read_result(_computed([own_mesh_task(study)], source, path)[MESH])
+        with naming(path):
+            require_rover_wheel(found["outer_radius"], found["least_reach"], design.wheel_radius)
+        return
     radius = wheel_design(study).tire.outer_radius
     if abs(radius - design.wheel_radius) > 1e-9:
         rule = f"is not that of the rover's wheels, {1e3 * design.wheel_radius:g} mm"

@@ -17,6 +17,7 @@ from contracts.errors import InputError
 from contracts.input_file import input_text
 from contracts.memory import shown_size
 from contracts.mesh import TaggedMesh
+from geometry.own_mesh.repeats import least_reach
 from geometry.own_mesh.step_body import StepBody, told
 from geometry.own_mesh.wheel_checks import outer_radius
 from workbench.commands.computing import console, naming, read_and_warn, warn
@@ -26,9 +27,10 @@ from workbench.questions.input_uncertainty.samples import require_inputs
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.sweep.graph import sweep_graph
-from workbench.questions.wheel.own_mesh_task import own_content, wheel_in
+from workbench.questions.wheel.own_mesh_task import own_content, require_rover_wheel, wheel_in
 from workbench.report.placing import moved
-from workbench.study.full import full_study
+from workbench.study.full import full_study, steps_around
+from workbench.study.model_parameters import rover_radius
 from workbench.study.own_mesh import own_mesh, placement_and_roles
 from workbench.study.own_mesh_section import OwnMeshSection
 from workbench.study.reading import built_in_study, read_study_table, study_of
@@ -84,7 +86,7 @@ def _write_new(path: Path, text: str) -> None:
             aside.unlink()
 
 
-def _tell_own(path: Path, section: OwnMeshSection) -> None:
+def _tell_own(path: Path, section: OwnMeshSection, *, of_rover: bool) -> None:
     """Read a wheel's own mesh; of solids, list what a user may name, before any name is looked for."""
     file, table = Path(section.file), section.model_dump(mode="json")
     content = own_content(file, table)
@@ -99,6 +101,8 @@ def _tell_own(path: Path, section: OwnMeshSection) -> None:
         f"{path}: {len(mesh.cells)} cells, {unknowns} unknowns, about {shown_size(memory)} to solve", soft_wrap=True
     )
     _tell_size(path, mesh, section)
+    if of_rover:
+        require_rover_wheel(outer_radius(mesh, section.ground), least_reach(mesh, section.ground), rover_radius())
 
 
 def _tell_size(path: Path, mesh: TaggedMesh, section: OwnMeshSection) -> None:
@@ -121,10 +125,10 @@ def run_check(path: Path) -> int:
     warn(path, beyond_reach(study, points))
     with naming(path):
         if (mesh := own_mesh(study)) is not None:
-            _tell_own(path, mesh)
+            _tell_own(path, mesh, of_rover=study.rover is not None)
         tasks = report_tasks(study)
         if "full" in study.model_fields_set:
-            full_study(study)
+            _ = full_study(study) if mesh is None else steps_around(study)
         if study.sweep is not None:
             sweep_graph(points, study.sweep.models)
         if study.input_uncertainty is not None and without_planar_model(study) is None:

@@ -15,6 +15,7 @@ from workbench.questions.wheel.graph import MESH, mesh_task, wheel_meshes
 from workbench.study.full import require_level
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
+from workbench.study.own_mesh import own_mesh
 
 __all__ = ["FRICTION", "STEPS", "WORKING_LOAD", "travel_tasks"]
 
@@ -68,6 +69,9 @@ def _fe_tasks(study: Study, ways: Sequence[Way], load: float, orientations_deg: 
     curves = fe_curve_tasks(study, orientations_deg)
     meshes = [wheel_meshes(study)[0]]
     whole = any(way is not Way.FORE_AFT for way in ways) and study.mesh.half_width
+    if whole and (own := own_mesh(study)) is not None:
+        rule = "is half a wheel, whose hub can be moved forwards alone"
+        raise InputError("mesh.symmetry", own.symmetry, rule, "mesh the whole wheel")
     if whole:
         meshes.append(mesh_task(study, MESH_FULL, {"half_width": False}))
     tasks = []

@@ -24,20 +24,28 @@ _SAME = 1e-6
 
 
 def rotational_period(study: Study) -> float:
-    """Smallest turn that maps the wheel onto itself [deg]: the full turn over the common divisor of all counts."""
+    """Smallest turn that maps the wheel onto itself [deg]: the full turn over the common divisor of all counts.
+
+    Of a mesh from another program it is what ``mesh.repeats`` says.
+    """
+    if (section := own_mesh(study)) is not None:
+        return 360.0 / section.repeats
     return 360.0 / math.gcd(*(count for count, _ in _patterns(study)))
 
 
 def is_mirrored(study: Study) -> bool:
-    """Whether the wheel is its own mirror image about position 0, so that phi and -phi give the same curve."""
+    """Whether the wheel is its own mirror image about position 0, so that phi and -phi give the same curve.
+
+    Of a mesh from another program this is not known: no.
+    """
+    if own_mesh(study) is not None:
+        return False
     two_sided = all(springs.shape == "hoop" for springs in _springs(study))
     return two_sided and all(_is_whole(2.0 * phase * count / 360.0) for count, phase in _patterns(study))
 
 
 def around(study: Study) -> Around:
-    """How the study's wheel repeats itself; of a mesh from another program nothing is known."""
-    if own_mesh(study) is not None:
-        return Around(period=360.0, mirrored=False)
+    """How the study's wheel repeats itself."""
     return Around(period=rotational_period(study), mirrored=is_mirrored(study))
 
 

@@ -17,6 +17,7 @@ from workbench.study.ancf_tire import tire_values
 from workbench.study.brush_tire import brush_values
 from workbench.study.fit import FittedTireSection
 from workbench.study.model import Study, stated
+from workbench.study.own_mesh import own_mesh
 from workbench.study.wheel_design import in_section, wheel_design
 
 if TYPE_CHECKING:
@@ -119,9 +120,14 @@ def rover_ancf(study: Study) -> TirePreset:
 
 
 def _of_thesis_size(study: Study) -> bool:
-    """What a study does not state is the thesis' as far as it can be: its tires fit wheels of its size."""
+    """What a study does not state is the thesis' as far as it can be: its tires fit wheels of its size.
+
+    A wheel with a mesh from another program has the rover's size with [rover], by which its mesh is checked.
+    """
     from ancf_reduced.tire.preset import thesis_preset
 
+    if own_mesh(study) is not None:
+        return study.rover is not None and bool(np.isclose(rover_radius(), thesis_preset().outer_radius))
     return bool(np.isclose(wheel_design(study).tire.outer_radius, thesis_preset().outer_radius))
 
 

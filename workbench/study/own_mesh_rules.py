@@ -22,11 +22,9 @@ NEEDS_WHEEL = {
     "wheel": "describes a wheel of our own beside mesh.file, which is one already",
     "hub_study": "meshes the wheel's hubs, which a mesh from a file does not tell apart",
     "penalty_study": "meshes the wheel with other sizes, which a mesh from a file does not have",
-    "full": "meshes the wheel more finely, which a mesh from a file cannot be",
     "ancf_fit": "is not offered for a wheel whose mesh comes from a file",
     "ancf_wheel": "makes plates of the strips of [wheel], which a mesh from a file does not have",
     "environment": "lets hubs expand with their part of [wheel], which a mesh from a file does not have",
-    "rover": "stands on the wheel by curves over a period of [wheel], as deep as the room between its rim and hub",
     "input_uncertainty": "samples the section model, which needs the dimensions of [wheel]",
 }
 """Section -> why it cannot stand beside mesh.file."""
@@ -58,6 +56,12 @@ def broken_own_mesh(study: Study) -> Iterator[BrokenRule]:
         shown = ", ".join(f"{factor:g}" for factor in study.mesh_study.factors)
         rule = "must be whole numbers: into so many the cells of a mesh from a file are divided"
         yield BrokenRule(key="mesh_study.factors", value=shown, rule=rule, hint="e.g. 1, 2, 3")
+    for key in sorted(study.full.model_fields_set - {"orientation_step"} if "full" in study.model_fields_set else ()):
+        rule = "meshes the wheel more finely, which a mesh from a file cannot be"
+        yield BrokenRule(key=f"full.{key}", value=str(getattr(study.full, key)), rule=rule, hint="remove it")
+    if study.rover is not None and mesh.half_width:
+        rule = "moves wheels sideways over the ground, which half a wheel, mesh.symmetry, cannot be"
+        yield BrokenRule(key="rover", value="a table", rule=rule, hint="mesh the whole wheel, or remove [rover]")
     yield from _of_the_sweep(study)
     yield from _of_the_file(mesh)
     yield from _of_the_names(mesh)

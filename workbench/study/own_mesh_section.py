@@ -81,6 +81,8 @@ class OwnMeshSection(Section):
     centre: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
     """Of the hub, in the file's axes [m]."""
 
+    repeats: Annotated[StrictInt, Field(ge=1, le=1000)] = 1
+    """Equal sectors around the axle, by which the mesh is checked: curves repeat after 360 degrees over it [-]."""
     factor: Annotated[StrictInt, Field(ge=1, le=6)] = 1
     """Each hexahedron is divided into so many along each of its axes [-]."""
 

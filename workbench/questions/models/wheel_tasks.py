@@ -22,6 +22,7 @@ from workbench.study.full import is_mirrored, require_level, rotational_period, 
 from workbench.study.laws import require_elastic
 from workbench.study.model import Study
 from workbench.study.orientation import deep_name, orientation_name
+from workbench.study.own_mesh import own_mesh
 from workbench.study.wheel_design import wheel_design
 
 __all__ = [
@@ -59,12 +60,10 @@ def deep_tasks(study: Study, model: str) -> tuple[Task, ...]:
     """Curves at every orientation to be solved that go on beyond the study's, as deep as a rover may press a wheel.
 
     Behind the study's points one every eighth of its last deflection, up to 1.4 times that or 0.6 times the room
-    between rim and hub, whatever is less; no load ends them.
+    between rim and hub, whatever is less; no load ends them. A wheel with a mesh from another program is pressed no
+    deeper than the study says: what room it has is not known.
     """
-    design, last = wheel_design(study), study.fe.max_deflection
-    room = design.tire.outer_radius - design.outer_hub.outer_radius
-    deepest, apart = max(last, min(_DEEPER * last, _ROOM * room)), last / _APART
-    more = [round(last + k * apart, 12) for k in range(1, 1 + int((deepest - last) / apart + 1e-9))]
+    more = [] if own_mesh(study) is not None else _deeper(study)
     tasks = []
     for task in stiffness_tasks(study, model, orientations_to_solve(study)):
         if "deflections" in task.inputs:
@@ -73,6 +72,14 @@ def deep_tasks(study: Study, model: str) -> tuple[Task, ...]:
         else:
             tasks.append(task)
     return foreseen(tasks)
+
+
+def _deeper(study: Study) -> list[float]:
+    """Deflections behind the study's [m]."""
+    design, last = wheel_design(study), study.fe.max_deflection
+    room = design.tire.outer_radius - design.outer_hub.outer_radius
+    deepest, apart = max(last, min(_DEEPER * last, _ROOM * room)), last / _APART
+    return [round(last + k * apart, 12) for k in range(1, 1 + int((deepest - last) / apart + 1e-9))]
 
 
 def solved_tire(study: Study, model: str) -> tuple[dict[str, Any], tuple[Task, ...]]:
@@ -140,7 +147,9 @@ def where_it_moves(study: Study) -> list[float]:
 
 
 def _tips(study: Study) -> dict[str, float]:
-    """Of the wheel's grousers, as `rover_dynamics.tires.wheel_potential.Tips`."""
+    """Of the wheel's grousers, as `rover_dynamics.tires.wheel_potential.Tips`; a mesh of another program has none."""
+    if own_mesh(study) is not None:
+        return {"radius": 1.0, "height": 0.0, "number": 1.0, "phase": 0.0, "half": 0.0}  # the radius of none is unread
     design = wheel_design(study)
     radius, grousers = design.tire.outer_radius, design.grousers
     if grousers is None:

@@ -12,6 +12,7 @@ from workbench.execution.fingerprint import file_sha256
 from workbench.execution.task import Task
 from workbench.questions.wheel.mesh_file import OWN_FILE
 from workbench.study.model import Study
+from workbench.study.model_parameters import rover_radius
 from workbench.study.own_mesh import materials_by_part, own_mesh, sized_mesh
 from workbench.study.wheel_design import part_materials
 
@@ -73,7 +74,7 @@ def mesh_task(
 def own_mesh_task(study: Study, name: str = MESH, factor: float | None = None) -> Task:
     """The study's mesh from another program, read, checked, divided by its own or another factor.
 
-    Its content decides the result, not its path.
+    Its content decides the result, not its path. With [rover] it has to be the rover's wheel.
 
     Raises
     ------
@@ -86,12 +87,13 @@ def own_mesh_task(study: Study, name: str = MESH, factor: float | None = None) -
     require_ordinary_file(path, "mesh file", LARGEST_FILE)
     densities = {part: material.density for part, material in materials_by_part(study).items()}
     divided = section if factor is None else section.model_copy(update={"factor": round(factor)})
+    left_out = {"file"} | ({"repeats"} if section.repeats == 1 else set())
     inputs = {
-        "mesh": divided.model_dump(mode="json", exclude={"file"}),
+        "mesh": divided.model_dump(mode="json", exclude=left_out),
         "ending": path.suffix.lower(),
         "sha256": file_sha256(path),
         "densities": densities,
-    }
+    } | ({} if study.rover is None else {"rover_radius": rover_radius()})
     function = "workbench.questions.wheel.own_mesh_task:read"
     return Task(name=name, function=function, inputs=inputs, files={OWN_FILE: path}, cost=5.0)
 

@@ -19,6 +19,7 @@ from geometry.measures import mesh_quality, mesh_volume
 from geometry.own_mesh.cell_checks import solid_cells
 from geometry.own_mesh.file_mesh import FileMesh
 from geometry.own_mesh.files import read_mesh_file
+from geometry.own_mesh.repeats import least_reach, require_repeats
 from geometry.own_mesh.step_body import StepBody
 from geometry.own_mesh.step_files import STEP_ENDINGS, read_step
 from geometry.own_mesh.tetrahedron_quality import scaled_jacobians_of_tetrahedra
@@ -32,7 +33,10 @@ from workbench.study.own_mesh import placement_and_roles, sizes_and_rules
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
 
-__all__ = ["measure_own", "own_content", "read", "wheel_in"]
+__all__ = ["measure_own", "own_content", "read", "require_rover_wheel", "wheel_in"]
+
+_ROUND = 1e-3
+"""Largest difference of a rover's wheel from a circle of its radius, over the radius [-]."""
 
 
 def read(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
@@ -43,8 +47,11 @@ def read(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     content = own_content(path, inputs["mesh"])
     mesh = wheel_in(content, inputs["mesh"], path)
     progress(0.7)
+    measured = measure_own(mesh, content, inputs["mesh"]["ground"], inputs["densities"])
+    if "rover_radius" in inputs:
+        require_rover_wheel(measured["outer_radius"], measured["least_reach"], inputs["rover_radius"])
     write_mesh(mesh, out / MESH)
-    write_result(out, measure_own(mesh, content, inputs["mesh"]["ground"], inputs["densities"]))
+    write_result(out, measured)
     progress(1.0)
     return 0
 
@@ -63,7 +70,9 @@ def wheel_in(content: FileMesh | StepBody, section: Mapping[str, Any], path: Pat
     with _at_its_key(path):
         if isinstance(content, StepBody):
             content = content.named(sizes_and_rules(dict(section))[1], placement)
-        return wheel_of_file(content, roles, placement, section["factor"])
+        mesh = wheel_of_file(content, roles, placement, section["factor"])
+        require_repeats(mesh, section.get("repeats", 1))
+        return mesh
 
 
 @contextmanager
@@ -75,6 +84,22 @@ def _at_its_key(path: Path) -> Iterator[None]:
         what, value = (error.what, error.value or path.name) if error.what == "mesh file" else (error.what, error.value)
         place = f"mesh.{error.key}: " if error.key not in ("", "file") else ""
         raise InputError(place + what, value, error.rule, error.hint) from error
+
+
+def require_rover_wheel(found: float, least: float, radius: float) -> None:
+    """Raise InputError unless a mesh is a smooth wheel of the rover's radius [m].
+
+    The rover's tire is a rim that touches at this distance from the axle on every orientation. ``found`` and ``least``
+    are ``outer_radius`` and ``least_reach`` of `measure_own` [m].
+    """
+    if abs(found - radius) > _ROUND * radius:
+        rule = f"is not that of the rover's wheels, {1e3 * radius:g} mm"
+        hint = "give --rover FILE, a rover with such wheels, or remove [rover]"
+        raise InputError("radius of the wheel's own mesh", f"{1e3 * found:.5g} mm", rule, hint)
+    if least < found * (1.0 - _ROUND):
+        rule = f"must reach equally far all around for a rover to drive on them, and reach up to {1e3 * found:.5g} mm"
+        hint = "mesh the rim without grousers, its edges on the circle, or remove [rover]"
+        raise InputError("ground faces of the wheel's own mesh", f"{1e3 * least:.5g} mm", rule, hint)
 
 
 def measure_own(
@@ -93,6 +118,7 @@ def measure_own(
     return {
         "half_width": "symmetry" in mesh.faces,
         "outer_radius": outer_radius(mesh, ground),
+        "least_reach": least_reach(mesh, ground),
         "width": float(np.ptp(mesh.points[:, 1])),
         "quality": asdict(mesh_quality(mesh)) | _shape(content),
         "parts": parts,
