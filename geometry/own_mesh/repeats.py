@@ -1,6 +1,6 @@
 """Whether a wheel's own mesh repeats around its axle as often as its study says, and how round its ground faces are.
 
-Outer faces are sampled on their own biquadratic maps. Verified by tests/unit/test_own_mesh_repeats.py.
+Outer faces are sampled on their own maps, bilinear or biquadratic. Verified by tests/unit/test_own_mesh_repeats.py.
 """
 
 from __future__ import annotations
@@ -25,14 +25,16 @@ _OFF = 1e-3
 _SAMPLES = 1_000_000
 _FEWEST, _MOST = 4, 10
 """Samples of a facet along each of its axes."""
-_PROBES = 20_000
-"""Nodes of a surface that are turned, at most."""
+_PROBED, _PROBES = 5000, np.array([-0.7, 0.0, 0.7])
+"""Facets of a surface that are turned, at most, and the places along each of their axes: within, off their edges."""
 _NEAREST = 12
-"""Samples that a turned node is compared with: at an edge the nearest may lie on another face."""
+"""Samples that a turned place is compared with: beside an edge the nearest may lie on another face."""
+_BETWEEN = 0.75
+"""Distance of a place from the nearest sample over the samples' [-]: half a diagonal, and some more."""
 _DIRECTIONS = 1440
 """In which the reach of the ground faces is looked at."""
 _CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0], [0, 0]], dtype=float)
-"""Places of a facet's nine nodes."""
+"""Places of a facet's nine nodes; the first four are its corners."""
 
 
 def require_repeats(mesh: TaggedMesh, repeats: int) -> None:
@@ -51,9 +53,8 @@ def require_repeats(mesh: TaggedMesh, repeats: int) -> None:
     c, s = math.cos(angle), math.sin(angle)
     turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
     for what, facets in _surfaces(mesh):
-        nodes = np.unique(facets)
-        turned = mesh.points[nodes[:: 1 + len(nodes) // _PROBES]] @ turn.T
-        off = _distances(turned, *_sampled(mesh, facets))
+        turned = _sampled(mesh, facets[:: 1 + len(facets) // _PROBED], _PROBES)[0] @ turn.T
+        off = _distances(turned, *_sampled(mesh, facets, _evenly(len(facets))))
         worst = int(off.argmax())
         if off[worst] > _OFF * radius:
             x, y, z = 1e3 * turned[worst]
@@ -69,7 +70,8 @@ def least_reach(mesh: TaggedMesh, ground: Iterable[str]) -> float:
     For a smooth round rim this is its radius; between two grousers, and at the middle of a polygon's edge, less.
     """
     tags = [mesh.faces[name] for name in ground]
-    places, _, _ = _sampled(mesh, mesh.facets[np.isin(mesh.facet_tags, tags)])
+    facets = mesh.facets[np.isin(mesh.facet_tags, tags)]
+    places = _sampled(mesh, facets, _evenly(len(facets)))[0]
     angles = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
     hull = _outline(places[:, [0, 2]])
     return float(min((hull @ np.array([math.cos(a), math.sin(a)])).max() for a in angles))
@@ -89,23 +91,35 @@ def _surfaces(mesh: TaggedMesh) -> Iterator[tuple[str, Index]]:
         yield f"group of faces {name}", mesh.facets[mesh.facet_tags == tag]
 
 
-def _sampled(mesh: TaggedMesh, facets: Index) -> tuple[Array, Array, Array]:
-    """Places (n, 3) [m], unit normals (n, 3) and distances to the next samples (n,) [m] of facets' samples."""
-    m = int(np.clip(math.sqrt(_SAMPLES / max(len(facets), 1)), _FEWEST, _MOST))
-    line = np.linspace(-1.0, 1.0, m)
+def _evenly(facets: int) -> Array:
+    """Places along each axis of a facet, from edge to edge."""
+    return np.linspace(-1.0, 1.0, int(np.clip(math.sqrt(_SAMPLES / max(facets, 1)), _FEWEST, _MOST)))
+
+
+def _sampled(mesh: TaggedMesh, facets: Index, line: Array) -> tuple[Array, Array, Array]:
+    """Places (n, 3) [m], unit normals (n, 3) and distances to the next samples (n,) [m] of facets' samples.
+
+    ``line`` has their places along both axes of a facet.
+    """
     at = np.stack(np.meshgrid(line, line, indexing="ij"), axis=-1).reshape(-1, 2)
-    shapes, along, across = _shapes(at)
-    nodes = mesh.points[facets]  # (f, 9, 3)
+    shapes, along, across = _bilinear(at) if facets.shape[1] == 4 else _biquadratic(at)
+    nodes = mesh.points[facets]  # (f, 4 or 9, 3)
     places, first, second = (np.einsum("qa,fac->fqc", values, nodes) for values in (shapes, along, across))
     normals = np.cross(first, second)
     length = np.linalg.norm(normals, axis=-1, keepdims=True)
-    apart = (2.0 / (m - 1)) * np.maximum(np.linalg.norm(first, axis=-1), np.linalg.norm(second, axis=-1))
+    apart = (line[1] - line[0]) * np.maximum(np.linalg.norm(first, axis=-1), np.linalg.norm(second, axis=-1))
     unit = normals / np.where(length > 0.0, length, 1.0)
     return places.reshape(-1, 3), unit.reshape(-1, 3), apart.reshape(-1)
 
 
-def _shapes(at: Array) -> tuple[Array, Array, Array]:
-    """Biquadratic shape functions and their derivatives at places of a facet, each (q, 9)."""
+def _bilinear(at: Array) -> tuple[Array, Array, Array]:
+    """Shape functions of four nodes and their derivatives at places of a facet, each (q, 4)."""
+    (a, b), u, v = _CORNERS[:4].T, at[:, :1], at[:, 1:]
+    return 0.25 * (1.0 + a * u) * (1.0 + b * v), 0.25 * a * (1.0 + b * v), 0.25 * b * (1.0 + a * u)
+
+
+def _biquadratic(at: Array) -> tuple[Array, Array, Array]:
+    """The same of nine nodes, each (q, 9)."""
 
     def line(x: Array) -> tuple[Array, Array]:
         """Of the nodes at -1, 0 and 1, (q, 3)."""
@@ -120,11 +134,11 @@ def _shapes(at: Array) -> tuple[Array, Array, Array]:
 def _distances(points: Array, places: Array, normals: Array, apart: Array) -> Array:
     """Distance (n,) of points from a sampled surface [m]: to the tangent planes of samples beside them, or to samples.
 
-    A tangent plane counts no farther from its sample than the next sample lies.
+    A tangent plane counts no farther from its sample than a place between four samples may lie.
     """
     from scipy.spatial import cKDTree
 
     distance, near = cKDTree(places).query(points, k=min(_NEAREST, len(places)))
     away = np.einsum("pkc,pkc->pk", points[:, None, :] - places[near], normals[near])
     beside = np.sqrt(np.maximum(distance**2 - away**2, 0.0))
-    return np.asarray(np.where(beside <= apart[near], np.abs(away), distance).min(axis=1))
+    return np.asarray(np.where(beside <= _BETWEEN * apart[near], np.abs(away), distance).min(axis=1))

@@ -8,20 +8,24 @@ from typing import Any
 
 import pytest
 
+from contracts.curves import Around
 from contracts.errors import InputError, StudyError
+from contracts.hub_travel import Way
 from geometry.own_mesh.step_body import FaceRule
 from workbench.commands.calibrate import run_calibrate
 from workbench.execution.runner import Computing
 from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
+from workbench.questions.models.wheel_tasks import solved_tire
 from workbench.questions.registry import questions_of
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.sweep.graph import sweep_graph
 from workbench.questions.travels import travel_tasks
 from workbench.questions.wheel.graph import own_mesh_task
-from workbench.questions.wheel.own_mesh_task import own_content, wheel_in
-from workbench.study.full import full_study
+from workbench.questions.wheel.own_mesh_task import own_content, require_rover_wheel, wheel_in
+from workbench.study.full import around, full_study
 from workbench.study.magnitudes import of_the_file
 from workbench.study.model import Study
+from workbench.study.model_parameters import rover_radius
 from workbench.study.own_mesh import materials_by_part, own_mesh, sized_mesh, sizes_and_rules
 from workbench.study.own_mesh_rules import NEEDS_WHEEL
 from workbench.study.reading import built_in_study, study_of
@@ -212,6 +216,70 @@ def test_what_a_sweep_needs_of_the_wheel_is_refused(sweep: dict[str, Any], key: 
     with pytest.raises(StudyError) as told:
         study_of(SPIRAL, _table() | {"sweep": sweep})
     assert told.value.key == key
+
+
+def _of_the_rover(**more: object) -> Study:
+    """The spiral wheel, which has no [wheel], under the rover."""
+    table = _table() | {"rover": {"on_ancf_tires": "none"}, "full": {"orientation_step": "9 deg"}}
+    table["mesh"] = table["mesh"] | {"repeats": 10} | more
+    table["fe"] = table["fe"] | {"max_load": "250 N"}
+    return study_of(SPIRAL, table)
+
+
+def test_a_wheel_that_repeats_is_a_tire_by_the_curves_of_one_sector() -> None:
+    """No deeper than its study says, and none the mirror image of another."""
+    study = _of_the_rover()
+    assert around(study) == Around(period=36.0, mirrored=False)
+    values, tasks = solved_tire(study, "fe")
+    assert (values["period_deg"], values["tips"]["height"]) == (36.0, 0.0)
+    assert [one for one, _ in values["curves"]] == [0.0, 9.0, 18.0, 27.0]
+    deep = [task for task in tasks if "deep" in task.name]
+    assert len(deep) == 4
+    assert {task.inputs["deflections"][-1] for task in deep} == {0.01}
+    assert len(solved_tire(_of_the_rover(repeats=5), "fe")[0]["curves"]) == 8
+    with pytest.raises(InputError, match=r"must divide 51\.4286 deg.*choose 6\.42857 or 12\.8571 deg"):
+        solved_tire(_of_the_rover(repeats=7), "fe")
+
+
+def test_what_repeats_and_a_rover_are_in_the_key_of_the_mesh() -> None:
+    """Not where they are not given: what was kept holds."""
+    plain, rover = own_mesh_task(_study()).inputs, own_mesh_task(_of_the_rover()).inputs
+    assert "repeats" not in plain["mesh"]
+    assert "rover_radius" not in plain
+    assert (rover["mesh"]["repeats"], rover["rover_radius"]) == (10, rover_radius())
+
+
+def test_the_rover_s_runs_are_planned() -> None:
+    names = {task.name for task in report_tasks(_of_the_rover())}
+    assert {"rover_straight", "rover_drop", "rover_step"} <= names
+
+
+@pytest.mark.parametrize(
+    ("found", "least", "words"),
+    [
+        (0.125, 0.125, "radius of the wheel's own mesh = 125 mm: is not that of the rover's wheels, 142.5 mm"),
+        (0.1425, 0.1400, "ground faces of the wheel's own mesh = 140 mm: must reach equally far all around"),
+    ],
+)
+def test_the_rover_stands_on_a_smooth_wheel_of_its_size(found: float, least: float, words: str) -> None:
+    require_rover_wheel(0.1425, 0.14249, 0.1425)
+    with pytest.raises(InputError) as told:
+        require_rover_wheel(found, least, 0.1425)
+    assert words in str(told.value)
+
+
+def test_half_a_wheel_is_not_moved_sideways() -> None:
+    with pytest.raises(StudyError) as told:
+        _of_the_rover(symmetry="middle")
+    assert (told.value.key, "half a wheel" in told.value.rule) == ("rover", True)
+    with pytest.raises(InputError, match=r"mesh\.symmetry = middle: is half a wheel"):
+        travel_tasks(_study(symmetry="middle"), "fe", (Way.LATERAL,), 40.0)
+
+
+def test_of_a_full_study_the_step_alone_is_read() -> None:
+    with pytest.raises(StudyError) as told:
+        study_of(SPIRAL, _table() | {"full": {"orientation_step": "9 deg", "factor": 2.0}})
+    assert (told.value.key, told.value.value) == ("full.factor", "2.0")
 
 
 def test_a_turned_ground_needs_the_whole_wheel() -> None:

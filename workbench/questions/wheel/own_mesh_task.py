@@ -94,7 +94,7 @@ def require_rover_wheel(found: float, least: float, radius: float) -> None:
     """
     if abs(found - radius) > _ROUND * radius:
         rule = f"is not that of the rover's wheels, {1e3 * radius:g} mm"
-        hint = "give --rover FILE, a rover with such wheels, or remove [rover]"
+        hint = "give --rover FILE, a rover with such wheels; remove [rover], which is the shipped rover"
         raise InputError("radius of the wheel's own mesh", f"{1e3 * found:.5g} mm", rule, hint)
     if least < found * (1.0 - _ROUND):
         rule = f"must reach equally far all around for a rover to drive on them, and reach up to {1e3 * found:.5g} mm"
