@@ -166,6 +166,20 @@ BROKEN: dict[str, tuple[dict[str, object], str, str]] = {
         "mesh.faces.tread.radius",
         "must ascend",
     ),
+    "a negative radius": (
+        STEP | {"faces": {"tread": {"radius": "-125 mm"}}},
+        "mesh.faces.tread.radius",
+        "is not negative",
+    ),
+    "no number": (STEP | {"faces": {"tread": {"numbers": []}}}, "mesh.faces.tread.numbers", "is empty"),
+    "a face not declared": (
+        STEP | {"ground": ["tire"], "hub": ["tread", "bore"]},
+        "mesh.ground",
+        "is not in [mesh.faces], which has tread, bore",
+    ),
+    "all held": ({"hub": ["rim", "spokes", "hub"], "ground": ["tread"]}, "mesh.hub", "holds every part"),
+    "IGES": ({"file": "wheel.igs", "units": None}, "mesh.file", ".igs is not read; .msh, "),
+    "a key of our wheels": ({"axial_size": "9 mm"}, "mesh.axial_size", "is for wheels of [wheel]; a mesh from a file"),
     "a centre far away": ({"centre": ["0 m", "90 m", "0 m"]}, "mesh.centre[1]", ""),
 }
 
@@ -177,6 +191,16 @@ def test_a_broken_section_is_one_message(what: str) -> None:
         _study(**change)
     assert told.value.key == key or not key
     assert words in told.value.rule
+
+
+def test_a_part_of_our_wheels_beside_the_file_is_told_before_what_it_lacks() -> None:
+    with pytest.raises(StudyError, match=r"wheel = a table: describes a wheel of our own"):
+        study_of(SPIRAL, _table() | {"wheel": {"tread": {"thickness": "5 mm"}}})
+
+
+def test_a_length_that_is_refused_is_shown_with_its_unit() -> None:
+    with pytest.raises(StudyError, match=r"mesh\.element_size = 20 mm: is for solids"):
+        _study(element_size="20 mm")
 
 
 @pytest.mark.parametrize(

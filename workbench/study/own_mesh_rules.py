@@ -7,16 +7,22 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import chain
+from pathlib import PurePath
+from typing import Any
 
+from geometry.own_mesh.files import ENDINGS
+from geometry.own_mesh.step_files import STEP_ENDINGS
 from workbench.study.broken_rule import BrokenRule
+from workbench.study.key_units import as_written
 from workbench.study.model import Study
 from workbench.study.own_mesh import own_mesh
 from workbench.study.own_mesh_section import OwnMeshSection
+from workbench.study.sections import MeshSection
 from workbench.study.sweep import tied_keys
 
-__all__ = ["NEEDS_WHEEL", "broken_own_mesh"]
+__all__ = ["NEEDS_WHEEL", "broken_own_mesh", "misplaced"]
 
 NEEDS_WHEEL = {
     "wheel": "describes a wheel of our own beside mesh.file, which is one already",
@@ -34,14 +40,29 @@ _SWEPT = ("fe", "ancf", "brush")
 """Models that a sweep has without [wheel]."""
 
 
+def misplaced(table: Mapping[str, Any]) -> Iterator[BrokenRule]:
+    """What cannot stand beside mesh.file, whatever is in it; of the content of a study file, before it is checked."""
+    mesh = table.get("mesh")
+    if not isinstance(mesh, dict) or not isinstance(file := mesh.get("file"), str):
+        return
+    for name, rule in NEEDS_WHEEL.items():
+        if name in table:
+            yield BrokenRule(key=name, value="a table", rule=rule, hint=f"remove [{name}], or mesh.file")
+    ending = PurePath(file).suffix
+    if ending.lower() not in (*ENDINGS, *STEP_ENDINGS):
+        rule = f"{ending or 'a file without ending'} is not read; {', '.join((*ENDINGS, *STEP_ENDINGS))} are"
+        yield BrokenRule(key="mesh.file", value=repr(file), rule=rule, hint="export STEP, or save the mesh as .msh")
+    for key in (key for key in MeshSection.model_fields if key in mesh and key not in OwnMeshSection.model_fields):
+        rule = "is for wheels of [wheel]; a mesh from a file has its cells"
+        hint = "remove it" if key != "half_width" else "remove it; half a wheel names its mid-plane in mesh.symmetry"
+        yield BrokenRule(key=f"mesh.{key}", value="", rule=rule, hint=hint)
+
+
 def broken_own_mesh(study: Study) -> Iterator[BrokenRule]:
     """What a study with its own mesh has and cannot have; nothing for a wheel of [wheel]."""
     mesh = own_mesh(study)
     if mesh is None:
         return
-    for name, rule in NEEDS_WHEEL.items():
-        if name in study.model_fields_set:
-            yield BrokenRule(key=name, value="a table", rule=rule, hint=f"remove [{name}], or mesh.file")
     if study.of_the_thesis:
         rule = "speaks of the thesis' wheel, not of one whose mesh comes from a file"
         yield BrokenRule(key="reference.thesis_words", value="true", rule=rule, hint="remove it")
@@ -92,7 +113,7 @@ def _of_the_file(mesh: OwnMeshSection) -> Iterator[BrokenRule]:
             yield BrokenRule(key="mesh.units", value="", rule="is missing", hint="the unit of the file's lengths: mm")
         sizes = {f"parts.{name}.element_size": part.element_size for name, part in mesh.parts.items()}
         numbers = {"element_size": mesh.element_size, "around": mesh.around} | sizes
-        given = {key: f"{value:g}" for key, value in numbers.items() if value is not None}
+        given = {key: as_written(f"mesh.{key}", value) for key, value in numbers.items() if value is not None}
         for key, value in (given | ({"faces": "a table"} if mesh.faces else {})).items():
             rule = "is for solids in a STEP file; this file is meshed already, and names its faces"
             yield BrokenRule(key=f"mesh.{key}", value=value, rule=rule, hint="remove it")
@@ -114,14 +135,27 @@ def _of_the_file(mesh: OwnMeshSection) -> Iterator[BrokenRule]:
         if not rule_of.model_fields_set:
             hint = "give part, radius, position or numbers"
             yield BrokenRule(key=key, value="an empty table", rule="stands for no face", hint=hint)
+        if "numbers" in rule_of.model_fields_set and not rule_of.numbers:
+            hint = "give numbers that workbench check lists, or remove it"
+            yield BrokenRule(key=f"{key}.numbers", value="[]", rule="is empty: no face has one of these", hint=hint)
         if rule_of.part is not None and rule_of.part not in mesh.parts:
             rule = f"is not in [mesh.parts], which has {', '.join(mesh.parts)}"
             yield BrokenRule(key=f"{key}.part", value=rule_of.part, rule=rule, hint="correct the name")
         for end in ("radius", "position"):
             pair = getattr(rule_of, end)
+            if pair is not None and end == "radius" and min(pair) < 0.0:
+                value, rule = f"{1e3 * min(pair):g} mm", "is a distance from the axle, which is not negative"
+                yield BrokenRule(key=f"{key}.{end}", value=value, rule=rule, hint="drop the sign")
             if pair is not None and pair[0] > pair[1]:
                 value = f"{1e3 * pair[0]:g} to {1e3 * pair[1]:g} mm"
                 yield BrokenRule(key=f"{key}.{end}", value=value, rule="must ascend", hint="swap them")
+    of_faces = {"ground": mesh.ground, "contact": tuple(chain(*mesh.contact)), "symmetry": (mesh.symmetry,) if mesh.symmetry else ()}
+    for where, names in ({"hub": mesh.hub} | of_faces).items():
+        for name in names:
+            if name not in mesh.faces and not name.isdecimal() and not (where == "hub" and name in mesh.parts):
+                rule = f"is not in [mesh.faces], which has {', '.join(mesh.faces) or 'no table'}"
+                rule = f"is no part, and {rule}" if where == "hub" else rule
+                yield BrokenRule(key=f"mesh.{where}", value=name, rule=rule, hint=f"add [mesh.faces.{name}]")
 
 
 def _of_the_names(mesh: OwnMeshSection) -> Iterator[BrokenRule]:
@@ -136,6 +170,9 @@ def _of_the_names(mesh: OwnMeshSection) -> Iterator[BrokenRule]:
                 hint = "give a group of cells to one part"
                 yield BrokenRule(key=f"mesh.parts.{name}.groups", value=group, rule=rule, hint=hint)
             owner[group] = name
+    if set(mesh.parts) <= set(mesh.hub):
+        rule = "holds every part"
+        yield BrokenRule(key="mesh.hub", value=", ".join(mesh.hub), rule=rule, hint="leave a part that can deform")
     used = {"hub": mesh.hub, "ground": mesh.ground, "symmetry": (mesh.symmetry,) if mesh.symmetry else ()}
     for key, names in used.items():
         for name, times in Counter(names).items():

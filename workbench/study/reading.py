@@ -27,7 +27,7 @@ from workbench.study.material_law import hint_of_its_place
 from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_mesh, ancf_preset, brush_parameters
 from workbench.study.own_mesh import materials_by_part, own_mesh
-from workbench.study.own_mesh_rules import broken_own_mesh
+from workbench.study.own_mesh_rules import broken_own_mesh, misplaced
 from workbench.study.reference import refuse_moved
 from workbench.study.reference_file import read_band, stated_uncertainty
 from workbench.study.rules import broken_rules, broken_springs
@@ -80,6 +80,8 @@ def study_of(path: Path, table: Mapping[str, Any]) -> Study:
     written: Any = None
     try:
         refuse_moved(table)
+        for broken in misplaced(table):
+            raise StudyError(path, broken.key, broken.value, broken.rule, broken.hint)
         study = Study.model_validate(written := _in_one_line(table))
     except ValidationError as error:
         raise _study_error(path, error, written) from error
