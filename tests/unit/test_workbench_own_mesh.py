@@ -267,7 +267,7 @@ def test_a_wheel_that_repeats_is_a_tire_by_the_curves_of_one_sector() -> None:
 
 def test_what_repeats_and_a_rover_are_in_the_key_of_the_mesh() -> None:
     """Not where they are not given: what was kept holds."""
-    plain, rover = own_mesh_task(_study()).inputs, own_mesh_task(_of_the_rover()).inputs
+    plain, rover = own_mesh_task(_study(repeats=None)).inputs, own_mesh_task(_of_the_rover()).inputs
     assert "repeats" not in plain["mesh"]
     assert "rover_radius" not in plain
     assert (rover["mesh"]["repeats"], rover["rover_radius"]) == (10, rover_radius())
