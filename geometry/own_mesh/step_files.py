@@ -132,7 +132,8 @@ def _called(gmsh: Any, solid: Entity) -> str:
 
 def _solid(gmsh: Any, tag: int, name: str) -> StepSolid:
     box = np.array(gmsh.model.occ.getBoundingBox(3, tag)).reshape(2, 3)
-    return StepSolid(number=tag, name=name, volume=gmsh.model.occ.getMass(3, tag), box=box)
+    ends = frozenset(point for _, point in gmsh.model.getBoundary([(3, tag)], recursive=True))
+    return StepSolid(number=tag, name=name, volume=gmsh.model.occ.getMass(3, tag), box=box, ends=ends)
 
 
 def _require_possible(path: Path, solids: Sequence[StepSolid], sizes: StepSizes) -> None:
@@ -141,18 +142,21 @@ def _require_possible(path: Path, solids: Sequence[StepSolid], sizes: StepSizes)
         if name not in known:
             rule = f"is no solid of the file, which has {', '.join(sorted(known))}"
             raise InputError("size of solids", name, rule, "correct the name")
-    least = sum(
-        solid.volume / (_OF_AN_EDGE * sizes.of_solids.get(solid.name, sizes.element_size) ** 3) for solid in solids
-    )
-    if 4.0 * least > LARGEST_MESH:
-        rule = f"makes at least {least:.3g} tetrahedra of {path.name}, at most {LARGEST_MESH // 4} can be solved"
-        raise InputError(
-            "element size",
-            f"{1e3 * sizes.element_size:g} mm",
-            rule,
-            "choose a larger one; a STEP file states its own unit",
-            key="element_size",
-        )
+    least = [solid.volume / (_OF_AN_EDGE * _size(solid, sizes) ** 3) for solid in solids]
+    if 4.0 * sum(least) > LARGEST_MESH:
+        most = solids[int(np.argmax(least))]
+        size = " x ".join(f"{1e3 * length:.6g}" for length in np.ptp(np.concatenate([s.box for s in solids]), axis=0))
+        rule = f"makes at least {sum(least):.3g} tetrahedra of {path.name}, whose body is {size} mm"
+        rule = f"{rule}; at most {LARGEST_MESH // 4} can be solved"
+        hint = "choose a larger one; a STEP file states its own unit"
+        of_part = f"parts.{sizes.part_of.get(most.name, most.name)}." if most.name in sizes.of_solids else ""
+        shown = f"{1e3 * _size(most, sizes):g} mm"
+        raise InputError("element size", shown, rule, hint, key=f"{of_part}element_size")
+
+
+def _size(solid: StepSolid, sizes: StepSizes) -> float:
+    """Largest edge of a solid's elements [m]."""
+    return sizes.of_solids.get(solid.name, sizes.element_size)
 
 
 def _set_sizes(gmsh: Any, names: Mapping[int, str], sizes: StepSizes) -> None:

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from contracts.mesh import TaggedMesh
+from geometry.hexahedra import face_nodes
 from geometry.own_mesh.roles import Roles
 
-__all__ = ["check_wheel", "outer_radius"]
+__all__ = ["check_wheel", "outer_radius", "parts_of_faces"]
 
 _SMALLEST, _LARGEST = 5e-3, 5.0
 """Radii of wheels [m], a toy's and a mine truck's: as the study's table of ranges has it."""
@@ -29,6 +30,18 @@ def outer_radius(mesh: TaggedMesh, ground: Iterable[str]) -> float:
     return float(_radius(mesh.points[_nodes_of(mesh, ground)]).max())
 
 
+def parts_of_faces(mesh: TaggedMesh, faces: Iterable[str]) -> tuple[str, ...]:
+    """Parts on whose cells any face of these groups lies, in the mesh's order."""
+    wanted = mesh.facets[np.isin(mesh.facet_tags, [mesh.faces[name] for name in faces])][:, :4]
+    near = np.flatnonzero(np.isin(mesh.cells[:, :8], wanted).any(axis=1))
+    every = mesh.cells[near][:, face_nodes(8)[:, :4]].reshape(-1, 4)
+    _, number = np.unique(np.sort(np.concatenate([every, wanted]), axis=1), axis=0, return_inverse=True)
+    number = number.ravel()
+    mine = np.flatnonzero(np.isin(number[: len(every)], number[len(every) :]))
+    tags = set(mesh.cell_tags[near[mine // 6]].tolist())
+    return tuple(name for name, tag in mesh.parts.items() if tag in tags)
+
+
 def check_wheel(mesh: TaggedMesh, roles: Roles, name: Callable[[int], str]) -> None:
     """Raise InputError for a mesh that is no wheel; ``name`` tells one of its cells in words."""
     radius = outer_radius(mesh, roles.ground)
@@ -39,6 +52,7 @@ def check_wheel(mesh: TaggedMesh, roles: Roles, name: Callable[[int], str]) -> N
     _require_about_axle(mesh, roles, radius)
     _require_outermost(mesh, roles, radius, name)
     _require_symmetry(mesh, roles, radius, name)
+    _require_deformable(mesh, roles)
     _require_held(mesh, roles, name)
 
 
@@ -81,6 +95,18 @@ def _require_symmetry(mesh: TaggedMesh, roles: Roles, radius: float, name: Calla
         cell = int(np.flatnonzero(side < 0.0)[0])
         rule = f"must be the edge of half a wheel, but {name(cell)} lies on its other side"
         raise InputError("symmetry", roles.symmetry, rule, "leave it out for a whole wheel", key="symmetry")
+
+
+def _require_deformable(mesh: TaggedMesh, roles: Roles) -> None:
+    """Not every cell is held, and none that may touch the ground."""
+    held = roles.held_parts
+    if np.isin(mesh.cell_tags, [mesh.parts[part] for part in held]).all():
+        raise InputError("parts", ", ".join(held), "hold every cell", "leave a part that can deform", key="hub")
+    pressed = [part for part in parts_of_faces(mesh, roles.ground) if part in held]
+    if pressed:
+        rule = f"is held whole, though it has faces of {', '.join(roles.ground)}, which may touch the ground"
+        hint = "name other ground faces, or faces to hold in the part's place"
+        raise InputError("part", ", ".join(pressed), rule, hint, key="hub")
 
 
 def _require_held(mesh: TaggedMesh, roles: Roles, name: Callable[[int], str]) -> None:

@@ -158,7 +158,7 @@ def test_the_commands_on_a_deck(disc: Path) -> None:
         ('hub = ["bore"]', 'hub = ["axle"]', "mesh.hub: group of faces = axle: is no group of faces"),
         ('rim = { material = "rubber" }', "", "mesh.parts: leaves 12 cells without a material, those of"),
         ("disc.inp", "none.inp", "none.inp: does not exist"),
-        ("disc.inp", "disc.toml", "is of no format that is read"),
+        ("disc.inp", "disc.toml", "mesh.file = 'disc.toml': .toml is not read"),
     ],
 )
 def test_a_fault_is_one_message_and_status_2(disc: Path, old: str, new: str, words: str) -> None:
@@ -184,7 +184,7 @@ def test_solids_are_listed_before_a_wrong_name_is_told(tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text(text.replace('radius = "100 mm"', 'radius = "125 mm"'))
     done = said("check", tmp_path / "mine.toml")
     assert done.returncode == 2
-    assert "mesh.faces.tread: rule: holds for no face on the outside" in " ".join(done.stderr.split())
+    assert "mesh.faces.tread: rule = radius 125 mm: holds for no face" in " ".join(done.stderr.split())
     assert "of rim: cylinder, radius 100 mm, position 0 to 20 mm" in " ".join(done.stdout.split())
 
 

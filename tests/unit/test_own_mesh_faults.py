@@ -13,6 +13,7 @@ from geometry.hexahedra import VTK_FROM_GMSH, mirror_order
 from geometry.inp import TWENTY_NODES
 from geometry.own_mesh.file_mesh import CellBlock, FileMesh
 from geometry.own_mesh.roles import Placement, Roles
+from geometry.own_mesh.wheel_checks import parts_of_faces
 from geometry.own_mesh.wheel_mesh import wheel_of_file
 from tests.ring_wheel import AROUND, MILLIMETRES, ROLES, ring_wheel
 
@@ -141,6 +142,8 @@ ASKED: dict[str, tuple[dict[str, object], tuple[str, ...]]] = {
     "ground": ({"ground": ("tire",)}, ("tire", "no group of faces", "correct the name")),
     "ground within": ({"hub": ("hub",), "ground": ("bore",)}, ("bore", "end at 40 mm", "part rim reaches 100 mm")),
     "symmetry": ({"symmetry": "bore_nodes", "hub": ("hub",)}, ("symmetry", "must lie in y = 0", "25 mm")),
+    "all held": ({"hub": ("rim", "hub")}, ("rim, hub", "hold every cell", "leave a part that can deform")),
+    "held where it is pressed": ({"hub": ("rim",)}, ("part = rim", "is held whole", "faces of tread")),
     "shared faces": ({"contact": (("tread_nodes", "bore"),)}, ("shares 12 faces with tread",)),
 }
 
@@ -166,6 +169,17 @@ def test_a_wheel_of_no_size_or_beside_its_axle_is_told(what: str) -> None:
     placement, words = PLACES[what]
     with pytest.raises(InputError, match=words):
         wheel_of_file(ring_wheel(), ROLES, placement)
+
+
+def test_faces_are_told_by_the_parts_they_lie_on() -> None:
+    whole = ring_wheel()
+    side = np.flatnonzero(whole.points[:, 1] == whole.points[:, 1].min())
+    mesh = wheel_of_file(
+        replace(whole, node_sets={"side": side}), replace(ROLES, contact=(("side", "bore"),)), MILLIMETRES
+    )
+    assert parts_of_faces(mesh, ["side"]) == ("hub", "rim")
+    assert parts_of_faces(mesh, ["tread"]) == ("rim",)
+    assert parts_of_faces(mesh, ["bore", "tread"]) == ("hub", "rim")
 
 
 def test_axes_that_are_one_are_refused() -> None:

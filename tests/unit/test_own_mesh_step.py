@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from geometry.checks import check_mesh
 from geometry.gmsh_session import gmsh_session
 from geometry.measures import mesh_volume
 from geometry.own_mesh.roles import Placement, Roles
-from geometry.own_mesh.step_body import FaceRule, StepBody, StepSizes, told
+from geometry.own_mesh.step_body import FaceRule, StepBody, StepSizes, named_faces, told
 from geometry.own_mesh.step_files import read_step
 from geometry.own_mesh.wheel_mesh import wheel_of_file
 from tests.step_wheel import draw_disc
@@ -22,6 +23,7 @@ METRES = Placement(unit=1.0)
 SIZES = StepSizes(element_size=0.05, of_solids={}, around=12)
 RULES = {"bore": FaceRule(radius=(0.04, 0.04)), "tread": FaceRule(radius=(0.1, 0.1), solids=("rim",))}
 ROLES = Roles(parts={"hub": ("hub",), "rim": ("rim",)}, hub=("bore",), ground=("tread",))
+PARTS = ("hub", "rim")
 VOLUME = 0.05 * math.pi * (0.1**2 - 0.04**2)
 
 
@@ -91,7 +93,14 @@ def test_a_part_has_its_own_size(disc: Path) -> None:
 @pytest.mark.parametrize(
     ("rule", "words"),
     [
-        (FaceRule(radius=(0.2, 0.2)), "holds for no face"),
+        (
+            FaceRule(radius=(0.12, 0.12), solids=("rim",)),
+            "rule = of rim, radius 120 mm: holds for no face.*nearest are face . of rim: radius 100 mm, position -25",
+        ),
+        (
+            FaceRule(radius=(0.01, 0.09), position=(0.03, 0.2)),
+            "radius 10 to 90 mm, position 30 to 200 mm: holds for no",
+        ),
         (FaceRule(solids=("tire",)), "solid = tire: is not in the file, which has hub, rim"),
         (FaceRule(numbers=(99,)), "face = 99: is no face on the outside, which are"),
     ],
@@ -100,6 +109,35 @@ def test_a_rule_that_holds_for_nothing_is_told(body: StepBody, rule: FaceRule, w
     with pytest.raises(InputError, match=words) as told_:
         body.named({"tread": rule}, METRES)
     assert told_.value.key.startswith("faces.tread")
+
+
+def test_a_wrong_axle_and_a_wrong_unit_are_asked_about(body: StepBody) -> None:
+    with pytest.raises(InputError, match='with axle = "y" it holds for some'):
+        body.numbers(RULES["tread"], Placement(unit=1.0, axle="z", up="x"))
+    small = [replace(one, box=1e-3 * one.box) for one in body.solids]
+    with pytest.raises(InputError, match=r"the file's body is 0\.2 mm across: is its unit right"):
+        replace(body, solids=small).numbers(FaceRule(radius=(1.0, 1.0)), METRES)
+
+
+def test_names_are_told_with_numbers_and_parts(body: StepBody) -> None:
+    numbers = body.numbers_of({"side": FaceRule(position=(0.025, 0.025)), "tread": RULES["tread"]}, METRES)
+    of = {
+        solid: next(f.number for f in body.faces if f.solid == solid and f.number in numbers["side"]) for solid in PARTS
+    }
+    lines = named_faces(body, numbers, {"HUB": "middle"})
+    assert lines == [
+        f"side: faces {of['hub']} of middle, {of['rim']} of rim",
+        f"tread: face {numbers['tread'][0]} of rim",
+    ]
+
+
+def test_solids_that_touch_nothing_are_named(body: StepBody, tmp_path: Path) -> None:
+    body.require_joined({"Hub"})
+    draw_disc(tmp_path / "loose.step", gap=1e-3)
+    loose = read_step(tmp_path / "loose.step", SIZES)
+    with pytest.raises(InputError, match="solids = solid 2, rim: touches no other solid; close the gap"):
+        loose.require_joined({"hub"})
+    loose.require_joined({"hub", "rim"})
 
 
 def test_solids_with_a_gap_are_loose(tmp_path: Path) -> None:
@@ -140,6 +178,10 @@ def test_sizes_no_mesher_could_hold_are_refused_before(disc: Path) -> None:
     with pytest.raises(InputError, match="makes at least") as told_:
         read_step(disc, StepSizes(element_size=1e-4, of_solids={}, around=0))
     assert told_.value.key == "element_size"
+    assert "whose body is 200 x 50 x 200 mm" in told_.value.rule
+    with pytest.raises(InputError, match=r"element size = 0\.1 mm: makes at least") as told_:
+        read_step(disc, StepSizes(element_size=0.05, of_solids={"rim": 1e-4}, around=0, part_of={"rim": "tire"}))
+    assert told_.value.key == "parts.tire.element_size"
     with pytest.raises(InputError, match="tire: is no solid of the file, which has hub, rim"):
         read_step(disc, StepSizes(element_size=0.05, of_solids={"tire": 0.01}, around=0))
 

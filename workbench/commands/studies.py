@@ -18,8 +18,9 @@ from contracts.input_file import input_text
 from contracts.memory import shown_size
 from contracts.mesh import TaggedMesh
 from geometry.own_mesh.repeats import least_reach
+from geometry.own_mesh.roles import Roles
 from geometry.own_mesh.step_body import StepBody, told
-from geometry.own_mesh.wheel_checks import outer_radius
+from geometry.own_mesh.wheel_checks import outer_radius, parts_of_faces
 from workbench.commands.computing import console, naming, read_and_warn, warn
 from workbench.execution.disk import STUDY, naming_the_disk
 from workbench.questions.fe.foresight import own_bytes
@@ -27,7 +28,7 @@ from workbench.questions.input_uncertainty.samples import require_inputs
 from workbench.questions.section.graph import without_planar_model
 from workbench.questions.study_graph import report_tasks
 from workbench.questions.sweep.graph import sweep_graph
-from workbench.questions.wheel.own_mesh_task import own_content, require_rover_wheel, wheel_in
+from workbench.questions.wheel.own_mesh_task import faces_told, own_content, require_rover_wheel, wheel_in
 from workbench.report.placing import moved
 from workbench.study.full import full_study, steps_around
 from workbench.study.model_parameters import rover_radius
@@ -93,6 +94,8 @@ def _tell_own(path: Path, section: OwnMeshSection, *, of_rover: bool) -> None:
     if isinstance(content, StepBody):
         for line in told(content, placement_and_roles(table)[0]):
             console.print(f"{file.name}: {line}", soft_wrap=True)
+        for line in faces_told(content, table, file):
+            console.print(f"{path}: {line}", soft_wrap=True)
     mesh = wheel_in(content, table, file)
     unknowns, memory = own_bytes(
         mesh, tetrahedra=isinstance(content, StepBody) or "tetrahedra" in content.blocks[0].kind
@@ -103,6 +106,20 @@ def _tell_own(path: Path, section: OwnMeshSection, *, of_rover: bool) -> None:
     _tell_size(path, mesh, section)
     if of_rover:
         require_rover_wheel(outer_radius(mesh, section.ground), least_reach(mesh, section.ground), rover_radius())
+    warn(path, _odd_holds(mesh, placement_and_roles(table)[1]))
+
+
+def _odd_holds(mesh: TaggedMesh, roles: Roles) -> list[str]:
+    """Held faces that lie where few would hold a wheel of several parts."""
+    found = []
+    on_ground = parts_of_faces(mesh, roles.ground)
+    for name in roles.held_faces:
+        parts = parts_of_faces(mesh, [name])
+        if len(parts) > 1:
+            found.append(f"mesh.hub: held faces {name} lie on {', '.join(parts)}: is more than one part meant?")
+        if len(mesh.parts) > 1 and (both := [part for part in parts if part in on_ground]):
+            found.append(f"mesh.hub: held faces {name} lie on {', '.join(both)}, which has ground faces, too")
+    return found
 
 
 def _tell_size(path: Path, mesh: TaggedMesh, section: OwnMeshSection) -> None:

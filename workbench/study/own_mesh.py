@@ -119,7 +119,9 @@ def sizes_and_rules(section: dict[str, Any]) -> tuple[StepSizes, dict[str, FaceR
         )
         for name, rule in section["faces"].items()
     }
-    return StepSizes(element_size=section["element_size"], of_solids=of_solids, around=around), rules
+    part_of = {solid: name for name, mine in groups.items() for solid in mine}
+    sizes = StepSizes(element_size=section["element_size"], of_solids=of_solids, around=around, part_of=part_of)
+    return sizes, rules
 
 
 def _groups(section: dict[str, Any]) -> dict[str, tuple[str, ...]]:

@@ -149,9 +149,9 @@ def _of_the_file(mesh: OwnMeshSection) -> Iterator[BrokenRule]:
             if pair is not None and pair[0] > pair[1]:
                 value = f"{1e3 * pair[0]:g} to {1e3 * pair[1]:g} mm"
                 yield BrokenRule(key=f"{key}.{end}", value=value, rule="must ascend", hint="swap them")
-    symmetry = (mesh.symmetry,) if mesh.symmetry else ()
-    of_faces = {"ground": mesh.ground, "contact": tuple(chain(*mesh.contact)), "symmetry": symmetry}
-    for where, names in ({"hub": mesh.hub} | of_faces).items():
+    middle = (mesh.symmetry,) if mesh.symmetry else ()
+    asked = {"hub": mesh.hub, "ground": mesh.ground, "contact": tuple(chain(*mesh.contact)), "symmetry": middle}
+    for where, names in asked.items():
         for name in names:
             if name not in mesh.faces and not name.isdecimal() and not (where == "hub" and name in mesh.parts):
                 rule = f"is not in [mesh.faces], which has {', '.join(mesh.faces) or 'no table'}"

@@ -20,7 +20,8 @@ from geometry.own_mesh.cell_checks import solid_cells
 from geometry.own_mesh.file_mesh import FileMesh
 from geometry.own_mesh.files import read_mesh_file
 from geometry.own_mesh.repeats import least_reach, require_repeats
-from geometry.own_mesh.step_body import StepBody
+from geometry.own_mesh.roles import Roles
+from geometry.own_mesh.step_body import StepBody, named_faces
 from geometry.own_mesh.step_files import STEP_ENDINGS, read_step
 from geometry.own_mesh.tetrahedron_quality import scaled_jacobians_of_tetrahedra
 from geometry.own_mesh.wheel_checks import outer_radius
@@ -33,7 +34,7 @@ from workbench.study.own_mesh import placement_and_roles, sizes_and_rules
 if TYPE_CHECKING:
     from workbench.execution.task import Progress
 
-__all__ = ["measure_own", "own_content", "read", "require_rover_wheel", "wheel_in"]
+__all__ = ["faces_told", "measure_own", "own_content", "read", "require_rover_wheel", "wheel_in"]
 
 _ROUND = 1e-3
 """Largest difference of a rover's wheel from a circle of its radius, over the radius [-]."""
@@ -69,10 +70,28 @@ def wheel_in(content: FileMesh | StepBody, section: Mapping[str, Any], path: Pat
     placement, roles = placement_and_roles(dict(section))
     with _at_its_key(path):
         if isinstance(content, StepBody):
-            content = content.named(sizes_and_rules(dict(section))[1], placement)
+            rules = sizes_and_rules(dict(section))[1]
+            _require_joined(content, roles, content.numbers_of(rules, placement))
+            content = content.named(rules, placement)
         mesh = wheel_of_file(content, roles, placement, section["factor"])
         require_repeats(mesh, section.get("repeats", 1))
         return mesh
+
+
+def faces_told(body: StepBody, section: Mapping[str, Any], path: Path) -> list[str]:
+    """A line for each name of [mesh.faces]: the faces it stands for; raises InputError for one that has none."""
+    placement, _ = placement_and_roles(dict(section))
+    sizes, rules = sizes_and_rules(dict(section))
+    with _at_its_key(path):
+        return named_faces(body, body.numbers_of(rules, placement), sizes.part_of)
+
+
+def _require_joined(body: StepBody, roles: Roles, numbers: Mapping[str, tuple[int, ...]]) -> None:
+    """Raise InputError for solids of a STEP file that touch nothing that hangs on what is held."""
+    held = {number for name in roles.held_faces for number in numbers.get(name, ())}
+    held |= {int(name) for name in roles.held_faces if name.isdecimal() and name not in numbers}
+    of_parts = {solid for part in roles.held_parts for solid in roles.parts[part]}
+    body.require_joined(of_parts | {face.solid for face in body.faces if face.number in held})
 
 
 @contextmanager
