@@ -112,7 +112,7 @@ class J2Plasticity:
     Attributes
     ----------
     hardening_modulus : slope of the linear part [Pa]
-    saturation_stress : what the saturating part tends to [Pa], no less than R; left out, so is that part
+    saturation_stress : what the saturating part tends to [Pa], at least the yield strength; left out, so is that part
     saturation_rate : how fast it does [-]
     """
 

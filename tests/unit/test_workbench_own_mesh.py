@@ -338,7 +338,7 @@ def test_models_of_the_dimensions_are_refused_when_asked_for() -> None:
 
 
 def test_thicknesses_cannot_be_calibrated(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="the section model needs the dimensions"):
+    with pytest.raises(StudyError, match=r"spiral.toml: mesh.file = .*the section model needs the dimensions"):
         run_calibrate(SPIRAL, "8 N/mm", tmp_path / "out.toml", tmp_path / "store", Computing(workers=1))
 
 
