@@ -145,7 +145,8 @@ def _require_possible(path: Path, solids: Sequence[StepSolid], sizes: StepSizes)
     least = [solid.volume / (_OF_AN_EDGE * _size(solid, sizes) ** 3) for solid in solids]
     if 4.0 * sum(least) > LARGEST_MESH:
         most = solids[int(np.argmax(least))]
-        size = " x ".join(f"{1e3 * length:.6g}" for length in np.ptp(np.concatenate([s.box for s in solids]), axis=0))
+        box = np.ptp(np.concatenate([solid.box for solid in solids]), axis=0)
+        size = " x ".join(f"{round(1e3 * length, 1):g}" for length in box)
         rule = f"makes at least {sum(least):.3g} tetrahedra of {path.name}, whose body is {size} mm"
         rule = f"{rule}; at most {LARGEST_MESH // 4} can be solved"
         hint = "choose a larger one; a STEP file states its own unit"
