@@ -261,7 +261,7 @@ def test_a_wheel_that_repeats_is_a_tire_by_the_curves_of_one_sector() -> None:
     assert len(deep) == 4
     assert {task.inputs["deflections"][-1] for task in deep} == {0.01}
     assert len(solved_tire(_of_the_rover(repeats=5), "fe")[0]["curves"]) == 8
-    with pytest.raises(InputError, match=r"must divide 51\.4286 deg.*choose 6\.42857 or 12\.8571 deg"):
+    with pytest.raises(InputError, match=r"must divide 51\.4286 deg.*choose 8\.571428571 or 10\.28571429 deg"):
         solved_tire(_of_the_rover(repeats=7), "fe")
 
 
