@@ -18,7 +18,7 @@ RUBBER = MooneyRivlin(c10=0.3e6, c01=0.1e6, bulk_modulus=1e9)
 
 
 def test_a_part_without_a_law_has_the_discretisation_s() -> None:
-    materials = {"tire": AISI_301, "grousers": replace(AISI_301, law=RUBBER)}
+    materials = {"tire": AISI_301, "grousers": replace(AISI_301, temperature_data=None, law=RUBBER)}
     assert laws_of(materials, MaterialLaw.ST_VENANT_KIRCHHOFF) == {"tire": StVenantKirchhoff(), "grousers": RUBBER}
     assert laws_of(materials, MaterialLaw.NEO_HOOKEAN)["tire"] == NeoHookean()
 

@@ -52,7 +52,9 @@ def block(counts: tuple[int, int, int], size: tuple[float, float, float]) -> Tag
 
 
 METAL = replace(TI_6AL_4V, law=J2Plasticity(hardening_modulus=1e9, saturation_stress=1000e6, saturation_rate=100.0))
-RUBBER = replace(TI_6AL_4V, name="rubber", law=MooneyRivlin(c10=0.3e6, c01=0.1e6, bulk_modulus=40e6))
+RUBBER = replace(
+    TI_6AL_4V, name="rubber", temperature_data=None, law=MooneyRivlin(c10=0.3e6, c01=0.1e6, bulk_modulus=40e6)
+)
 UP, BACK = [0.2, 0.4, 0.6, 0.8, 1.0], [0.8, 0.6, 0.4, 0.2]
 BENT = Case(block((40, 2, 4), (0.06, 0.01, 0.004)), METAL, {2: 0.012}, UP + BACK)
 PULLED = Case(block((12, 4, 4), (0.06, 0.01, 0.01)), RUBBER, {0: 0.02, 1: 0.0, 2: 0.02}, UP)
