@@ -132,5 +132,7 @@ def test_what_no_strip_is_is_refused() -> None:
     with pytest.raises(InputError, match="where it is thinnest") as error:
         springs("arc", thickness_middle=0.01e-3)
     assert error.value.key == "thickness_middle"
+    with pytest.raises(InputError, match="crosses the hub or the rim"):
+        wheel(springs("arc", thickness_middle=4e-3))  # it thickens faster than its arc leaves the rim
     with pytest.raises(InputError, match="overlap each other"):
-        wheel(replace(springs("arc", thickness_middle=20e-3), count=40))
+        wheel(replace(springs("arc"), count=40))
