@@ -71,6 +71,23 @@ def test_a_heated_rod_that_cannot_grow_yields() -> None:
     assert force == pytest.approx(-kirchhoff / volume * side**2, rel=1e-8)
 
 
+def test_stress_asked_for_after_the_thermal_step_knows_of_it() -> None:
+    """As a wheel's is, whose thermal state is accepted before anything records it; later it is refused."""
+    material = replace(STEEL, law=J2Plasticity(hardening_modulus=2e9), thermal_strain=0.02)
+    held = [Support(faces=(f"{x}0",), components=(k,)) for k, x in enumerate("xyz")]
+    held.append(Support(faces=("x1",), components=(0,)))
+    problem = StaticProblem(Domain.from_tagged(distorted_cube()), {"body": material}, held)
+    before = StressRecovery(problem)
+    list(solve_increments(NewtonSolver(problem, NewtonSettings()), [1.0], []))
+    after = StressRecovery(problem)
+    assert before.largest_plastic_strain()["body"] > 0.01
+    assert after.largest_plastic_strain() == before.largest_plastic_strain()
+    assert np.array_equal(after.cell_stations(), before.cell_stations())
+    problem.accept()
+    with pytest.raises(InputError, match="before the first increment"):
+        StressRecovery(problem)
+
+
 def test_planar_meshes_refuse_other_laws() -> None:
     domain = Domain.from_tagged(planar_block((1, 1), lambda X: X))
     with pytest.raises(InputError, match="law of body = mooney_rivlin: has no planar form here"):
