@@ -26,6 +26,7 @@ __all__ = [
     "advance",
     "cauchy_stress",
     "dilatation",
+    "gradient_row",
     "internal_force",
     "point_stress",
     "pressure_at",
@@ -71,6 +72,19 @@ def shifted_gradient(offset: float, G: Array, u: Array, dofs: Index, H: Array) -
             value = u[dofs[a, i]]
             for J in range(3):
                 H[i, J] += value * G[J, a]
+
+
+@compiled()
+def gradient_row(H: Array, i: int) -> tuple[float, float, float]:
+    """Row i of F = I + H."""
+    f0, f1, f2 = H[i, 0], H[i, 1], H[i, 2]
+    if i == 0:
+        f0 += 1.0
+    elif i == 1:
+        f1 += 1.0
+    else:
+        f2 += 1.0
+    return f0, f1, f2
 
 
 @compiled(error_model="numpy")
@@ -144,13 +158,7 @@ def internal_force(u: Array, t: CellTables, pressure: Array, past: Array, out: A
             p = pressure_at(t.N[q], pressure[c])
             energy[c, q] = respond(t.kinds[c], t.constants[c], H, p, past[c, q], S, CC, V, now, False)
             for i in range(3):
-                f0, f1, f2 = H[i, 0], H[i, 1], H[i, 2]
-                if i == 0:
-                    f0 += 1.0
-                elif i == 1:
-                    f1 += 1.0
-                else:
-                    f2 += 1.0
+                f0, f1, f2 = gradient_row(H, i)
                 P[i, 0] = w * (f0 * S[0] + f1 * S[3] + f2 * S[5])
                 P[i, 1] = w * (f0 * S[3] + f1 * S[1] + f2 * S[4])
                 P[i, 2] = w * (f0 * S[5] + f1 * S[4] + f2 * S[2])

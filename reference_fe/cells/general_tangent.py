@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from reference_fe.cells.general_kernels import CellTables, pressure_at, shifted_gradient
+from reference_fe.cells.general_kernels import CellTables, gradient_row, pressure_at, shifted_gradient
 from reference_fe.compiled import compiled
 from reference_fe.material.point_response import HISTORY, respond
 
@@ -76,13 +76,7 @@ def _strain_matrix(H: Array, G: Array, B: Array) -> None:
     """B (6, 3 n) with DE = B du, shears twice."""
     for a in range(G.shape[1]):
         for i in range(3):
-            f0, f1, f2 = H[i, 0], H[i, 1], H[i, 2]
-            if i == 0:
-                f0 += 1.0
-            elif i == 1:
-                f1 += 1.0
-            else:
-                f2 += 1.0
+            f0, f1, f2 = gradient_row(H, i)
             column = 3 * a + i
             B[0, column], B[1, column], B[2, column] = f0 * G[0, a], f1 * G[1, a], f2 * G[2, a]
             B[3, column] = f0 * G[1, a] + f1 * G[0, a]
