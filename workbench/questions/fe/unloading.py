@@ -1,6 +1,6 @@
 """The way back of a pressed wheel, as its task leaves it, and what remains of it.
 
-Verified by tests/unit/test_workbench_unloading.py and tests/end_to_end/test_materials.py.
+Verified by tests/unit/test_workbench_unloading.py and tests/end_to_end/test_materials_page.py.
 """
 
 from __future__ import annotations
