@@ -15,6 +15,7 @@ from geometry.blocks import Block
 from geometry.lattice import JOINTS, LATTICE
 from geometry.resolution import (
     MeshSize,
+    Ring,
     active_parts,
     axial_bands,
     axial_levels,
@@ -50,11 +51,14 @@ def count_solid(
     levels = axial_levels(design, parts, half_width)
     cells, nodes = 0, 0.0
     bands = axial_bands(design, size, levels)
+    sections: dict[frozenset[str], tuple[int, float]] = {}
     for low, high, axial in bands:
-        section = build_section(design, size, rings, active_parts(design, names, 0.5 * (low + high)))
-        faces = sum(block.n_length * block.n_thickness for block in section.blocks)
+        active = active_parts(design, names, 0.5 * (low + high))
+        if active not in sections:
+            sections[active] = _count_section(design, size, order, rings, active)
+        faces, face_nodes = sections[active]
         cells += faces * axial
-        nodes += (order * axial + 1.0 / len(bands)) * sum(_nodes(block, size, order) for block in section.blocks)
+        nodes += (order * axial + 1.0 / len(bands)) * face_nodes
     for more in (_sidewall(design, size, bands, half_width), _cone(design, size, names, half_width)):
         cells += more
         nodes += more * order * _nodes_per_face(size, order)
@@ -65,9 +69,8 @@ def count_planar(design: WheelDesign, size: MeshSize, order: int) -> MeshCount:
     """What `geometry.planar.build_planar_mesh` will make of a wheel."""
     names = frozenset(part_names(design, "flexible"))
     rings = rim_ring(design, size), hub_ring(design, size, "flexible")
-    blocks = build_section(design, size, rings, names).blocks
-    cells = sum(block.n_length * block.n_thickness for block in blocks)
-    return MeshCount(cells=cells, nodes=math.ceil(sum(_nodes(block, size, order) for block in blocks)))
+    cells, nodes = _count_section(design, size, order, rings, names)
+    return MeshCount(cells=cells, nodes=math.ceil(nodes))
 
 
 def require_buildable(count: MeshCount, sizes: Mapping[str, float]) -> None:
@@ -77,6 +80,14 @@ def require_buildable(count: MeshCount, sizes: Mapping[str, float]) -> None:
         amount = f"{count.cells:.3g}" if count.cells > 1e7 else f"{count.cells}"
         rule = f"would make {amount} cells, at most {LARGEST_MESH} can be built and solved"
         raise InputError("mesh", given, rule, "choose larger elements or a smaller refinement factor")
+
+
+def _count_section(
+    design: WheelDesign, size: MeshSize, order: int, rings: tuple[Ring, Ring], active: frozenset[str]
+) -> tuple[int, float]:
+    """Faces and nodes of the section that the ``active`` parts make."""
+    blocks = build_section(design, size, rings, active).blocks
+    return sum(block.n_length * block.n_thickness for block in blocks), sum(_nodes(b, size, order) for b in blocks)
 
 
 def _nodes(block: Block, size: MeshSize, order: int) -> float:

@@ -9,6 +9,7 @@ Verified by tests/unit/test_workbench_foresight.py.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -74,14 +75,11 @@ def foreseen(tasks: Sequence[Task]) -> tuple[Task, ...]:
     """
     counts: dict[str, MeshCount] = {}
     filled: dict[str, float] = {}
-    kept: dict[str, MeshCount] = {}
     found = []
     for task in tasks:
         if task.function in (_MESH, _SECTION):
-            made_of = canonical_json({"function": task.function, **{n: task.inputs[n] for n in ("wheel", "options")}})
-            if made_of not in kept:
-                kept[made_of] = _count(task)
-            counts[task.name] = kept[made_of]
+            inputs = {name: task.inputs[name] for name in ("wheel", "options")}
+            counts[task.name] = _count(canonical_json(inputs), planar=task.function == _SECTION)
         elif task.function == _OWN and (own := _count_own(task)) is not None:
             counts[task.name], filled[task.name] = own
         found.append(_with_needs(task, counts, filled))
@@ -129,15 +127,14 @@ def _counted(path: Path, sha256: str, factor: int) -> tuple[MeshCount, float]:
     return count_cells(cells, factor), _TETRAHEDRA if cells.shape[1] in (4, 10) else 1.0
 
 
-def _count(task: Task) -> MeshCount:
-    """The mesh that a task will make, from its inputs."""
-    design = design_from(task.inputs["wheel"])
-    options = dict[str, Any](task.inputs["options"])
-    given: dict[str, Any] = {"axial_size": None, "edge_size": None, **options}
+@lru_cache(maxsize=64)
+def _count(inputs: str, *, planar: bool) -> MeshCount:
+    """The mesh that a task will make, from its inputs' JSON."""
+    given: dict[str, Any] = json.loads(inputs)
+    design, options = design_from(given["wheel"]), {"axial_size": None, "edge_size": None, **given["options"]}
     names = ("element_size", "axial_size", "thickness_elements", "refinement", "edge_size")
-    sizes = (given[name] for name in names)
-    size = replace(mesh_size(design, *sizes), factor=options["factor"])
-    if task.function == _SECTION:
+    size = replace(mesh_size(design, *(options[name] for name in names)), factor=options["factor"])
+    if planar:
         count = count_planar(design, size, options["order"])
     else:
         count = count_solid(design, size, options["order"], options["parts"], half_width=options["half_width"])
