@@ -14,7 +14,7 @@ import fnmatch
 import inspect
 import re
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
@@ -127,41 +127,47 @@ class Given:
     needs: tuple[str, ...]
 
 
-def given(study: Study) -> dict[str, Given]:
-    """What each task of the report is given, and of the fine one if the study has one; not how long it takes."""
+def given(study: Study, *, full: bool = False) -> dict[str, Given]:
+    """What each task of the report is given, or of the fine one, which not every study has; not how long it takes."""
     foreseen = study_graph.foreseen
     study_graph.foreseen = tuple  # type: ignore[assignment]
+    kind, tasks = "full" if full else "report", ()
     try:
-        tasks = {("report", task.name): task for task in report_tasks(study)}
-        with suppress(InputError):
-            tasks |= {("full", task.name): task for task in report_tasks(full_study(study))}
+        with suppress(InputError) if full else nullcontext():
+            tasks = report_tasks(full_study(study) if full else study)
     finally:
         study_graph.foreseen = foreseen
     return {
-        f"{kind}/{name}": Given(canonical_json(t.inputs), tuple(f"{kind}/{need}" for need in t.needs))
-        for (kind, name), t in tasks.items()
+        f"{kind}/{t.name}": Given(canonical_json(t.inputs), tuple(f"{kind}/{need}" for need in t.needs)) for t in tasks
     }
 
 
-def changed(study: Study, base: Mapping[str, Given], key: Key, value: Any, annotation: Any) -> set[str]:
+def both(study: Study) -> tuple[dict[str, Given], dict[str, Given]]:
+    """What the tasks of the report are given, and those of the fine one."""
+    return given(study), given(study, full=True)
+
+
+def changed(
+    study: Study, base: tuple[dict[str, Given], dict[str, Given]], key: Key, value: Any, annotation: Any
+) -> set[str]:
     """Tasks that are computed again when a key is moved, by the first other value that is possible.
 
     They are given something else, or read the result of one that is; those that come or go count, too. Of the fine
-    report only where the plain one has none.
+    report only where the plain one has none. ``base`` is that of `both`.
     """
     for other in others(value, annotation):
         with suppress(WorkbenchError):
             moved = with_value(study, key, other)
             if key[-1] == "shape" and value == "spline":  # whose points no other shape has
                 moved = with_value(moved, (*key[:-1], "points"), ())
-            now = given(moved)
-            found = {name for name in base.keys() | now.keys() if base.get(name) != now.get(name)}
-            for name, one in now.items():  # each after those that it needs
-                if found.intersection(one.needs):
-                    found.add(name)
-            plain = {name for name in found if name.startswith("report/")}
-            if found:
-                return plain or found
+            for full, before in zip((False, True), base, strict=True):
+                now = given(moved, full=full)
+                found = {name for name in before.keys() | now.keys() if before.get(name) != now.get(name)}
+                for name, one in now.items():  # each after those that it needs
+                    if found.intersection(one.needs):
+                        found.add(name)
+                if found:
+                    return found
     return set()
 
 
@@ -234,10 +240,10 @@ def _shown(value: Any) -> str:
 
 def effects_of(study: Study) -> dict[Key, set[str]]:
     """Every key of a study with the tasks that are computed again when it is moved, see `changed`."""
-    base = given(study)
+    base = both(study)
     found = {key: changed(study, base, key, value, annotation) for key, value, annotation in leaves(study)}
     stated = with_value(study, GROUND, 0.5)
-    return found | {GROUND: changed(stated, given(stated), GROUND, 0.5, None)}
+    return found | {GROUND: changed(stated, both(stated), GROUND, 0.5, None)}
 
 
 def _in_words(effects: Mapping[Key, set[str]]) -> dict[str, str]:
