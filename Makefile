@@ -36,7 +36,7 @@ report: $(READY) ## compute the study and write the report (STUDY=file.toml, OUT
 	$(VENV)/bin/workbench report $(if $(STUDY),"$(STUDY)") --out "$(OUT)"
 
 test: lint ## lint, then every test, two processes
-	$(PYTHON) -m pytest -n 2 --dist loadfile --no-loadscope-reorder --durations 30 --durations-min 5
+	$(PYTHON) -m pytest -n 2 --dist loadfile --no-loadscope-reorder --durations 120 --durations-min 3
 
 test-long: $(READY) ## what takes minutes: kills, fuzz, whole studies; the result goes into docs/test_long.json and .md
 	$(PYTHON) -m tests.long_run

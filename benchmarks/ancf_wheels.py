@@ -20,7 +20,7 @@ sys.path[:0] = [str(ROOT)]
 
 from benchmarks.output.run import Run  # noqa: E402
 from contracts.curves import StiffnessCurve, read_curve  # noqa: E402
-from contracts.hub_travel import Way  # noqa: E402
+from contracts.hub_travel import OVER_GROUND  # noqa: E402
 from workbench.commands.computing import computed  # noqa: E402
 from workbench.commands.options import DEFAULT_STORE, computing  # noqa: E402
 from workbench.execution.result_files import read_result  # noqa: E402
@@ -73,7 +73,7 @@ def found_of(wheel: ComparedWheel, folders: Mapping[str, Path]) -> dict[str, Any
             for name, model in (("fe", "fe"), ("plates", "ancf_wheel"))
         }
         for o in wheel.moved
-        for way in Way
+        for way in OVER_GROUND
     ]
     return {
         "travels": travels,

@@ -1,4 +1,4 @@
-"""How a wheel that is pressed on the ground is then moved over it, its axle's direction and turn about it held.
+"""How the hub of a wheel that is pressed on the ground is then moved over it, turned on it or wound up against it.
 
 Verified by tests/unit/test_hub_travel.py.
 """
@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from contracts.errors import InputError
 
-__all__ = ["GroundMotion", "HubTravel", "Way"]
+__all__ = ["OVER_GROUND", "GroundMotion", "HubTravel", "Way"]
 
 _LEVER = 0.05
 """Control parameter of a turn by one radian [m/rad]: its steps move the ends of a contact as those of a travel do."""
@@ -28,15 +28,34 @@ class Way(StrEnum):
     """To the left."""
     TURNING = "turning"
     """Counter-clockwise from above about the ground's normal through its centre, as a steered wheel that stands."""
+    WIND_UP = "wind_up"
+    """Forwards about its axle, as a drive turns it whose wheel the ground holds."""
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is an angle [rad] that a moment [N m] resists; else a length [m] and a force [N]."""
+        return self in (Way.TURNING, Way.WIND_UP)
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether half a wheel stands for the whole: the way is symmetric about the wheel's middle plane."""
+        return self in (Way.FORE_AFT, Way.WIND_UP)
+
+
+OVER_GROUND = (Way.FORE_AFT, Way.LATERAL, Way.TURNING)
+"""Ways that leave the ground's normal where it is in the wheel: what a tire's carcass is known by."""
 
 
 class GroundMotion(NamedTuple):
-    """Motion of the ground in its own axes since first touch: forward, left, up [m], and its turn about up [rad]."""
+    """Motion of the ground in its own axes since first touch: forward, left, up [m], its turn about up, and then with
+    all that about the axle [rad].
+    """
 
     forward: float
     left: float
     up: float
     turned: float
+    wound: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,12 +101,14 @@ class HubTravel:
         up, gone = min(control, self.start), self.at(control)
         match self.way:
             case Way.FORE_AFT:
-                return GroundMotion(-gone, 0.0, up, 0.0)
+                return GroundMotion(-gone, 0.0, up, 0.0, 0.0)
             case Way.LATERAL:
-                return GroundMotion(0.0, -gone, up, 0.0)
+                return GroundMotion(0.0, -gone, up, 0.0, 0.0)
             case Way.TURNING:
-                return GroundMotion(0.0, 0.0, up, -gone)
+                return GroundMotion(0.0, 0.0, up, -gone, 0.0)
+            case Way.WIND_UP:
+                return GroundMotion(0.0, 0.0, up, 0.0, -gone)
 
     @property
     def _scale(self) -> float:
-        return _LEVER if self.way is Way.TURNING else 1.0
+        return _LEVER if self.way.turns else 1.0

@@ -21,7 +21,12 @@ __all__ = ["WRENCH", "TravelCurve", "read_travel", "write_travel"]
 FloatArray = NDArray[np.float64]
 WRENCH = ("force_forward_N", "force_left_N", "load_N", "moment_forward_Nm", "moment_left_Nm", "moment_up_Nm")
 """Columns of the ground's force and moment on the whole wheel at the hub's centre; up is the ground's normal."""
-_AGAINST = {Way.FORE_AFT: "force_forward_N", Way.LATERAL: "force_left_N", Way.TURNING: "moment_up_Nm"}
+_AGAINST = {
+    Way.FORE_AFT: "force_forward_N",
+    Way.LATERAL: "force_left_N",
+    Way.TURNING: "moment_up_Nm",
+    Way.WIND_UP: "moment_left_Nm",
+}
 _LEAST = 2
 
 
@@ -69,7 +74,7 @@ class TravelCurve:
     @property
     def unit(self) -> str:
         """Of the travel."""
-        return "rad" if self.way is Way.TURNING else "m"
+        return "rad" if self.way.turns else "m"
 
     @property
     def resistance(self) -> FloatArray:
@@ -102,7 +107,7 @@ def read_travel(path: Path, model: str, way: Way, orientation_deg: float) -> Tra
     InputError
         If the file is missing or holds something else.
     """
-    unit = "rad" if way is Way.TURNING else "m"
+    unit = "rad" if way.turns else "m"
     rule = TableRule(what="travel file", first=(f"travel_{unit}", "deflection_m"), units="SI units")
     table = read_table(path, rule)
     return TravelCurve(

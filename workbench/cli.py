@@ -156,7 +156,8 @@ def stiffness(
         list[float] | None, typer.Option(help="Degrees; may be given several times. Default: those of the study.")
     ] = None,
     travel: Annotated[
-        str | None, typer.Option(help="Move the pressed hub: fore_aft, lateral, turning or all (fe and ancf_wheel).")
+        str | None,
+        typer.Option(help="Move the pressed hub (fe, ancf_wheel): fore_aft, lateral, turning, wind_up or all."),
     ] = None,
     load: Annotated[
         float | None,

@@ -32,13 +32,13 @@ from ancf_reduced.tire.plane_problem import PlaneProblem
 from ancf_reduced.tire.static import TireEquilibria
 from contracts.errors import ConvergenceError, InputError
 from contracts.frames import ground_direction_h
-from contracts.hub_travel import Way
+from contracts.hub_travel import OVER_GROUND
 
 __all__ = ["WAYS", "Stand", "StuckGround", "load_of", "loaded_tangent", "stand_under", "stuck_ground"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
-WAYS = tuple(Way)
+WAYS = OVER_GROUND
 """Order of rows and columns of S."""
 _BEYOND = 1.5
 """Of the largest load solved, to which an equilibrium is looked for [-]."""

@@ -20,7 +20,7 @@ from ancf_reduced.wheel.contacts import Near, Points, Surface
 from ancf_reduced.wheel.mesh import AncfWheel
 from contracts.errors import InputError
 from contracts.frames import ground_direction_h
-from contracts.hub_travel import HubTravel, Way
+from contracts.hub_travel import HubTravel
 from contracts.terrain import PieceKind, Plane, Terrain
 
 __all__ = ["GroundContact", "Pose", "ground_frame"]
@@ -73,7 +73,7 @@ class GroundContact:
         if travel is not None and not isinstance(terrain, Plane):
             rule = "must be a plane if the wheel is moved over it"
             raise InputError("ground", type(terrain).__name__, rule, "leave out the travel")
-        if travel is not None and wheel.sides > 1.0 and travel.way is not Way.FORE_AFT:
+        if travel is not None and wheel.sides > 1.0 and not travel.way.mirrored:
             rule = "is not symmetric about the wheel's middle plane"
             raise InputError("travel", travel.way.value, rule, "build the full width (half_width = false)")
         self._rows, self._knots, _ = terrain.pieces()
@@ -94,7 +94,15 @@ class GroundContact:
         motion = self._travel.ground(deflection)
         c, s = np.cos(motion.turned), np.sin(motion.turned)
         back = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-        return back @ self._frame, back @ np.array([motion.forward, motion.left, self._touch + motion.up])
+        return back @ self.axes(deflection), back @ np.array([motion.forward, motion.left, self._touch + motion.up])
+
+    def axes(self, deflection: float) -> Array:
+        """Rows (3, 3) of the ground's forward, left and up at a deflection [m]: as at first touch, or wound up."""
+        if self._travel is None:
+            return self._frame
+        wound = self._travel.ground(deflection).wound
+        c, s = np.cos(wound), np.sin(wound)
+        return np.asarray(self._frame @ np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]]))
 
     def near(self, q: Array, pose: Pose, forces: Array, blocks: Array) -> Near:
         """Points within reach of the ground; adds to blocks what forces add.

@@ -19,7 +19,7 @@ from reference_fe import dolfinx_api as api
 from reference_fe.contact import kernels
 from reference_fe.contact.facets import ContactFacets, gauss_line, local_stiffness, simpson_line
 from reference_fe.contact.friction_energy import sliding_dissipation, slip_energy
-from reference_fe.contact.obstacle_path import ObstaclePath
+from reference_fe.contact.obstacle_path import ObstaclePath, Place
 from reference_fe.contact.obstacles import Obstacle, Plane, smallest_gap
 from reference_fe.contact.surface_term import SurfaceForces, TermState
 from reference_fe.problem.domain import Domain
@@ -126,8 +126,8 @@ class ObstacleContact:
     def gap(self, points: NDArray[np.float64], control: float) -> NDArray[np.float64]:
         """Normal gap of points (n, dim) from the obstacle at a control parameter, (n,) [m], open > 0."""
         n, s, _ = self.axes()
-        moved = points - self.path().place(control).moved
-        return np.asarray(smallest_gap(self.obstacle.pieces(), moved @ s, moved @ n + self.distance_at_touch))
+        own = self.path().place(control).back(points)
+        return np.asarray(smallest_gap(self.obstacle.pieces(), own @ s, own @ n + self.distance_at_touch))
 
     def build(self, domain: Domain, V: api.Expr, young_modulus: NDArray[np.float64] | None = None) -> ObstacleTerm:
         """The term on a mesh; without a stiffness it needs every own cell's Young modulus [Pa], 0 where rigid."""
@@ -193,10 +193,11 @@ class ObstacleTerm:
         place = self._path.place(self._control - lag)
         slip, held = x - place.of(self._place), place.turned(self._traction)
         history = kernels.ContactHistory(multiplier=self._multiplier, traction=held, place=self._place)
-        kernels.point_forces(x, slip, self._surface(place.moved), history, out)
+        kernels.point_forces(x, slip, self._surface(place), history, out)
         if lag:
-            way = self._path.place(self._control).of(self._place) - place.of(self._place)
-            out.force[...] += np.einsum("mqij,mqj->mqi", out.stiffness, way)
+            now = self._path.place(self._control)
+            way = now.of(self._place) - place.of(self._place)
+            out.force[...] = now.turned(place.turned_back(out.force)) + np.einsum("mqij,mqj->mqi", out.stiffness, way)
         active = np.flatnonzero(out.stiffness.any(axis=(1, 2, 3)) | out.force.any(axis=(1, 2)))
         per_facet = (active, facets.shapes, facets.kind, facets.weights)
         return SurfaceForces(
@@ -293,13 +294,13 @@ class ObstacleTerm:
         largest = float(self._comm.allreduce(float(local.max(initial=0.0)), op=api.MPI.MAX))
         return np.where(local > 0.0, local, largest)
 
-    def _surface(self, moved: NDArray[np.float64]) -> kernels.Surface:
-        contact = self.description
+    def _surface(self, place: Place) -> kernels.Surface:
+        contact, normal, along = self.description, place.turned(self._normal), place.turned(self._along)
         return kernels.Surface(
-            normal=self._normal,
-            along=self._along,
-            level=float(moved @ self._normal) - contact.distance_at_touch,
-            start=float(moved @ self._along),
+            normal=normal,
+            along=along,
+            level=float(place.moved @ normal) - contact.distance_at_touch,
+            start=float(place.moved @ along),
             pieces=self._pieces,
             stiffness=self.stiffness,
             ramp=self._ramp,

@@ -1,4 +1,4 @@
-"""Where an obstacle is over its control parameter: it rises, then may move along the ground or turn on it.
+"""Where an obstacle is over its control parameter: it rises, then moves along the ground, turns on it or an axle.
 
 Verified by tests/unit/test_fe_obstacle_path.py and tests/verification/test_fe_working_load.py.
 """
@@ -16,6 +16,8 @@ from contracts.hub_travel import HubTravel
 __all__ = ["ObstaclePath", "Place"]
 
 Array = NDArray[np.float64]
+_AXLE = np.array([0.0, 1.0, 0.0])
+"""In the wheel's frame."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -72,7 +74,18 @@ class ObstaclePath:
         moved = motion.up * self.rise + motion.forward * self.along
         if motion.left:
             moved = moved + motion.left * np.cross(self.normal, self.along)
+        if motion.wound:
+            R = _about(_AXLE, motion.wound)
+            return Place(rotation=R, moved=R @ moved)
         return Place(rotation=_about(self.normal, motion.turned) if motion.turned else None, moved=moved)
+
+    def axes(self, control: float) -> tuple[Array, Array]:
+        """Unit normal (dim,) of the ground, and what is forward on it: at first touch, or wound up about the axle."""
+        wound = 0.0 if self.travel is None else self.travel.ground(control).wound
+        if not wound:
+            return self.normal, self.along
+        R = _about(_AXLE, wound)
+        return R @ self.normal, R @ self.along
 
 
 def _about(axis: Array, angle: float) -> Array:

@@ -165,7 +165,7 @@ class _WheelRun:
 
     def _measured(self, state: ConvergedState) -> dict[str, float]:
         """Everything a converged state tells."""
-        load, depth = self._load(state.contact_force), self._obstacle_term.penetration()
+        load, depth = self._load(state.control, state.contact_force), self._obstacle_term.penetration()
         moment = self._obstacle_term.moment()
         left_over = moment + support_moment(self.problem, state.outcome.residual)
         turning = float(np.linalg.norm(left_over)) / self.wheel.contact.distance_at_touch
@@ -175,7 +175,7 @@ class _WheelRun:
         patch = measure_patch(self.mesh, self.wheel.facets, displacement, gap, self.wheel.tangent, ramp)
         force = float(np.linalg.norm(state.contact_force))
         imbalance = float(np.linalg.norm(state.reaction + state.contact_force)) / force if force else 0.0
-        row = self._row(state.control, load, patch) | wrench(self.wheel, state.contact_force, moment)
+        row = self._row(state.control, load, patch) | wrench(self.wheel, state.control, state.contact_force, moment)
         row["force_imbalance"], row["relative_residual"] = imbalance, state.outcome.residuals[-1]
         row["moment_imbalance"] = turning / force if force else 0.0
         row["contact_point_penetration_m"] = depth
@@ -253,14 +253,14 @@ class _WheelRun:
                 fields = {name: part[name] for name in ("displacement", "von_mises")}
                 kept.append(FieldSnapshot(load=load, deflection=deflection, **fields))
 
-    def _load(self, contact_force: NDArray[np.float64]) -> float:
-        return float(self.wheel.sides * contact_force @ self.wheel.normal)
+    def _load(self, control: float, contact_force: NDArray[np.float64]) -> float:
+        return float(self.wheel.sides * contact_force @ self.wheel.contact.path().axes(control)[0])
 
     def _row(self, deflection: float, load: float, patch: ContactPatch) -> dict[str, float]:
         return {
             "deflection_m": deflection,
             "load_N": load,
-            **wrench(self.wheel, np.zeros(self.mesh.dim), np.zeros(3 if self.mesh.dim == 3 else 1)),
+            **wrench(self.wheel, 0.0, np.zeros(self.mesh.dim), np.zeros(3 if self.mesh.dim == 3 else 1)),
             "contact_length_m": patch.length,
             "contact_area_m2": self.wheel.sides * patch.area,
             "penetration_m": patch.penetration,
@@ -283,7 +283,7 @@ class _WheelRun:
         deflection = last["deflection_m"] + fraction * (control - last["deflection_m"])
         problem.set_control(deflection)
         if self.solver.solve(rise=deflection - begun).converged:
-            self._keep("snapshot", deflection, self._load(problem.contact_force()))
+            self._keep("snapshot", deflection, self._load(deflection, problem.contact_force()))
         problem.restore(here)
         problem.set_control(control)
 

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from contracts.frames import ground_direction_h
-from contracts.hub_travel import Way
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from reference_fe.cells.orientation import curved_axis_first
@@ -143,7 +142,7 @@ def _check_symmetry(load_case: WheelLoadCase, *, prismatic: bool) -> None:
     )
     if prismatic and turned:
         raise InputError("camber or yaw", f"{turned:g} deg", rule, "mesh the full width")
-    if prismatic and load_case.travel is not None and load_case.travel.way is not Way.FORE_AFT:
+    if prismatic and load_case.travel is not None and not load_case.travel.way.mirrored:
         raise InputError("travel", load_case.travel.way.value, rule, "mesh the full width")
 
 

@@ -75,6 +75,7 @@ def test_the_same_again_is_found_in_the_store(calibrated: Calibrated) -> None:
     assert "this will replace the kept record of `workbench calibrate brush study.toml --load 41`" in told
 
 
+@pytest.mark.long
 def test_the_rover_stands_as_deep_as_the_record_says(calibrated: Calibrated) -> None:
     """Closed form: a sixth of its weight over the stiffness of the record."""
     folder, _ = calibrated

@@ -18,6 +18,8 @@ from tests.documentation import Command, blocks_of, explain, run_command, unlike
 
 ROOT = Path(__file__).parents[2]
 PAGES = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md"))]
+LONG = ("docs/how_to/materials.md",)
+"""Pages that take a minute or more; what they show has a shorter test: tests/end_to_end/test_materials_page.py."""
 RUN = [page for page in PAGES if any(not b.reason for b in blocks_of((ROOT / page).read_text(encoding="utf-8")))]
 
 SCRIPT = f"""#!{sys.executable}
@@ -47,7 +49,7 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     }
 
 
-@pytest.mark.parametrize("page", RUN)
+@pytest.mark.parametrize("page", [pytest.param(p, marks=pytest.mark.long if p in LONG else ()) for p in RUN])
 def test_page(page: str, tmp_path: Path, environment: dict[str, str]) -> None:
     shutil.copytree(ROOT / "studies", tmp_path / "studies")
     for block in blocks_of((ROOT / page).read_text(encoding="utf-8")):

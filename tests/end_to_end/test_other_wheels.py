@@ -68,6 +68,7 @@ def test_honeycomb_repeats_itself_and_is_its_mirror_image(tmp_path: Path) -> Non
     np.testing.assert_allclose(first.load[1:], curve(tmp_path).load[1:], rtol=0.01)
 
 
+@pytest.mark.long
 def test_tapered_leaves_lie_between_even_ones(tmp_path: Path) -> None:
     """Of the thickness at the rim, and of that at the hub; the solid model says what the section model says."""
     taper = r'thickness_middle = "0.5 mm".*\nthickness_hub = "0.8 mm".*\n'

@@ -51,7 +51,7 @@ def test_six_components_stand_in_every_curve(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--travel", "up"], "'up': is not known; give fore_aft, lateral, turning or all"),
+        (["--travel", "up"], "'up': is not known; give fore_aft, lateral, turning, wind_up or all"),
         (["--travel", "lateral", "--model", "brush"], "has no hub that could be moved"),
         (["--travel", "lateral", "--load", "0"], "load = 0 N: must lie between 0.1 N and fe.max_load, 300 N"),
         (["--travel", "lateral", "--load", "inf"], "load = inf N: must lie between"),

@@ -41,6 +41,8 @@ def test_the_ground_under_a_hub_that_moves() -> None:
     np.testing.assert_allclose(ends[Way.LATERAL].of(np.zeros(3)), 0.1 * UP - 0.05 * LEFT, atol=1e-15)
     turned = 0.1 * UP + np.cos(0.05) * FORWARD - np.sin(0.05) * LEFT
     np.testing.assert_allclose(ends[Way.TURNING].of(FORWARD), turned, atol=1e-15)
+    wound = np.cos(0.05) * 0.1 * UP - np.sin(0.05) * 0.1 * FORWARD
+    np.testing.assert_allclose(ends[Way.WIND_UP].of(np.zeros(3)), wound, atol=1e-15)
 
 
 def pressed(way: Way) -> tuple[ObstacleTerm, NDArray[np.float64]]:
@@ -88,8 +90,18 @@ def test_a_turn_is_resisted_by_the_polar_moment() -> None:
     np.testing.assert_allclose(term.resultant()[:2], 0.0, atol=1e-9)
 
 
-def test_with_a_lag_it_is_the_tangent_line() -> None:
-    term, u = pressed(Way.TURNING)
+def test_ground_that_is_wound_up_presses_harder_in_front() -> None:
+    """Square of 1 m on k = 30: k (a^4 / 12) psi = 2.5 psi against the hub, whose axle lies in the face."""
+    term, u = pressed(Way.WIND_UP)
+    term.set_control(0.1 + 0.05 * 0.004)
+    term.evaluate(u, 0.0)
+    np.testing.assert_allclose(term.moment(), [0.0, -2.5 * 0.004, 0.0], rtol=1e-4, atol=1e-9)
+    assert term.resultant()[2] == pytest.approx(3.0, rel=1e-4)
+
+
+@pytest.mark.parametrize("way", [Way.TURNING, Way.WIND_UP])
+def test_with_a_lag_it_is_the_tangent_line(way: Way) -> None:
+    term, u = pressed(way)
     term.set_control(0.1 + 0.05 * 1e-4)
     exact = term.evaluate(u, 0.0).force
     lagged = term.evaluate(u, 0.05 * 1e-4).force

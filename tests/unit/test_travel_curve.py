@@ -36,7 +36,7 @@ def test_resistance_counts_from_the_wheel_that_stands(way: Way) -> None:
 def test_written_and_read_it_is_the_same(tmp_path: Path, way: Way) -> None:
     write_travel(replace(curve(way), partial=True), tmp_path / "a.csv")
     header = (tmp_path / "a.csv").read_text().splitlines()[2].split(",")
-    assert header[:8] == ["travel_rad" if way is Way.TURNING else "travel_m", "deflection_m", *WRENCH]
+    assert header[:8] == ["travel_rad" if way in (Way.TURNING, Way.WIND_UP) else "travel_m", "deflection_m", *WRENCH]
     found = read_travel(tmp_path / "a.csv", "fe", way, 15.0)
     assert (found.deflection, found.partial, found.source) == (0.02, True, "by hand")
     np.testing.assert_array_equal(found.travel, curve(way).travel)

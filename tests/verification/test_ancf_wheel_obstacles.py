@@ -59,6 +59,7 @@ def test_load_on_a_rock_askew(wheel: AncfWheel) -> None:
     assert np.abs(excess(wheel, askew, solid(rock))).max() < 0.02
 
 
+@pytest.mark.long
 def test_load_under_camber_and_control_grousers_that_do_not_twist(wheel: AncfWheel) -> None:
     """Within 2 %; with grousers as sheets the same wheel is far off."""
     curve = solid(obstacles.Plane(), CAMBER)

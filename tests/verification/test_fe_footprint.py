@@ -67,6 +67,7 @@ def test_half_of_a_wheel_has_the_wholes() -> None:
     assert np.abs(apart).sum() < 0.01 * found(1.0).spread(GRID, GRID).sum()
 
 
+@pytest.mark.long
 def test_its_map_settles_as_the_mesh_is_refined() -> None:
     """Share of the load that lies elsewhere than on the finest mesh, around places 8 mm apart."""
     maps = [found(factor).spread(GRID, GRID) * 8e-3**2 for factor in (1.0, 2.0, 3.0)]

@@ -128,7 +128,9 @@ def test_the_way_back_begins_where_the_maximum_load_was_met() -> None:
     assert result.curve.deflection[-1] == result.unloading.deflection[-1] == DEFLECTIONS[1]
 
 
-@pytest.mark.parametrize("stop_after", [3, 8], ids=["on the way up", "on the way back"])
+@pytest.mark.parametrize(
+    "stop_after", [pytest.param(3, id="on the way up", marks=pytest.mark.long), pytest.param(8, id="on the way back")]
+)
 def test_a_run_that_was_stopped_goes_on_to_the_same_numbers(stop_after: int, tmp_path: Path) -> None:
     whole, kept = plastic(), tmp_path / "kept.npz"
     asked = replace(case(), deflections=tuple(whole.curve.deflection[1:].tolist()), snapshot_loads=(24.0,))

@@ -29,6 +29,7 @@ STEPS = {
     Way.FORE_AFT: (1e-3, 2e-3),
     Way.LATERAL: (0.4e-3, 0.8e-3, 1.0e-3, 1.2e-3, 2.0e-3),
     Way.TURNING: (4e-3, 8e-3),
+    Way.WIND_UP: (5e-3, 10e-3, 20e-3, 40e-3),
 }
 
 
@@ -69,10 +70,11 @@ def test_sideways_it_slides_at_the_limit_of_friction() -> None:
     assert np.ptp(pull[-2:]) < 0.05 * pull[-1]
 
 
-def test_the_hubs_work_is_stored_or_lost() -> None:
-    result = moved(Way.LATERAL)
+@pytest.mark.parametrize(("way", "name"), [(Way.LATERAL, "force_left_N"), (Way.WIND_UP, "moment_left_Nm")])
+def test_the_hubs_work_is_stored_or_lost(way: Way, name: str) -> None:
+    result = moved(way, half_width=way is Way.WIND_UP)
     travel = np.array([0.0, *(row["travel"] for row in result.travelled)])
-    force = -column(result, "force_left_N")
+    force = -column(result, name)
     work = float((0.5 * (force[1:] + force[:-1]) * np.diff(travel)).sum())
     parts = [np.diff(column(result, f"{name}_J")[[0, -1]])[0] for name in ("stored_energy", "slip_energy")]
     lost = float(np.diff(column(result, "friction_dissipation_J")[[0, -1]])[0])
@@ -82,12 +84,18 @@ def test_the_hubs_work_is_stored_or_lost() -> None:
 
 @pytest.mark.parametrize(
     ("way", "name"),
-    [(Way.FORE_AFT, "force_forward_N"), (Way.LATERAL, "force_left_N"), (Way.TURNING, "moment_up_Nm")],
+    [
+        pytest.param(Way.FORE_AFT, "force_forward_N", marks=pytest.mark.long),
+        (Way.LATERAL, "force_left_N"),
+        pytest.param(Way.TURNING, "moment_up_Nm", marks=pytest.mark.long),
+        (Way.WIND_UP, "moment_left_Nm"),
+    ],
 )
 def test_plates_resist_as_the_solid_does(way: Way, name: str) -> None:
-    result = moved(way)
+    half = way is Way.WIND_UP
+    result = moved(way, half_width=half)
     travel = HubTravel(way=way, start=START, steps=STEPS[way][:2])
-    wheel = build_ancf_wheel(exomars_hoops(), element_size=10e-3, axial_size=20e-3, half_width=False)
+    wheel = build_ancf_wheel(exomars_hoops(), element_size=10e-3, axial_size=20e-3, half_width=half)
     problem = WheelOnGround(wheel, math.radians(ORIENTATION), friction=FRICTION, travel=travel)
     states = list(press(problem, [*APPROACH, *travel.controls]))[-3:]
     wrenches = np.array([np.concatenate(problem.wrench(state)) for state in states])

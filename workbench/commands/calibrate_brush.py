@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from contracts.curves import read_curve
-from contracts.hub_travel import Way
+from contracts.hub_travel import OVER_GROUND
 from workbench.commands.computing import computed, console, naming, read_and_warn, shortest, tell_kept, warn
 from workbench.execution.result_files import early_ends
 from workbench.execution.runner import Computing
@@ -63,7 +63,7 @@ def run_calibrate_brush(
     warn(path, [f"{task} ends early: {why}" for task, why in early_ends(folders).items()])
     with naming(path):
         curves = [read_curve(folders[orientation_name(name, o)] / CURVE, model=name, orientation_deg=o) for o in asked]
-        travels = travel_curves(name, tuple(Way), where_it_moves(study), folders)
+        travels = travel_curves(name, OVER_GROUND, where_it_moves(study), folders)
         found = wheel_brush(curves, travels, load, given, around(study))
     lines = lines_beside_table_two(found)
     seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))

@@ -98,7 +98,7 @@ def _texts(curves: Sequence[TravelCurve]) -> dict[str, str]:
 def _print(curves: Sequence[TravelCurve]) -> None:
     table = empty_table("what resists the hub", ("way", "orientation", "load", "stiffness", "most"), texts=["way"])
     for curve in curves:
-        turn = curve.way is Way.TURNING
+        turn = curve.way.turns
         stiffness = f"{curve.stiffness:.1f} N m/rad" if turn else f"{1e-3 * curve.stiffness:.2f} N/mm"
         most = float(curve.resistance.max())
         largest = f"{most:.3g} N m" if turn else f"{most:.3g} N"

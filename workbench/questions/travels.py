@@ -25,6 +25,7 @@ STEPS: Mapping[Way, tuple[float, ...]] = {
     Way.FORE_AFT: (1e-3, 2e-3, 4e-3),
     Way.LATERAL: (1e-3, 2e-3, 4e-3),
     Way.TURNING: (5e-3, 10e-3, 20e-3, 40e-3),
+    Way.WIND_UP: (5e-3, 10e-3, 20e-3, 40e-3),
 }
 """Steps of the hub over the ground [m; rad of a turn]."""
 WORKING_LOAD = 200.0
@@ -68,16 +69,16 @@ def _asked(study: Study, way: Way, load: float) -> dict[str, object]:
 def _fe_tasks(study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
     curves = fe_curve_tasks(study, orientations_deg)
     meshes = [wheel_meshes(study)[0]]
-    whole = any(way is not Way.FORE_AFT for way in ways) and study.mesh.half_width
+    whole = any(not way.mirrored for way in ways) and study.mesh.half_width
     if whole and (own := own_mesh(study)) is not None:
-        rule = "is half a wheel, whose hub can be moved forwards alone"
+        rule = "is half a wheel, whose hub can be moved and turned forwards alone"
         raise InputError("mesh.symmetry", own.symmetry, rule, "mesh the whole wheel")
     if whole:
         meshes.append(mesh_task(study, MESH_FULL, {"half_width": False}))
     tasks = []
     for curve, o in zip(curves, orientations_deg, strict=True):
         for way in ways:
-            mesh = MESH_FULL if whole and way is not Way.FORE_AFT else MESH
+            mesh = MESH_FULL if whole and not way.mirrored else MESH
             inputs = without_fields(fe_inputs(study, o, ())) | {
                 "travel": _asked(study, way, load),
                 "mesh": mesh,
@@ -104,7 +105,7 @@ def _ancf_wheel_tasks(
     for curve, o in zip(curves, orientations_deg, strict=True):
         for way in ways:
             kept = ("wheel", "contact_stiffness", "inner_contact_stiffness", "orientation_deg")
-            options = curve.inputs["options"] | ({} if way is Way.FORE_AFT else {"half_width": False})
+            options = curve.inputs["options"] | ({} if way.mirrored else {"half_width": False})
             inputs = {name: curve.inputs[name] for name in kept} | {
                 "options": options,
                 "travel": _asked(study, way, load),

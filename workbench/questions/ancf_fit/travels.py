@@ -68,7 +68,7 @@ def _row(way: Way, orientation_deg: float, fe: float, tire: float | None) -> Tra
     return TravelRow(
         way=way.value,
         orientation_deg=orientation_deg,
-        unit="N m/rad" if way is Way.TURNING else "N/m",
+        unit="N m/rad" if way.turns else "N/m",
         fe=fe,
         tire=tire,
         difference=None if tire is None else tire / fe - 1.0,

@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from contracts.hub_travel import Way
+from contracts.hub_travel import OVER_GROUND
 from workbench.execution.task import Task
 from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks, every_second
 from workbench.questions.fe.foresight import foreseen
@@ -87,5 +87,5 @@ def wheel_tasks(wheel: ComparedWheel, study: Study) -> list[Task]:
     finer = replace(one, name="ancf_wheel_fine", inputs={**one.inputs, "options": options, "keep_points": False})
     tasks = {task.name: task for task in (*foreseen(solid), *plates, finer)}
     for model in ("fe", "ancf_wheel") if wheel.moved else ():
-        tasks |= {task.name: task for task in travel_tasks(study, model, tuple(Way), WORKING_LOAD, wheel.moved)}
+        tasks |= {task.name: task for task in travel_tasks(study, model, OVER_GROUND, WORKING_LOAD, wheel.moved)}
     return list(tasks.values())

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
-from contracts.hub_travel import Way
+from contracts.hub_travel import OVER_GROUND
 from workbench.questions.ancf_wheels.cases import ComparedWheel
 
 __all__ = ["Agreement", "agreement", "largest"]
@@ -103,7 +103,7 @@ def agreement(wheel: ComparedWheel, found: Mapping[str, Any]) -> Agreement:
 
 def _travels(wheel: ComparedWheel, rows: Sequence[Mapping[str, Any]]) -> dict[tuple[str, float], tuple[float, float]]:
     found = {(str(row["way"]), float(row["orientation_deg"])): (row["plates"], row["fe"]) for row in rows}
-    if found and set(found) != {(way.value, float(o)) for way in Way for o in wheel.moved}:
+    if found and set(found) != {(way.value, float(o)) for way in OVER_GROUND for o in wheel.moved}:
         raise InputError("record", wheel.record, "does not have the travels that are asked", "make it anew")
     if not all(np.isfinite(one) and one > 0.0 for pair in found.values() for one in pair):
         raise ValueError("stiffnesses are numbers above zero")

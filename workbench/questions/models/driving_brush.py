@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from contracts.errors import InputError
-from contracts.hub_travel import Way
+from contracts.hub_travel import OVER_GROUND
 from rover_dynamics.tires.brush_tire import BrushTireParameters
 from workbench.execution.task import Task
 from workbench.questions.curve_graph import stiffness_tasks
@@ -42,7 +42,7 @@ def calibration_tasks(study: Study, model: str, load: float, orientations_deg: S
     InputError
         For another model than fe and ancf_wheel, and a study whose wheel is not pressed on level ground.
     """
-    moved = travel_tasks(study, model, tuple(Way), load, where_it_moves(study))
+    moved = travel_tasks(study, model, OVER_GROUND, load, where_it_moves(study))
     tasks = {one.name: one for one in (*stiffness_tasks(study, model, orientations_deg), *moved)}
     return tuple(tasks.values())
 
