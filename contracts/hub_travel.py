@@ -1,4 +1,4 @@
-"""How the hub of a wheel that is pressed on the ground is then moved over it, turned on it or wound up against it.
+"""How the hub of a wheel that is pressed on the ground is then moved or turned, one way at a time.
 
 Verified by tests/unit/test_hub_travel.py.
 """
@@ -28,34 +28,39 @@ class Way(StrEnum):
     """To the left."""
     TURNING = "turning"
     """Counter-clockwise from above about the ground's normal through its centre, as a steered wheel that stands."""
+    RADIAL = "radial"
+    """Down, pressed on."""
+    LEANING = "leaning"
+    """To the right about the forward direction through its centre."""
     WIND_UP = "wind_up"
     """Forwards about its axle, as a drive turns it whose wheel the ground holds."""
 
     @property
     def turns(self) -> bool:
         """Whether it is an angle [rad] that a moment [N m] resists; else a length [m] and a force [N]."""
-        return self in (Way.TURNING, Way.WIND_UP)
+        return self in (Way.LEANING, Way.WIND_UP, Way.TURNING)
 
     @property
     def mirrored(self) -> bool:
         """Whether half a wheel stands for the whole: the way is symmetric about the wheel's middle plane."""
-        return self in (Way.FORE_AFT, Way.WIND_UP)
+        return self in (Way.FORE_AFT, Way.RADIAL, Way.WIND_UP)
 
 
 OVER_GROUND = (Way.FORE_AFT, Way.LATERAL, Way.TURNING)
-"""Ways that leave the ground's normal where it is in the wheel: what a tire's carcass is known by."""
+"""Ways that leave ground and hub as far apart as they are: what a tire's carcass is known by."""
 
 
 class GroundMotion(NamedTuple):
-    """Motion of the ground in its own axes since first touch: forward, left, up [m], its turn about up, and then with
-    all that about the axle [rad].
+    """Motion of the ground since first touch: forward, left, up in its axes [m], and with that about the hub's centre:
+    about forward, the axle, up [rad]; one of these turns at most.
     """
 
     forward: float
     left: float
     up: float
-    turned: float
-    wound: float
+    leant: float = 0.0
+    wound: float = 0.0
+    turned: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,13 +106,17 @@ class HubTravel:
         up, gone = min(control, self.start), self.at(control)
         match self.way:
             case Way.FORE_AFT:
-                return GroundMotion(-gone, 0.0, up, 0.0, 0.0)
+                return GroundMotion(-gone, 0.0, up)
             case Way.LATERAL:
-                return GroundMotion(0.0, -gone, up, 0.0, 0.0)
+                return GroundMotion(0.0, -gone, up)
             case Way.TURNING:
-                return GroundMotion(0.0, 0.0, up, -gone, 0.0)
+                return GroundMotion(0.0, 0.0, up, turned=-gone)
             case Way.WIND_UP:
-                return GroundMotion(0.0, 0.0, up, 0.0, -gone)
+                return GroundMotion(0.0, 0.0, up, wound=-gone)
+            case Way.RADIAL:
+                return GroundMotion(0.0, 0.0, up + gone)
+            case Way.LEANING:
+                return GroundMotion(0.0, 0.0, up, leant=-gone)
 
     @property
     def _scale(self) -> float:

@@ -22,11 +22,14 @@ FloatArray = NDArray[np.float64]
 WRENCH = ("force_forward_N", "force_left_N", "load_N", "moment_forward_Nm", "moment_left_Nm", "moment_up_Nm")
 """Columns of the ground's force and moment on the whole wheel at the hub's centre; up is the ground's normal."""
 _AGAINST = {
-    Way.FORE_AFT: "force_forward_N",
-    Way.LATERAL: "force_left_N",
-    Way.TURNING: "moment_up_Nm",
-    Way.WIND_UP: "moment_left_Nm",
+    Way.FORE_AFT: ("force_forward_N", -1.0),
+    Way.LATERAL: ("force_left_N", -1.0),
+    Way.RADIAL: ("load_N", 1.0),
+    Way.LEANING: ("moment_forward_Nm", -1.0),
+    Way.WIND_UP: ("moment_left_Nm", -1.0),
+    Way.TURNING: ("moment_up_Nm", -1.0),
 }
+"""What resists a way, and its sign where it does."""
 _LEAST = 2
 
 
@@ -79,8 +82,9 @@ class TravelCurve:
     @property
     def resistance(self) -> FloatArray:
         """What holds the hub back (n,) [N; N m of a turn], less that of the wheel that only stands there."""
-        held = self.columns[_AGAINST[self.way]]
-        return np.asarray(held[0] - held)
+        name, sign = _AGAINST[self.way]
+        held = self.columns[name]
+        return np.asarray(sign * (held - held[0]))
 
     @property
     def stiffness(self) -> float:

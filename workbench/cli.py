@@ -15,6 +15,7 @@ import typer
 from typer.exceptions import TyperException
 
 from contracts.errors import InputError, WorkbenchError
+from contracts.hub_travel import Way
 from contracts.text import for_terminal
 from workbench.commands.calibrate_app import calibrate_app
 from workbench.commands.ending import complain, flushed, full_disk
@@ -157,14 +158,18 @@ def stiffness(
     ] = None,
     travel: Annotated[
         str | None,
-        typer.Option(help="Move the pressed hub (fe, ancf_wheel): fore_aft, lateral, turning, wind_up or all."),
+        typer.Option(help=f"Move the pressed hub (fe, ancf_wheel): {', '.join(Way)} or all."),
     ] = None,
     load: Annotated[
         float | None,
         typer.Option(
-            help="With --travel: load in newtons from which the hub moves; 200 if left out.", show_default=False
+            help="With --travel or --matrix: load in newtons at which the hub moves; 200 if left out.",
+            show_default=False,
         ),
     ] = None,
+    matrix: Annotated[
+        bool, typer.Option("--matrix", help="Stiffness of the standing wheel, six by six (fe, ancf_wheel).")
+    ] = False,
     out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
     store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
@@ -175,12 +180,18 @@ def stiffness(
     from workbench.commands.stiffness import run_stiffness
 
     who = computing(workers, ranks, scheduler)
+    if matrix and travel is not None:
+        raise InputError("--matrix", "", "makes travels of its own", "leave out --travel")
+    if matrix:
+        from workbench.commands.travel import run_matrix
+
+        raise typer.Exit(run_matrix(study, model, load, tuple(orientation or ()), out, store, who))
     if travel is not None:
         from workbench.commands.travel import run_travel
 
         raise typer.Exit(run_travel(study, model, (travel, load), tuple(orientation or ()), out, store, who))
     if load is not None:
-        raise InputError("load", f"{load:g} N", "is where the hub's travel begins", "give --travel, or leave it out")
+        raise InputError("load", f"{load:g} N", "is where the hub's travel begins", "give --travel or --matrix")
     raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who))
 
 

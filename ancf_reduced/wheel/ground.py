@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
+from scipy.spatial.transform import Rotation
 
 from ancf_reduced.compiled import compiled
 from ancf_reduced.contact.terrain_kernels import is_outside, piece_gap
@@ -92,17 +93,10 @@ class GroundContact:
         if self._travel is None or deflection <= self._travel.start:
             return self._frame, np.array([0.0, 0.0, self._touch + deflection])
         motion = self._travel.ground(deflection)
-        c, s = np.cos(motion.turned), np.sin(motion.turned)
-        back = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-        return back @ self.axes(deflection), back @ np.array([motion.forward, motion.left, self._touch + motion.up])
-
-    def axes(self, deflection: float) -> Array:
-        """Rows (3, 3) of the ground's forward, left and up at a deflection [m]: as at first touch, or wound up."""
-        if self._travel is None:
-            return self._frame
-        wound = self._travel.ground(deflection).wound
-        c, s = np.cos(wound), np.sin(wound)
-        return np.asarray(self._frame @ np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]]))
+        forward, _, up = self._frame
+        turns = (motion.leant, forward), (motion.wound, np.array([0.0, 1.0, 0.0])), (motion.turned, up)
+        turn = Rotation.from_rotvec(sum((angle * axis for angle, axis in turns), np.zeros(3)))
+        return turn.apply(self._frame), np.array([motion.forward, motion.left, self._touch + motion.up])
 
     def near(self, q: Array, pose: Pose, forces: Array, blocks: Array) -> Near:
         """Points within reach of the ground; adds to blocks what forces add.

@@ -222,13 +222,13 @@ class WheelOnGround:
     def wrench(self, state: Equilibrium) -> tuple[Array, Array]:
         """Force [N] and moment about the hub's centre [N m] of the ground on the whole wheel.
 
-        Along its forward, left and up at first touch, or wound up about the axle.
+        Along the ground's forward, left and up.
         """
         q, pose = self.wheel.coordinates(state.free), self.ground.risen(state.deflection)
         near = self.ground.near(q, pose, np.zeros(self.ground.count), np.empty((0, 16, 3, 16, 3)))
         assert near.surface is not None
         forces = state.pressed[near.points, None] * near.surface.normals + state.pull[near.points]
-        axes = self.ground.axes(state.deflection)
+        axes = pose[0]
         force = axes @ forces.sum(axis=0)
         moment = axes @ np.cross(near.surface.places, forces).sum(axis=0)
         if self.wheel.sides > 1.0:

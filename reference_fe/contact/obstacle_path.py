@@ -1,15 +1,15 @@
-"""Where an obstacle is over its control parameter: it rises, then moves along the ground, turns on it or an axle.
+"""Where an obstacle is over its control parameter: it rises, then moves along the ground, or turns about the hub.
 
 Verified by tests/unit/test_fe_obstacle_path.py and tests/verification/test_fe_working_load.py.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from contracts.hub_travel import HubTravel
 
@@ -74,22 +74,14 @@ class ObstaclePath:
         moved = motion.up * self.rise + motion.forward * self.along
         if motion.left:
             moved = moved + motion.left * np.cross(self.normal, self.along)
-        if motion.wound:
-            R = _about(_AXLE, motion.wound)
-            return Place(rotation=R, moved=R @ moved)
-        return Place(rotation=_about(self.normal, motion.turned) if motion.turned else None, moved=moved)
+        turns = (motion.leant, self.along), (motion.wound, _AXLE), (motion.turned, self.normal)
+        about = [angle * axis for angle, axis in turns if angle]
+        if not about:
+            return Place(rotation=None, moved=moved)
+        R = Rotation.from_rotvec(about[0]).as_matrix()
+        return Place(rotation=R, moved=R @ moved)
 
     def axes(self, control: float) -> tuple[Array, Array]:
-        """Unit normal (dim,) of the ground, and what is forward on it: at first touch, or wound up about the axle."""
-        wound = 0.0 if self.travel is None else self.travel.ground(control).wound
-        if not wound:
-            return self.normal, self.along
-        R = _about(_AXLE, wound)
-        return R @ self.normal, R @ self.along
-
-
-def _about(axis: Array, angle: float) -> Array:
-    """Rotation by an angle [rad] about a unit axis (3,), by Rodrigues' formula."""
-    x, y, z = axis
-    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + math.sin(angle) * K + (1.0 - math.cos(angle)) * (K @ K))
+        """Unit normal of the ground at a control parameter [m], and what is forward on it, (dim,) each [-]."""
+        place = self.place(control)
+        return place.turned(self.normal), place.turned(self.along)

@@ -18,8 +18,8 @@ Array = NDArray[np.float64]
 def wrench(wheel: WheelProblem, control: float, force: Array, moment: Array) -> dict[str, float]:
     """Columns of the ground's force (dim,) [N] and moment about the hub's centre (3,), in the plane (1,) [N m].
 
-    Along the ground's normal and forward direction at a control parameter, see `ObstaclePath.axes`. Of the whole wheel:
-    what the other half of a mirrored mesh does is added.
+    In the ground's axes at a control parameter, see `ObstaclePath.axes`. Of the whole wheel: what the other half of a
+    mirrored mesh does is added.
     """
     normal, tangent = wheel.contact.path().axes(control)
     if len(force) == 2:  # x and z; the plane's one moment is x f_z - z f_x, minus that about the axle

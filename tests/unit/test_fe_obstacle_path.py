@@ -43,6 +43,9 @@ def test_the_ground_under_a_hub_that_moves() -> None:
     np.testing.assert_allclose(ends[Way.TURNING].of(FORWARD), turned, atol=1e-15)
     wound = np.cos(0.05) * 0.1 * UP - np.sin(0.05) * 0.1 * FORWARD
     np.testing.assert_allclose(ends[Way.WIND_UP].of(np.zeros(3)), wound, atol=1e-15)
+    leant = np.cos(0.05) * 0.1 * UP + np.sin(0.05) * 0.1 * LEFT
+    np.testing.assert_allclose(ends[Way.LEANING].of(np.zeros(3)), leant, atol=1e-15)
+    np.testing.assert_allclose(ends[Way.RADIAL].of(np.zeros(3)), 0.15 * UP, atol=1e-15)
 
 
 def pressed(way: Way) -> tuple[ObstacleTerm, NDArray[np.float64]]:
@@ -99,7 +102,7 @@ def test_ground_that_is_wound_up_presses_harder_in_front() -> None:
     assert term.resultant()[2] == pytest.approx(3.0, rel=1e-4)
 
 
-@pytest.mark.parametrize("way", [Way.TURNING, Way.WIND_UP])
+@pytest.mark.parametrize("way", [Way.TURNING, Way.WIND_UP, Way.LEANING])
 def test_with_a_lag_it_is_the_tangent_line(way: Way) -> None:
     term, u = pressed(way)
     term.set_control(0.1 + 0.05 * 1e-4)

@@ -23,15 +23,17 @@ def test_steps_are_found_again_at_their_controls(way: Way) -> None:
 
 @pytest.mark.parametrize("way", list(Way))
 def test_up_to_its_start_the_ground_only_rises(way: Way) -> None:
-    assert travel(way).ground(0.01) == GroundMotion(0.0, 0.0, 0.01, 0.0, 0.0)
+    assert travel(way).ground(0.01) == GroundMotion(0.0, 0.0, 0.01)
 
 
 def test_the_ground_moves_against_the_hub() -> None:
     ends = {way: travel(way).ground(travel(way).controls[-1]) for way in Way}
-    assert ends[Way.FORE_AFT] == pytest.approx((-0.004, 0.0, 0.02, 0.0, 0.0), abs=1e-15)
-    assert ends[Way.LATERAL] == pytest.approx((0.0, -0.004, 0.02, 0.0, 0.0), abs=1e-15)
-    assert ends[Way.TURNING] == pytest.approx((0.0, 0.0, 0.02, -0.004, 0.0), abs=1e-15)
-    assert ends[Way.WIND_UP] == pytest.approx((0.0, 0.0, 0.02, 0.0, -0.004), abs=1e-15)
+    assert ends[Way.FORE_AFT] == pytest.approx((-0.004, 0.0, 0.02, 0.0, 0.0, 0.0), abs=1e-15)
+    assert ends[Way.LATERAL] == pytest.approx((0.0, -0.004, 0.02, 0.0, 0.0, 0.0), abs=1e-15)
+    assert ends[Way.RADIAL] == pytest.approx((0.0, 0.0, 0.024, 0.0, 0.0, 0.0), abs=1e-15)
+    assert ends[Way.LEANING] == pytest.approx((0.0, 0.0, 0.02, -0.004, 0.0, 0.0), abs=1e-15)
+    assert ends[Way.WIND_UP] == pytest.approx((0.0, 0.0, 0.02, 0.0, -0.004, 0.0), abs=1e-15)
+    assert ends[Way.TURNING] == pytest.approx((0.0, 0.0, 0.02, 0.0, 0.0, -0.004), abs=1e-15)
 
 
 @pytest.mark.parametrize("start", [0.0, -1.0, math.nan, math.inf])

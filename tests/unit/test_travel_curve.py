@@ -28,15 +28,21 @@ def curve(way: Way = Way.LATERAL) -> TravelCurve:
 
 @pytest.mark.parametrize("way", list(Way))
 def test_resistance_counts_from_the_wheel_that_stands(way: Way) -> None:
-    np.testing.assert_array_equal(curve(way).resistance, [0.0, 10.0, 15.0])
-    assert curve(way).stiffness == pytest.approx(10e3)
+    """A wheel that is pressed on is held back by a load that rises, all others by what falls below zero."""
+    sign = -1.0 if way is Way.RADIAL else 1.0
+    np.testing.assert_array_equal(curve(way).resistance, [0.0, 10.0 * sign, 15.0 * sign])
+    assert curve(way).stiffness == pytest.approx(10e3 * sign)
 
 
 @pytest.mark.parametrize("way", list(Way))
 def test_written_and_read_it_is_the_same(tmp_path: Path, way: Way) -> None:
     write_travel(replace(curve(way), partial=True), tmp_path / "a.csv")
     header = (tmp_path / "a.csv").read_text().splitlines()[2].split(",")
-    assert header[:8] == ["travel_rad" if way in (Way.TURNING, Way.WIND_UP) else "travel_m", "deflection_m", *WRENCH]
+    assert header[:8] == [
+        "travel_rad" if way in (Way.TURNING, Way.WIND_UP, Way.LEANING) else "travel_m",
+        "deflection_m",
+        *WRENCH,
+    ]
     found = read_travel(tmp_path / "a.csv", "fe", way, 15.0)
     assert (found.deflection, found.partial, found.source) == (0.02, True, "by hand")
     np.testing.assert_array_equal(found.travel, curve(way).travel)

@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 
 from contracts.errors import InputError
 from contracts.hub_travel import Way
+from contracts.stiffness_matrix import MOTIONS, StiffnessMatrix, stiffness_matrix, write_matrix
 from contracts.travel_curve import TravelCurve, write_travel
 from workbench.commands.computing import (
     complain_of_early_ends,
@@ -30,7 +31,7 @@ from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish
 from workbench.study.orientation import degrees, orientation_name
 
-__all__ = ["check_way", "run_travel"]
+__all__ = ["check_way", "run_matrix", "run_travel"]
 
 
 def check_way(name: str) -> tuple[Way, ...]:
@@ -55,25 +56,79 @@ def run_travel(
 
     travel : name of the way, and load from which the hub moves [N]; None for `WORKING_LOAD`
     """
-    ways, load = check_way(travel[0]), WORKING_LOAD if travel[1] is None else travel[1]
-    for orientation in orientations:
-        check_orientation(orientation)
-    study = read_and_warn(study_path)
-    check_folder(out)
+    ways = check_way(travel[0])
     check_targets(out, ("travels/any",))
-    with naming(study_path):
-        tasks = travel_tasks(study, model, ways, load, tuple(dict.fromkeys(orientations)))
-    entries = computed(study_path, tasks, store, computing)
-    folders = {name: entry.path for name, entry in entries.items()}
-    asked = tuple(dict.fromkeys(orientations)) or tuple(degrees(o) for o in study.fe.orientations)
-    with naming(study_path):
-        curves = travel_curves(model, ways, asked, folders)
+    curves, folders = _solved(study_path, model, (ways, travel[1]), orientations, out, (store, computing), small=False)
     tell_kept(_published(out, model, ways, curves))
     _print(curves)
     if curves:
         console.print(f"curves: {out / 'travels'}", soft_wrap=True)
     complain_of_early_ends(study_path, early_ends(folders))
     return 0
+
+
+def run_matrix(
+    study_path: Path,
+    model: str,
+    load: float | None,
+    orientations: tuple[float, ...],
+    out: Path,
+    store: Path,
+    computing: Computing,
+) -> int:
+    """Stiffness matrix of the wheel that stands under a load [N], None for `WORKING_LOAD`, at each orientation."""
+    check_targets(out, ("matrices/any",))
+    ways = tuple(Way)
+    curves, folders = _solved(study_path, model, (ways, load), orientations, out, (store, computing), small=True)
+    complain_of_early_ends(study_path, early_ends(folders))
+    with naming(study_path):
+        asked = dict.fromkeys(curve.orientation_deg for curve in curves)
+        found = [stiffness_matrix([curve for curve in curves if curve.orientation_deg == one]) for one in asked]
+    texts = dict[str, str]()
+    with TemporaryDirectory() as folder:
+        for matrix in found:
+            path = Path(folder) / "matrix.csv"
+            write_matrix(matrix, path)
+            texts[f"matrices/{orientation_name(model, matrix.orientation_deg)}.csv"] = path.read_text(encoding="utf-8")
+    tell_kept(publish(out, f"stiffness {model} matrix", texts))
+    for matrix in found:
+        _print_matrix(matrix)
+    console.print(f"matrices: {out / 'matrices'}", soft_wrap=True)
+    return 0
+
+
+def _solved(
+    study_path: Path,
+    model: str,
+    asked: tuple[tuple[Way, ...], float | None],
+    orientations: tuple[float, ...],
+    out: Path,
+    where: tuple[Path, Computing],
+    *,
+    small: bool,
+) -> tuple[list[TravelCurve], dict[str, Path]]:
+    """Curves of the ways asked for from a load [N], and the folders of all tasks."""
+    ways, load = asked[0], WORKING_LOAD if asked[1] is None else asked[1]
+    for orientation in orientations:
+        check_orientation(orientation)
+    study = read_and_warn(study_path)
+    check_folder(out)
+    with naming(study_path):
+        tasks = travel_tasks(study, model, ways, load, tuple(dict.fromkeys(orientations)), small=small)
+    entries = computed(study_path, tasks, *where)
+    folders = {name: entry.path for name, entry in entries.items()}
+    each = tuple(dict.fromkeys(orientations)) or tuple(degrees(o) for o in study.fe.orientations)
+    with naming(study_path):
+        return travel_curves(model, ways, each, folders, small=small), folders
+
+
+def _print_matrix(matrix: StiffnessMatrix) -> None:
+    at = f"{matrix.orientation_deg:g} deg, {matrix.load:.0f} N at {1e3 * matrix.deflection:.1f} mm"
+    table = empty_table(f"stiffness at {at}", ("hub moves", *MOTIONS), texts=["hub moves"])
+    for name, row in zip(MOTIONS, matrix.values, strict=True):
+        table.add_row(name, *(f"{value:.4g}" for value in row))
+    console.print(table)
+    console.print(f"rows resist columns, in N, N m, m and rad; K differs from its transpose by {matrix.asymmetry:.2%}")
 
 
 def _published(out: Path, model: str, ways: Sequence[Way], curves: Sequence[TravelCurve]) -> list[str]:

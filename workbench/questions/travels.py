@@ -25,9 +25,13 @@ STEPS: Mapping[Way, tuple[float, ...]] = {
     Way.FORE_AFT: (1e-3, 2e-3, 4e-3),
     Way.LATERAL: (1e-3, 2e-3, 4e-3),
     Way.TURNING: (5e-3, 10e-3, 20e-3, 40e-3),
+    Way.RADIAL: (1e-3, 2e-3),
+    Way.LEANING: (5e-3, 10e-3, 20e-3),
     Way.WIND_UP: (5e-3, 10e-3, 20e-3, 40e-3),
 }
 """Steps of the hub over the ground [m; rad of a turn]."""
+SMALL_STEP, SMALL_TURN = 0.1e-3, 1e-3
+"""Steps of a stiffness matrix [m; rad]: what touches sticks, the solver's tolerance is a thousandth of the change."""
 WORKING_LOAD = 200.0
 """Between the 160 and 250 N on a wheel of Samarini 2020, section 3.2 [N]."""
 _LEAST_LOAD = 0.1
@@ -37,9 +41,17 @@ FRICTION = 0.6
 
 
 def travel_tasks(
-    study: Study, model: str, ways: Sequence[Way], load: float, orientations_deg: Sequence[float] = ()
+    study: Study,
+    model: str,
+    ways: Sequence[Way],
+    load: float,
+    orientations_deg: Sequence[float] = (),
+    *,
+    small: bool = False,
 ) -> tuple[Task, ...]:
     """Each way from a load [N] at each orientation [deg], none means those of [fe], with the curves they start from.
+
+    Of a ``small`` one a single small step is made, for a stiffness matrix.
 
     Raises
     ------
@@ -55,18 +67,21 @@ def travel_tasks(
     require_level(study)
     asked = tuple(orientations_deg) or tuple(degrees(o) for o in study.fe.orientations)
     make = _fe_tasks if model == "fe" else _ancf_wheel_tasks
-    return make(study, ways, load, asked)
+    return make(study, ways, load, asked, small)
 
 
 def _friction(study: Study) -> float:
     return study.fe.friction or study.ground.friction or FRICTION
 
 
-def _asked(study: Study, way: Way, load: float) -> dict[str, object]:
-    return {"way": way.value, "load": load, "steps": list(STEPS[way]), "friction": _friction(study)}
+def _asked(study: Study, way: Way, load: float, small: bool) -> dict[str, object]:
+    steps = [SMALL_TURN if way.turns else SMALL_STEP] if small else list(STEPS[way])
+    return {"way": way.value, "load": load, "steps": steps, "friction": _friction(study)}
 
 
-def _fe_tasks(study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
+def _fe_tasks(
+    study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float], small: bool
+) -> tuple[Task, ...]:
     curves = fe_curve_tasks(study, orientations_deg)
     meshes = [wheel_meshes(study)[0]]
     whole = any(not way.mirrored for way in ways) and study.mesh.half_width
@@ -80,13 +95,13 @@ def _fe_tasks(study: Study, ways: Sequence[Way], load: float, orientations_deg: 
         for way in ways:
             mesh = MESH_FULL if whole and not way.mirrored else MESH
             inputs = without_fields(fe_inputs(study, o, ())) | {
-                "travel": _asked(study, way, load),
+                "travel": _asked(study, way, load, small),
                 "mesh": mesh,
                 "curve": curve.name,
             }
             tasks.append(
                 Task(
-                    name=travel_name("fe", way, o),
+                    name=travel_name("fe", way, o, small=small),
                     function="workbench.questions.fe.travel_task:solve_travel",
                     inputs=inputs,
                     needs=(mesh, curve.name),
@@ -98,7 +113,7 @@ def _fe_tasks(study: Study, ways: Sequence[Way], load: float, orientations_deg: 
 
 
 def _ancf_wheel_tasks(
-    study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float]
+    study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float], small: bool
 ) -> tuple[Task, ...]:
     curves = ancf_wheel_curve_tasks(study, orientations_deg)
     tasks = []
@@ -108,12 +123,12 @@ def _ancf_wheel_tasks(
             options = curve.inputs["options"] | ({} if way.mirrored else {"half_width": False})
             inputs = {name: curve.inputs[name] for name in kept} | {
                 "options": options,
-                "travel": _asked(study, way, load),
+                "travel": _asked(study, way, load, small),
                 "curve": curve.name,
             }
             tasks.append(
                 Task(
-                    name=travel_name("ancf_wheel", way, o),
+                    name=travel_name("ancf_wheel", way, o, small=small),
                     function="workbench.questions.ancf_wheel.travel_task:solve_travel",
                     inputs=inputs,
                     needs=(curve.name,),
