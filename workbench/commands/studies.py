@@ -147,7 +147,7 @@ def run_check(path: Path) -> int:
         if "full" in study.model_fields_set:
             _ = full_study(study) if mesh is None else steps_around(study)
         if study.sweep is not None:
-            sweep_graph(points, study.sweep.models)
+            sweep_graph(points, study.sweep.models, study.sweep.moved)
         if study.input_uncertainty is not None and without_planar_model(study) is None:
             require_inputs(path, read_study_table(path), study.input_uncertainty)
     console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)

@@ -18,6 +18,7 @@ from workbench.execution.runner import Computing, run_all
 from workbench.execution.store import Store
 from workbench.questions.sweep.confirmed import confirmed_record
 from workbench.questions.sweep.graph import sweep_graph
+from workbench.questions.sweep.likeness import unlike
 from workbench.questions.sweep.results import Outcome, outcomes, references
 from workbench.questions.sweep.table import SweepTable, sweep_table
 from workbench.report.folders import check_folder, check_targets
@@ -57,7 +58,7 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
     check_folder(out)
     check_targets(out, _FILES)
     with naming(study_path):
-        graph = sweep_graph(points, section.models)
+        graph = sweep_graph(points, section.models, section.moved)
     console.print(f"{len(points)} points, {', '.join(section.models)}: {len(graph.tasks)} tasks")
     with naming(study_path), RunDisplay(console, graph.tasks) as display:
         ended = run_all(graph.tasks, Store(store, study=study_path.stem), display, computing)
@@ -65,6 +66,8 @@ def run_sweep(study_path: Path, out: Path, store: Path, computing: Computing) ->
     table = sweep_table(study, graph.keys, found, references(study, study_path.parent, found))
     _publish(out, table, sweep_page(study.title, table, found))
     _print(table, found)
+    if differ := unlike(found):
+        console.print(f"sweep: {differ}", soft_wrap=True)
     console.print(f"sweep: {out / 'sweep.html'}", soft_wrap=True)
     _complain(study_path, out, found)
     return 0
@@ -102,7 +105,9 @@ def _without_effect(
     for key in section.parameters:
         values = list(dict.fromkeys(point.values[key] for point in points if key in point.values))
         try:
-            graph = sweep_graph(probes(path, content, key, values[:: max(len(values) - 1, 1)]), section.models)
+            graph = sweep_graph(
+                probes(path, content, key, values[:: max(len(values) - 1, 1)]), section.models, section.moved
+            )
         except (StudyError, InputError):  # fits only together with other parameters
             continue
         if len(values) > 1 and len({run.tasks for run in graph.runs}) == len(section.models):

@@ -133,13 +133,13 @@ class _Batches:
         for number, chosen in enumerate(values, start=first):
             try:
                 point = study_point(self._path, self._base, number, chosen)
-                sweep_graph([point], section.models)
+                sweep_graph([point], section.models, section.moved)
                 points.append(point)
             except (StudyError, InputError) as error:
                 refused[number] = f"{error.key}: {error.rule}" if isinstance(error, StudyError) else str(error)
         if not points and first == 1:
             raise StudyError(self._path, "sweep", "", f"none of its first points can be used: {refused[1]}", _MEND)
-        graph = sweep_graph(points, section.models)
+        graph = sweep_graph(points, section.models, section.moved)
         with naming(self._path):
             ended = run_all(graph.tasks, self._store, _Quiet(), self._computing)
         self.searched.keys |= graph.keys

@@ -9,6 +9,7 @@ from string import Template
 from contracts.text import for_html
 from workbench.charts.interactive import plotly_source
 from workbench.questions.sweep.figures import curves_figure, parallel_coordinates
+from workbench.questions.sweep.likeness import unlike
 from workbench.questions.sweep.results import Outcome
 from workbench.questions.sweep.table import Cell, SweepTable
 from workbench.questions.sweep.words import Column, told_columns
@@ -41,7 +42,7 @@ def sweep_page(title: str, table: SweepTable, found: Sequence[Outcome]) -> str:
         legend=(_TEMPLATES / "legend.js").read_text(encoding="utf-8"),
         coordinates=parallel_coordinates(table) if drawn else "<p>No point has a curve.</p>",
         curves=curves,
-        mean=for_html(_mean(found)),
+        mean=for_html(_mean(found) + (f" {told[0].upper()}{told[1:]}." if (told := unlike(found)) else "")),
         table=_table(table),
     )
 

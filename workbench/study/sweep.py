@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
+from contracts.hub_travel import Way
 from workbench.study.quantities import Angle, Force, number_and_unit
 from workbench.study.section import Positive, Section, in_key
 from workbench.study.sections import Drop
@@ -18,6 +19,7 @@ from workbench.study.sections import Drop
 __all__ = [
     "MOST_PARAMETERS",
     "MOST_POINTS",
+    "MOVED",
     "Aim",
     "SweepRange",
     "SweepSection",
@@ -32,6 +34,8 @@ type Value = str | int | float | bool
 """A value as the study file has it, with its unit."""
 SweptModel = Literal["fe", "section", "ancf_wheel", "ancf", "brush"]
 MOST_POINTS, MOST_PARAMETERS = 10_000, 100
+MOVED: tuple[SweptModel, ...] = ("fe", "ancf_wheel")
+"""Models whose hub can be moved over the ground."""
 
 
 class SweepRange(Section):
@@ -93,7 +97,8 @@ class SweepSection(Section):
         of so many points for what ``aims`` say
     base : whether the study as it is runs too, as point 0
     deflections : where the load is read [m]
-    loads : where deflection and stress are read [N]
+    loads : where deflection, stiffness and stress are read [N]
+    travels : ways in which the pressed wheel's hub is then moved over the ground, from the first of the loads
     aims : column of the table -> what it should be; a search makes the largest miss small
     one_of : group -> alternative -> aims: of each group one alternative is enough, with all its aims
     batch : points that a search chooses at once
@@ -118,7 +123,9 @@ class SweepSection(Section):
     deflections: Annotated[tuple[Drop, ...], Field(min_length=1)] = (0.010, 0.020, 0.030)
     """Where the load is read [m]."""
     loads: Annotated[tuple[Annotated[Force, Positive], ...], Field(min_length=1)] = (160.0, 250.0)
-    """Where deflection and stress are read [N]."""
+    """Where deflection, stiffness and stress are read [N]."""
+    travels: tuple[Way, ...] = ()
+    """Ways in which the hub is then moved over the ground, from the first of the loads."""
 
     aims: dict[str, Aim] = Field(default_factory=dict)
     """What a search looks for: column of the table -> aim."""
@@ -136,6 +143,11 @@ class SweepSection(Section):
     """Best points of a search that run again."""
     confirm_step: Annotated[Angle, Positive] = math.radians(5.0)
     """Between their orientations, over the wheel's period."""
+
+    @property
+    def moved(self) -> tuple[tuple[Way, ...], float]:
+        """Ways of the hub, and the load from which it moves [N]."""
+        return self.travels, self.loads[0]
 
     @property
     def wanted(self) -> dict[str, str]:
@@ -195,6 +207,11 @@ class SweepSection(Section):
                 raise in_key("models", ", ".join(self.models), "must be one for a search", 'e.g. models = ["section"]')
             if len(self.parameters) < 2:
                 raise in_key("design", "search", "needs two parameters at least", 'use "latin-hypercube" for one')
+        if self.travels and not set(self.models) & set(MOVED):
+            rule, hint = "moves no hub of the models", f"add {' or '.join(MOVED)} to models"
+            raise in_key("travels", ", ".join(self.travels), rule, hint)
+        if len(set(self.travels)) < len(self.travels):
+            raise in_key("travels", ", ".join(self.travels), "names a way twice", "give each once")
         if "temperature" in self.parameters and self.models != ("fe",):
             raise in_key("temperature", "given", "acts on the solid model only", 'set models = ["fe"]')
         for key in self.parameters:

@@ -14,11 +14,17 @@ import numpy as np
 
 from contracts.curves import Around, StiffnessCurve, read_curve
 from contracts.errors import InputError
+from contracts.hub_travel import Way
+from contracts.travel_curve import read_travel
 from workbench.execution.result_files import early_ends
 from workbench.execution.store import Entry
+from workbench.execution.task import bare_name
 from workbench.questions.model_curves import CURVE, distances_from, mean_curve
 from workbench.questions.models.metrics import compare_curves
 from workbench.questions.sweep.graph import SweepGraph, SweepRun
+from workbench.questions.sweep.wheel_facts import WheelFacts, wheel_facts, wheel_numbers
+from workbench.questions.travel_start import TRAVEL
+from workbench.questions.wheel.graph import MESH
 from workbench.study.curve_file import read_measured_curve
 from workbench.study.full import around
 from workbench.study.model import Study
@@ -38,6 +44,8 @@ class Outcome:
     curve : their mean, the curve itself where there is one orientation only; None where a task failed
     note : why there is no curve, or why it ends early
     wall_s : of all its tasks [s], those it shares with other points included
+    wheel : the wheel's masses, room and strengths; None where they are not known
+    travels : way -> what holds back the hub that is moved so, mean of the orientations [N/m; N m/rad]
     """
 
     run: SweepRun
@@ -45,6 +53,8 @@ class Outcome:
     curve: StiffnessCurve | None = None
     note: str = ""
     wall_s: float | None = None
+    wheel: WheelFacts | None = None
+    travels: Mapping[Way, float] = field(default_factory=dict)
 
     @property
     def state(self) -> str:
@@ -76,9 +86,11 @@ def outcomes(graph: SweepGraph, entries: Mapping[str, Entry], failures: Mapping[
 
 def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str, str]) -> Outcome:
     missing = [name for name in run.tasks if name not in entries]
+    mesh = next((entries[name].path for name in run.tasks if bare_name(name) == MESH and name in entries), None)
+    wheel = wheel_facts(run.point.study, mesh)
     if missing:
         told = dict.fromkeys(failures[name] for name in missing if name in failures)
-        return Outcome(run=run, note="; ".join(told))
+        return Outcome(run=run, note="; ".join(told), wheel=wheel)
     folders = {name: entries[task].path for name, task in run.curves.items()}
     curves = []
     for name, folder in folders.items():
@@ -92,7 +104,20 @@ def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str,
         curve=curves[0] if len(curves) == 1 else mean_curve(curves, _around(run)),
         note="; ".join(_reach(curves) + list(early_ends(folders).values())),
         wall_s=sum(entries[name].wall_s for name in run.tasks),
+        wheel=wheel,
+        travels=_travels(run, entries),
     )
+
+
+def _travels(run: SweepRun, entries: Mapping[str, Entry]) -> dict[Way, float]:
+    """Stiffness against each way, mean of the orientations by the arcs they stand for; none where one has none."""
+    found: dict[Way, float] = {}
+    for way, names in run.travels.items():
+        paths = {o: entries[name].path / TRAVEL for o, name in names.items()}
+        if all(path.exists() for path in paths.values()):
+            each = [read_travel(path, run.model, way, o).stiffness for o, path in paths.items()]
+            found[way] = float(np.average(each, weights=around(run.point.study).weights(list(paths))))
+    return found
 
 
 def _around(run: SweepRun) -> Around | None:
@@ -173,6 +198,10 @@ def measured(
         found[f"max_linearised_at_{load:g}N_Pa"] = _largest_stress(outcome.by_orientation, load, "max_linearised_")
     for d in section.deflections:
         found[f"spread_at_{1e3 * d:g}mm"] = None if curve is None else _spread(curve, d)
+    found |= wheel_numbers(outcome.wheel, curve, outcome.by_orientation, section.loads)
+    for way in section.travels:
+        unit = "N_m_per_rad" if way is Way.TURNING else "N_per_m"
+        found[f"{way}_stiffness_at_{section.loads[0]:g}N_{unit}"] = outcome.travels.get(way)
     found["negative_pivots"] = _negative_pivots(outcome.by_orientation, max(section.loads))
     for name, own in (followed or {}).items():
         loads = min(section.loads), max(section.loads)

@@ -104,7 +104,9 @@ def _scaled(outcome: Outcome, scale: float) -> Outcome:
         columns = {name: factors.get(name, 1.0) * values for name, values in curve.columns.items()}
         return replace(curve, load=scale**3 * curve.load, columns=columns)
 
-    return replace(outcome, curve=of(outcome.curve), by_orientation=tuple(of(c) for c in outcome.by_orientation))
+    wheel = outcome.wheel and replace(outcome.wheel, masses={})  # known when it runs again at that thickness
+    curves = tuple(of(c) for c in outcome.by_orientation)
+    return replace(outcome, curve=of(outcome.curve), by_orientation=curves, wheel=wheel, travels={})
 
 
 @dataclass(slots=True, kw_only=True)

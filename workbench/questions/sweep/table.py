@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from contracts.text import for_cell
+from workbench.questions.sweep.likeness import alike
 from workbench.questions.sweep.results import Outcome, Reference, measured, own_curves
 from workbench.questions.sweep.search import Judged, pareto
 from workbench.study.key_units import unit_of
@@ -72,11 +73,12 @@ def sweep_table(
     """
     section = study.sweep
     assert section is not None
-    followed, best = own_curves(study), pareto(judged or {})
+    followed, kinds = own_curves(study), alike(found)
+    best = _best_of_their_like(judged or {}, found, kinds)
     columns = {key: _column(section, key) for key in section.parameters}
     inputs = tuple(name for name, _, _ in columns.values())
     rows, outputs = [], tuple[str, ...]()
-    for outcome in found:
+    for outcome, kind in zip(found, kinds, strict=True):
         values = outcome.run.point.values
         told = [convert(values[key]) if key in values else None for key, (_, _, convert) in columns.items()]
         up_to, reference = study.tangent_up_to, against.get(outcome.run.model)
@@ -86,11 +88,22 @@ def sweep_table(
             numbers |= _judged_cells(judged[number], number in best, (confirms or {}).get(number))
         outputs = tuple(numbers)
         own = " ".join(keys[task] for task in outcome.run.curves.values())
-        first = (outcome.run.point.number, outcome.run.model, *told, outcome.state)
+        first = (outcome.run.point.number, outcome.run.model, *told, outcome.state, kind)
         rows.append((*first, *numbers.values(), outcome.wall_s, own, outcome.note or None))
-    names = ("point", "model", *inputs, "state", *outputs, "wall_time_s", "task_key", "note")
+    names = ("point", "model", *inputs, "state", "alike", *outputs, "wall_time_s", "task_key", "note")
     labels = tuple(label for _, label, _ in columns.values())
     return SweepTable(names=names, rows=tuple(rows), inputs=inputs, labels=labels, outputs=outputs)
+
+
+def _best_of_their_like(
+    judged: Mapping[int, Judged], found: Sequence[Outcome], kinds: Sequence[int | None]
+) -> set[int]:
+    """Points that none of their kind beats in every aim."""
+    of_kind: dict[int | None, dict[int, Judged]] = {}
+    for outcome, kind in zip(found if judged else (), kinds, strict=False):
+        number = outcome.run.point.number
+        of_kind.setdefault(kind, {})[number] = judged[number]
+    return {number for points in of_kind.values() for number in pareto(points)}
 
 
 def _judged_cells(judged: Judged, best: bool, confirms: int | None) -> dict[str, float | str | None]:

@@ -13,7 +13,15 @@ from workbench.questions.sweep.table import Cell, SweepTable
 
 __all__ = ["Column", "column_of", "drawn_rows", "told_columns"]
 
-_SCALED = {"_N_per_m": (1e-3, "N/mm"), "_Pa": (1e-6, "MPa"), "_m": (1e3, "mm"), "_N": (1.0, "N"), "_deg": (1.0, "deg")}
+_SCALED = {
+    "_N_per_m": (1e-3, "N/mm"),
+    "_N_m_per_rad": (1.0, "N m/rad"),
+    "_Pa": (1e-6, "MPa"),
+    "_m": (1e3, "mm"),
+    "_N": (1.0, "N"),
+    "_kg": (1.0, "kg"),
+    "_deg": (1.0, "deg"),
+}
 """Ending of a column's name -> factor and unit in which it is told."""
 _WORDS = {
     "max_von_mises": "largest stress",
@@ -21,9 +29,12 @@ _WORDS = {
     "relative_l2": "relative L2",
 }
 """How a name begins -> in words."""
-_TOLD = ("initial_tangent", "load_at_", "max_linearised_", "spread_", "relative_l2", "largest_miss", "cost")
+_TOLD = (
+    *("mass_kg", "initial_tangent", "load_at_", "max_linearised_", "utilisation_", "spread_"),
+    *("relative_l2", "largest_miss", "cost"),
+)
 """How the names of the columns begin that a page shows; all are in the files."""
-_OF_THE_LARGEST = ("max_linearised_", "spread_")
+_OF_THE_LARGEST = ("max_linearised_", "utilisation_", "spread_")
 """Of these the one at the largest load or deflection alone."""
 
 
