@@ -211,6 +211,26 @@ def sweep(
 
 
 @app.command()
+def optimise(
+    study: StudyArgument,
+    out: Annotated[Path, typer.Option(help="Folder of optimise.html, optimise.csv, best.toml.")] = Path(
+        "build/optimise"
+    ),
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+    ranks: Ranks = 1,
+    scheduler: Scheduler = None,
+) -> None:
+    """Best wheel within limits: the study's section `optimise`, searched by a fast model, confirmed by the solid one.
+
+    Exit status 1: no wheel within the limits was found.
+    """
+    from workbench.commands.optimise import run_optimise
+
+    raise typer.Exit(run_optimise(study, out, store, computing(workers, ranks, scheduler)))
+
+
+@app.command()
 def sample(
     study: StudyOrBuiltIn = None,
     store: StoreOption = DEFAULT_STORE,

@@ -22,6 +22,7 @@ from geometry.own_mesh.roles import Roles
 from geometry.own_mesh.step_body import StepBody, told
 from geometry.own_mesh.wheel_checks import outer_radius, parts_of_faces
 from workbench.commands.computing import console, naming, read_and_warn, warn
+from workbench.commands.optimise import require_optimise
 from workbench.execution.disk import STUDY, naming_the_disk
 from workbench.questions.fe.foresight import own_bytes
 from workbench.questions.input_uncertainty.samples import require_inputs
@@ -148,6 +149,8 @@ def run_check(path: Path) -> int:
             _ = full_study(study) if mesh is None else steps_around(study)
         if study.sweep is not None:
             sweep_graph(points, study.sweep.models, study.sweep.moved)
+        if study.optimise is not None:
+            require_optimise(path, read_study_table(path), study)
         if study.input_uncertainty is not None and without_planar_model(study) is None:
             require_inputs(path, read_study_table(path), study.input_uncertainty)
     console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)

@@ -14,7 +14,7 @@ from workbench.questions.sweep.results import Outcome
 from workbench.questions.sweep.table import Cell, SweepTable
 from workbench.questions.sweep.words import Column, told_columns
 
-__all__ = ["sweep_page"]
+__all__ = ["points_page", "points_table", "sweep_page"]
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _NAMES = {
@@ -34,16 +34,26 @@ def sweep_page(title: str, table: SweepTable, found: Sequence[Outcome]) -> str:
     drawn = any(o.state != "failed" and o.run.point.number for o in found)
     curves = "".join(f"<h2>Curves of the {_NAMES[m]}</h2>{curves_figure(found, m)}" for m in models)
     points = len({o.run.point.number for o in found if o.run.point.number})
-    return Template((_TEMPLATES / "sweep.html").read_text(encoding="utf-8")).substitute(
-        title=for_html(f"{title}: parameter study"),
-        lead=for_html(f"{points} points; curves: {counts}. Varied: {', '.join(table.labels)}."),
+    mean = _mean(found) + (f" {told[0].upper()}{told[1:]}." if (told := unlike(found)) else "")
+    body = Template((_TEMPLATES / "sweep.html").read_text(encoding="utf-8")).substitute(
+        coordinates=parallel_coordinates(table) if drawn else "<p>No point has a curve.</p>",
+        curves=curves,
+        mean=for_html(mean),
+        table=_table(table),
+    )
+    lead = f"{points} points; curves: {counts}. Varied: {', '.join(table.labels)}."
+    return points_page(f"{title}: parameter study", lead, body)
+
+
+def points_page(title: str, lead: str, body: str) -> str:
+    """The frame of a page about points, with style and scripts; title and lead are text, the body is HTML."""
+    return Template((_TEMPLATES / "points_page.html").read_text(encoding="utf-8")).substitute(
+        title=for_html(title),
+        lead=for_html(lead),
         style=(_TEMPLATES / "style.css.j2").read_text(encoding="utf-8"),
         plotly=plotly_source(),
         legend=(_TEMPLATES / "legend.js").read_text(encoding="utf-8"),
-        coordinates=parallel_coordinates(table) if drawn else "<p>No point has a curve.</p>",
-        curves=curves,
-        mean=for_html(_mean(found) + (f" {told[0].upper()}{told[1:]}." if (told := unlike(found)) else "")),
-        table=_table(table),
+        body=body,
     )
 
 
@@ -64,8 +74,13 @@ def _table(table: SweepTable) -> str:
     columns += [Column(name="model", label="model", factor=1.0)] if len(set(table.column("model"))) > 1 else []
     columns += [Column(name=name, label=label, factor=1.0) for name, label in told.items()]
     columns += told_columns(table)
+    return points_table(table, columns)
+
+
+def points_table(table: SweepTable, columns: list[Column]) -> str:
+    """Rows of a table in these columns, with state and note where not every curve is whole; HTML."""
     if set(table.column("state")) != {"whole"}:
-        columns += [Column(name=name, label=name, factor=1.0) for name in ("state", "note")]
+        columns = [*columns, *(Column(name=name, label=name, factor=1.0) for name in ("state", "note"))]
     head = "".join(f'<th class="n">{for_html(column.label)}</th>' for column in columns)
     rows = []
     for row, state in zip(table.rows, table.column("state"), strict=True):

@@ -128,7 +128,8 @@ def of_the_file(study: Study) -> tuple[str, ...]:
 def _idle(study: Study) -> Iterator[str]:
     """Materials that nothing names; tolerances of checks that are not in the report, words that cannot be asked."""
     used = {*material_names(study).values(), *(study.environment.variants if study.environment else ())}
-    swept = study.sweep.parameters.values() if study.sweep else ()
+    swept = [*(study.sweep.parameters.values() if study.sweep else ())]
+    swept += study.optimise.variables.values() if study.optimise else ()
     used |= {value for values in swept if isinstance(values, tuple) for value in values if isinstance(value, str)}
     for name in study.materials:
         if name not in used:

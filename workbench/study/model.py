@@ -17,6 +17,7 @@ from workbench.study.environment import EnvironmentSection
 from workbench.study.fe_studies import FullSection, HubStudySection, MeshStudySection
 from workbench.study.fit import AncfFitSection
 from workbench.study.input_uncertainty import InputUncertaintySection
+from workbench.study.optimise import OptimiseSection
 from workbench.study.own_mesh_section import OwnMeshSection
 from workbench.study.reference import INITIAL, CurveReference, ReferenceSection, told
 from workbench.study.section import in_key
@@ -71,6 +72,7 @@ class Study(WheelStudy):
     penalty_study : where the load is held against other contact penalties
     verification : whether the benchmarks of finite elements and plates are part of the report
     sweep : what `workbench sweep` varies
+    optimise : what `workbench optimise` looks for
     input_uncertainty : what is not known of the wheel as it is made; `workbench sample` draws from it
     ancf_fit : ANCF tires fitted to the FE curves
     reference : what the wheel's stiffness is judged by; None: by nothing
@@ -96,6 +98,7 @@ class Study(WheelStudy):
     ancf_wheel: AncfWheelSection | None = None
     brush: BrushSection | None = None
     sweep: SweepSection | None = None
+    optimise: OptimiseSection | None = None
     input_uncertainty: InputUncertaintySection | None = None
     environment: EnvironmentSection | None = None
     reference: ReferenceSection | None = None

@@ -31,6 +31,7 @@ NEEDS_WHEEL = {
     "ancf_fit": "is not offered for a wheel whose mesh comes from a file",
     "ancf_wheel": "makes plates of the strips of [wheel], which a mesh from a file does not have",
     "environment": "lets hubs expand with their part of [wheel], which a mesh from a file does not have",
+    "optimise": "varies the section model or the ANCF wheel, which need the dimensions of [wheel]",
     "input_uncertainty": "samples the section model, which needs the dimensions of [wheel]",
 }
 """Section -> why it cannot stand beside mesh.file."""

@@ -18,7 +18,7 @@ from workbench.study.model import Study
 from workbench.study.model_parameters import ancf_preset, fit_start, rover_radius
 from workbench.study.own_mesh import own_mesh, sized_mesh
 from workbench.study.reference_rules import broken_reference
-from workbench.study.sweep import tied_keys
+from workbench.study.sweep import SweepSection, tied_keys
 from workbench.study.wheel_design import SectionInputError, materials, wheel_design
 
 __all__ = ["broken_rules", "broken_springs"]
@@ -86,25 +86,34 @@ def _of_the_wheel(study: Study) -> Iterator[BrokenRule]:
 
 
 def _of_the_sweep(study: Study) -> Iterator[BrokenRule]:
-    """Models and parameters of [sweep] that the study has no section for."""
-    if study.sweep is None:
-        return
-    asked = {model: f"sweep.models, {model}" for model in study.sweep.models}
+    """Models and parameters of [sweep] and [optimise] that the study has no section for."""
+    if study.sweep is not None:
+        yield from _of_varied(study, study.sweep, "sweep", "sweep.models")
+    if study.optimise is not None:
+        yield from _of_varied(study, study.optimise.as_sweep, "optimise.variables", "optimise.model")
+        if study.optimise.load > study.fe.max_load:
+            rule = f"lies beyond fe.max_load, {study.fe.max_load:g} N, where curves end"
+            value, hint = f"{study.optimise.load:g} N", "raise fe.max_load"
+            yield BrokenRule(key="optimise.load", value=value, rule=rule, hint=hint)
+
+
+def _of_varied(study: Study, sweep: SweepSection, where: str, models: str) -> Iterator[BrokenRule]:
+    asked = {model: f"sweep.models, {model}" for model in sweep.models}
     if (other := other_law(study)) is not None:
         for model in sorted({"section", "ancf_wheel"}.intersection(asked)):
-            rule, hint = f"has no law of {' = '.join(other)}", "sweep fe, or take another law"
-            yield BrokenRule(key="sweep.models", value=model, rule=rule, hint=hint)
-    if "plates" in study.sweep.parameters:
+            rule, hint = f"has no law of {' = '.join(other)}", "take the solid model, or another law"
+            yield BrokenRule(key=models, value=model, rule=rule, hint=hint)
+    if "plates" in sweep.parameters:
         asked["ancf"] = "sweep.plates"
     for name, section in (("ancf", study.ancf), ("brush", study.brush)):
         if name in asked and section is None:
             hint = f"add [{name}], or remove it from the sweep"
             yield BrokenRule(key=asked[name], value="", rule=f"needs [{name}]", hint=hint)
-    for key in (one for keys in study.sweep.parameters for _, one in tied_keys(keys)):
+    for key in (one for keys in sweep.parameters for _, one in tied_keys(keys)):
         missing = absent(study, parts_of(key))
         if missing is not None and is_table(missing) and not missing.endswith("]"):
-            hint = f"add [{missing}], or remove it from the sweep"
-            yield BrokenRule(key=f"sweep.{key}", value="", rule=f"needs [{missing}]", hint=hint)
+            hint = f"add [{missing}], or remove it from [{where.partition('.')[0]}]"
+            yield BrokenRule(key=f"{where}.{key}", value="", rule=f"needs [{missing}]", hint=hint)
 
 
 def _lonely(study: Study) -> Iterator[BrokenRule]:

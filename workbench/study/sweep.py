@@ -167,15 +167,19 @@ class SweepSection(Section):
             return section
         own = cls.model_fields.keys() - {"parameters"}
         others = {key: value for key, value in section.items() if key not in own}
-        found = dict(flattened("", others, {"low", "high"}))
-        if not found:
+        if not others:
             raise in_key("strip_thickness", "", "must be given, or another key to vary", 'e.g. ["0.5 mm", "0.6 mm"]')
+        return {key: value for key, value in section.items() if key in own} | {"parameters": cls.flat(others)}
+
+    @staticmethod
+    def flat(given: Mapping[str, Any]) -> dict[str, object]:
+        """Keys of the study with their values or ranges, checked as written; keys without quotes made one again."""
+        found = dict(flattened("", given, {"low", "high"}))
         if len(found) > MOST_PARAMETERS:
             raise in_key(
                 next(iter(found)), "", f"is one of {len(found)} keys, more than {MOST_PARAMETERS}", "vary fewer"
             )
-        checked = {key: _checked_values(key, values) for key, values in found.items()}
-        return {key: value for key, value in section.items() if key in own} | {"parameters": checked}
+        return {key: _checked_values(key, values) for key, values in found.items()}
 
     @model_validator(mode="after")
     def _fits_the_design(self) -> SweepSection:

@@ -36,6 +36,7 @@ __all__ = [
     "place_of",
     "probes",
     "require_keys",
+    "set_parameters",
     "study_point",
     "sweep_points",
     "written_at",
@@ -235,8 +236,7 @@ def study_point(path: Path, base: Mapping[str, Any], number: int, values: Mappin
     shown = ", ".join(f"{key} = {value!r}" for key, value in values.items())
     table = copy.deepcopy(dict(base))
     try:
-        for key, value in sorted(values.items(), key=lambda item: item[0] in NAMED):
-            _set_parameter(path, table, key, value, base)
+        set_parameters(path, table, values, base)
         study = study_of(path, table)
         if "orientation_step" in values:
             study = _all_around(study)
@@ -245,6 +245,12 @@ def study_point(path: Path, base: Mapping[str, Any], number: int, values: Mappin
         key = f"[sweep] point {number} ({shown}): {error.key}"
         raise StudyError(path, key, error.value, error.rule, error.hint) from error
     return Point(number=number, values=values, study=study, temperature=temperature)
+
+
+def set_parameters(path: Path, table: dict[str, Any], values: Mapping[str, Value], base: Mapping[str, Any]) -> None:
+    """Change a table, which was the ``base``, as a point's values ask for it; StudyError names a key that is none."""
+    for key, value in sorted(values.items(), key=lambda item: item[0] in NAMED):
+        _set_parameter(path, table, key, value, base)
 
 
 def _temperature(path: Path, study: Study, value: Value | None) -> float | None:

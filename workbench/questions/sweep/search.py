@@ -113,7 +113,8 @@ def _scaled(outcome: Outcome, scale: float) -> Outcome:
 class Strategy:
     """Asks for batches of points in [0, 1)^d and is told their costs; the first ones lie around ``start`` (d,).
 
-    ``step`` is their standard deviation, as a part of the ranges.
+    ``step`` is their standard deviation, as a part of the ranges. The strategy needs two dimensions: a single one gets
+    a companion that nobody reads.
     """
 
     start: NDArray[np.float64]
@@ -126,15 +127,18 @@ class Strategy:
 
     def ask(self) -> NDArray[np.float64]:
         """The next batch, (batch, dimensions)."""
+        dimensions = max(len(self.start), 2)
         if self._cma is None or self._cma.should_stop():
             rng = np.random.default_rng((self.seed, self._runs))
-            mean = self.start if self._runs == 0 else rng.uniform(0.2, 0.8, len(self.start))
-            bounds = np.tile([0.0, np.nextafter(1.0, 0.0)], (len(self.start), 1))
+            start = np.full(dimensions, 0.5)
+            start[: len(self.start)] = self.start
+            mean = start if self._runs == 0 else rng.uniform(0.2, 0.8, dimensions)
+            bounds = np.tile([0.0, np.nextafter(1.0, 0.0)], (dimensions, 1))
             seed = int(rng.integers(2**31 - 1))
             self._cma = CMA(mean=mean, sigma=self.step, bounds=bounds, population_size=self.batch, seed=seed)
             self._runs += 1
         self._asked = [self._cma.ask() for _ in range(self.batch)]
-        return np.array(self._asked)
+        return np.array(self._asked)[:, : len(self.start)]
 
     def tell(self, costs: Sequence[float]) -> None:
         """Costs of the last batch, in its order."""

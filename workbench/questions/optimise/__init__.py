@@ -1,0 +1,1 @@
+"""Which wheel is the best within limits? (``workbench optimise``)"""
