@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.errors import StudyError
+from contracts.errors import InputError, StudyError
 from workbench.commands.computing import console
 from workbench.commands.point_batches import PointBatches
 from workbench.execution.progress import duration_text
@@ -27,12 +27,11 @@ from workbench.questions.optimise.judging import (
     front,
     limits_of,
     nearest,
-    numbers_of,
 )
+from workbench.questions.optimise.linearised import proposal
 from workbench.questions.optimise.words import told_limits, told_point
-from workbench.questions.sweep.results import Outcome
+from workbench.questions.sweep.results import Outcome, measured
 from workbench.questions.sweep.search import Strategy
-from workbench.study.model import Study
 from workbench.study.optimise import OptimiseSection
 from workbench.study.sweep import Value
 from workbench.study.sweep_points import drawn_values, place_of, study_point
@@ -41,6 +40,8 @@ __all__ = ["Optimised", "require_step", "search_and_confirm"]
 
 _LATER_STEP = 0.1
 """Standard deviation of a later round's first batch over range [-]: it begins where the last one ended."""
+_FIRST_REACH = 0.2
+"""Move limit of the linear programme, as a part of the ranges: halved where it wins nothing, else doubled again."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -87,9 +88,9 @@ class _Rounds:
         self.places: dict[int, NDArray[np.float64]] = {}
         self.next = 1
 
-    @property
-    def study(self) -> Study:
-        return self.batches.study
+    def _numbers(self, outcome: Outcome) -> Numbers:
+        """Columns of a sweep's table."""
+        return measured(outcome, self.sweep, self.batches.study.tangent_up_to)
 
     def run(self) -> Optimised:
         """Every round."""
@@ -128,32 +129,46 @@ class _Rounds:
             here = best(points, section.objective) or nearest(points)
             start, step = self.places.get(here.number, start), _LATER_STEP * section.first_step / 0.3
             samples = max(section.batch, section.samples // 2)
-        else:
-            self._run([{}], number, first=0)
         strategy = Strategy(start=start, batch=section.batch, seed=section.seed + number, step=step)
-        done, spent, computed, count = 0, 0.0, 0, 0
+        done, spent, computed, reach = 0, 0.0, 0, _FIRST_REACH
         while done < samples:
-            asked, begun = strategy.ask(), time.monotonic()
+            more = self._proposed(reach)
+            asked, begun = strategy.ask(more), time.monotonic()
             self.places |= dict(enumerate(asked, start=self.next))
-            points = self._run(drawn_values(sweep, asked), number)
+            values = drawn_values(sweep, asked)
+            points = self._run(values, number) if self.found.searched else self._run([{}, *values], number, first=0)[1:]
             scale = self._scale()
             strategy.tell([point.cost(section.objective, scale) for point in points])
-            done, count = done + len(points), count + 1
+            done += len(points)
+            if more:
+                now = best(self.found.assessed(section), section.objective)
+                won = now is not None and now.number > self.next - 1 - len(more)
+                reach = min(_FIRST_REACH, 2.0 * reach) if won else 0.5 * reach
             if self.batches.computed:
                 spent, computed = spent + time.monotonic() - begun, computed + 1
             left = max(0, -(-(samples - done) // section.batch))
-            pace = f"; about {duration_text(left * spent / computed)} left of the search" if left and computed else ""
+            seconds = left * spent / max(computed, 1)
+            pace = f"; about {duration_text(seconds)} left of the search" if seconds >= 1.0 else ""
             console.print(f"{done} of {samples} points; {self._told()}{pace}", soft_wrap=True)
 
     def _run(self, values: Sequence[Mapping[str, Value]], number: int, first: int | None = None) -> list[Assessed]:
         """One batch against the limits of this round."""
         first = self.next if first is None else first
         outcomes = self.batches.run(values, self.sweep, first)
-        rows = [(outcome, numbers_of(outcome, self.section, self.study)) for outcome in outcomes]
+        rows = [(outcome, self._numbers(outcome)) for outcome in outcomes]
         self.found.searched += rows
         self.found.round_of |= dict.fromkeys(range(first, first + len(rows)), number)
         self.next = max(self.next, first + len(rows))
         return [assess(outcome, numbers, self.section, self.found.limits[-1]) for outcome, numbers in rows]
+
+    def _proposed(self, reach: float) -> list[NDArray[np.float64]]:
+        """What the linear programme of the points so far says within a box, and one of a quarter the size."""
+        points, limits = self.found.assessed(self.section), self.found.limits[-1]
+        both = [
+            proposal(points, self.places, limits, self.section.objective, self._scale(), size)
+            for size in (reach, 0.25 * reach)
+        ]
+        return [one for one in both if one is not None]
 
     def _scale(self) -> float:
         """A usual size of the objective: that of the first point which has one."""
@@ -191,7 +206,7 @@ class _Rounds:
         console.print(f"confirmed by the solid model: {named}", soft_wrap=True)
         outcomes = self.batches.run(values, self.sweep, self.next, (section.model, "fe"), shown=True)
         self.next += len(again)
-        both = [assess(o, numbers_of(o, section, self.study), section, self.found.limits[0]) for o in outcomes]
+        both = [assess(o, self._numbers(o), section, self.found.limits[0]) for o in outcomes]
         pairs = zip(again, both[::2], both[1::2], strict=True)
         new = [Confirmed(found=point.number, fast=fast, solid=solid) for point, fast, solid in pairs]
         self.found.confirmed += new
@@ -207,5 +222,5 @@ def require_step(batches: PointBatches, section: OptimiseSection) -> None:
         return
     try:
         study_point(batches.path, batches.base, 0, {"orientation_step": f"{section.confirm_step:.9g} rad"})
-    except StudyError as error:
+    except InputError as error:
         raise StudyError(batches.path, "optimise.confirm_step", error.value, error.rule, error.hint) from error

@@ -107,8 +107,8 @@ class PointBatches:
                 refused[number] = str(error)
                 if isinstance(error, StudyError):
                     refused[number] = f"{error.key.replace('[sweep]', f'[{self.section}]', 1)}: {error.rule}"
-        if not points and first == 1:
-            rule = f"none of its first points can be used: {refused[1]}"
+        if first <= 1 and refused and not any(point.values for point in points):
+            rule = f"none of its first points can be used: {refused[min(refused)]}"
             raise StudyError(self.path, self.section, "", rule, _MEND)
         graph, heard = sweep_graph(points, models, sweep.moved), _Quiet()
         display = RunDisplay(console, graph.tasks) if shown else nullcontext(heard)

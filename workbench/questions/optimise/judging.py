@@ -12,11 +12,11 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from workbench.questions.sweep.results import Outcome, measured
-from workbench.study.model import Study
+from workbench.questions.sweep.results import Outcome
 from workbench.study.optimise import OptimiseSection, Wish
 
 __all__ = [
+    "WEIGHT",
     "Assessed",
     "Confirmed",
     "Limit",
@@ -27,14 +27,14 @@ __all__ = [
     "front",
     "limits_of",
     "nearest",
-    "numbers_of",
 ]
 
 type Numbers = Mapping[str, float | str | None]
 
 _MISSING = 10.0
 """Relative miss of a limit whose number a point does not have because it has no curve."""
-_WEIGHT = 10.0
+WEIGHT = 10.0
+"""Cost of a relative miss of 1."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,7 +88,7 @@ class Assessed:
     def cost(self, wish: Wish, scale: float) -> float:
         """What the search makes small [-]; ``scale`` is a usual size of the objective."""
         value = _MISSING if self.objective is None else wish.sign * self.objective / scale
-        return value + _WEIGHT * self.missed
+        return value + WEIGHT * self.missed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,11 +110,6 @@ def limits_of(section: OptimiseSection) -> tuple[Limit, ...]:
     if section.gap is not None:
         found.append(Limit(name="gap", column=f"gap_{at}_m", low=section.gap))
     return tuple(found)
-
-
-def numbers_of(outcome: Outcome, section: OptimiseSection, study: Study) -> Numbers:
-    """Columns of a sweep's table for one outcome."""
-    return measured(outcome, section.as_sweep, study.tangent_up_to)
 
 
 def assess(outcome: Outcome, numbers: Numbers, section: OptimiseSection, limits: Sequence[Limit]) -> Assessed:

@@ -125,8 +125,8 @@ class Strategy:
     _cma: CMA | None = None
     _asked: list[NDArray[np.float64]] = field(default_factory=list)
 
-    def ask(self) -> NDArray[np.float64]:
-        """The next batch, (batch, dimensions)."""
+    def ask(self, more: Sequence[NDArray[np.float64]] = ()) -> NDArray[np.float64]:
+        """The next batch, (batch, dimensions); ``more`` points of others' choice (dimensions,) take the last places."""
         dimensions = max(len(self.start), 2)
         if self._cma is None or self._cma.should_stop():
             rng = np.random.default_rng((self.seed, self._runs))
@@ -137,7 +137,8 @@ class Strategy:
             seed = int(rng.integers(2**31 - 1))
             self._cma = CMA(mean=mean, sigma=self.step, bounds=bounds, population_size=self.batch, seed=seed)
             self._runs += 1
-        self._asked = [self._cma.ask() for _ in range(self.batch)]
+        self._asked = [self._cma.ask() for _ in range(self.batch - len(more))]
+        self._asked += [np.append(one, np.full(dimensions - len(one), 0.5)) for one in more]
         return np.array(self._asked)[:, : len(self.start)]
 
     def tell(self, costs: Sequence[float]) -> None:
