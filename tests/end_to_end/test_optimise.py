@@ -1,8 +1,8 @@
 """``workbench optimise`` as a user runs it: a known answer, confirmed; again, killed, without an answer, bad input.
 
 The wheel is the tutorial's, with one thickness for rim and hoops, far too coarse: lightest at the lower end of its band
-of stiffness, where an independent root of the same section model must lie (tolerance 0.5 % of the thickness, 1.5 % of the
-stiffness: the search has 16 points).
+of stiffness, where an independent root of the same section model must lie (tolerance 0.5 % of the thickness, 1.5 % of
+the stiffness: the search has 16 points).
 """
 
 from __future__ import annotations

@@ -42,14 +42,18 @@ TABLE = tomllib.loads(built_in_study().read_text(encoding="utf-8"))
 TITANIUM = "materials.Ti-6Al-4V"
 _AIM = "in the unit of whatever column of the table it is for"
 FREE = {
-    **dict.fromkeys(("sweep.seed", "input_uncertainty.seed"), "any whole number draws points as well as any other"),
+    **dict.fromkeys(
+        ("sweep.seed", "input_uncertainty.seed", "optimise.seed"), "any whole number draws points as well as any other"
+    ),
     **{f"sweep.aims.*.{kind}": _AIM for kind in ("target", "at_most", "at_least")},
     **{f"sweep.one_of.*.*.*.{kind}": _AIM for kind in ("target", "at_most", "at_least")},
     "sweep.aims.*.within": "a relative difference, more than 0 and at most 1",
     "sweep.one_of.*.*.*.within": "a relative difference, more than 0 and at most 1",
-    "sweep.first_step": "a part of a range, more than 0 and at most 1",
+    **dict.fromkeys(("sweep.first_step", "optimise.first_step"), "a part of a range, more than 0 and at most 1"),
 }
 """Numbers without a limit, and why."""
+DRAWN = (("sweep", "parameters"), ("input_uncertainty", "inputs"), ("optimise", "variables"))
+"""Values of other keys, whose limits hold where they are put."""
 
 ABSURD: dict[str, tuple[str, Any]] = {
     "density in g/cm^3": ("density", 4.43),
@@ -169,7 +173,7 @@ def test_every_number_of_a_study_has_its_row_or_its_limits() -> None:
     assert len(found) > 100
     for key, field in found:
         name = ".".join(map(str, key))
-        if name in FREE or key[:2] in (("sweep", "parameters"), ("input_uncertainty", "inputs")):
+        if name in FREE or key[:2] in DRAWN:
             continue
         shown = name.replace(".*", "[0]")
         bounds = {type(one) for one in field.metadata} | {type(m) for m in _metadata(field.annotation)}
