@@ -69,7 +69,7 @@ class Optimised:
 
 
 def search_and_confirm(batches: PointBatches, section: OptimiseSection) -> Optimised:
-    """Search, and as long as no confirmed point holds the limits, search again with limits corrected.
+    """Search, and as long as the best point breaks a limit by the solid model, search again with limits corrected.
 
     Raises
     ------
@@ -105,12 +105,12 @@ class _Rounds:
             if section.confirm == 0:
                 found.answer = chosen[0]
                 return found
-            first = self._confirm(chosen)
+            first = self._confirm(chosen if number == 0 else chosen[:1])
             if first is None:
                 console.print("the search ends at points that have been confirmed already; it is given up")
                 return found
             found.answer = best([one.solid for one in found.confirmed], section.objective)
-            if found.answer is not None or number == section.rounds:
+            if first.solid.feasible or number == section.rounds:
                 return found
             fast = next(numbers for o, numbers in found.searched if o.run.point.number == first.found)
             found.limits.append(corrected(found.limits[0], fast, first.solid.numbers))

@@ -112,7 +112,7 @@ def _of_varied(study: Study, sweep: SweepSection, where: str, models: str) -> It
     for key in (one for keys in sweep.parameters for _, one in tied_keys(keys)):
         missing = absent(study, parts_of(key))
         if missing is not None and is_table(missing) and not missing.endswith("]"):
-            hint = f"add [{missing}], or remove it from [{where.partition('.')[0]}]"
+            hint = f"add [{missing}], or remove it from the {'sweep' if where == 'sweep' else 'variables'}"
             yield BrokenRule(key=f"{where}.{key}", value="", rule=f"needs [{missing}]", hint=hint)
 
 
