@@ -33,6 +33,7 @@ from workbench.questions.optimise.words import told_limits, told_point
 from workbench.questions.sweep.results import Outcome, measured
 from workbench.questions.sweep.search import Strategy
 from workbench.study.optimise import OptimiseSection
+from workbench.study.orientation import degrees
 from workbench.study.sweep import Value
 from workbench.study.sweep_points import drawn_values, place_of, study_point
 
@@ -200,7 +201,7 @@ class _Rounds:
         if chosen[0].number in known or not again:
             return None
         section = self.section
-        step = {} if section.confirm_step is None else {"orientation_step": f"{section.confirm_step:.9g} rad"}
+        step = {} if section.confirm_step is None else {"orientation_step": _written(section.confirm_step)}
         values = [{**point.outcome.run.point.values, **step} for point in again]
         named = ", ".join(str(point.number) for point in again)
         console.print(f"confirmed by the solid model: {named}", soft_wrap=True)
@@ -221,6 +222,10 @@ def require_step(batches: PointBatches, section: OptimiseSection) -> None:
     if section.confirm_step is None:
         return
     try:
-        study_point(batches.path, batches.base, 0, {"orientation_step": f"{section.confirm_step:.9g} rad"})
+        study_point(batches.path, batches.base, 0, {"orientation_step": _written(section.confirm_step)})
     except InputError as error:
         raise StudyError(batches.path, "optimise.confirm_step", error.value, error.rule, error.hint) from error
+
+
+def _written(angle: float) -> str:
+    return f"{degrees(angle):g} deg"
