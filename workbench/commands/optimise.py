@@ -121,7 +121,7 @@ def _gain(section: OptimiseSection, points: Sequence[Assessed], answer: Assessed
     if not base or answer.objective is None:
         return ""
     kept = "" if points[0].feasible else ", which is not within the limits"
-    return f"; {100.0 * (answer.objective / base - 1.0):+.3g} % of the study as it is{kept}"
+    return f"; {100.0 * (answer.objective / base - 1.0):+.3g} % against the study as it is{kept}"
 
 
 def _last(section: OptimiseSection, found: Optimised) -> str:
