@@ -196,6 +196,33 @@ def stiffness(
 
 
 @app.command()
+def modes(
+    study: StudyOrBuiltIn = None,
+    model: Annotated[str, typer.Option(help="fe, ancf_wheel (the wheel as plates), or both, held together.")] = "fe",
+    state: Annotated[str, typer.Option(help="free, held (at its hub) or standing (held, on the ground).")] = "held",
+    load: Annotated[
+        float | None, typer.Option(help="On a wheel that stands, in N; 200 if left out.", show_default=False)
+    ] = None,
+    orientation: Annotated[
+        float | None,
+        typer.Option(
+            help="What faces the ground of one that stands, in degrees; the study's first if left out.",
+            show_default=False,
+        ),
+    ] = None,
+    count: Annotated[int, typer.Option(help="Modes, besides those of a rigid body.")] = 10,
+    out: Annotated[Path, typer.Option(help="Folder of the tables and fields.")] = Path("build/modes"),
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+) -> None:
+    """Natural frequencies and modes of the wheel: free, held at its hub, or standing under a load."""
+    from workbench.commands.modes import ModeChoices, run_modes
+
+    choices = ModeChoices(model=model, state=state, load=load, orientation=orientation, count=count)
+    raise typer.Exit(run_modes(study, choices, out, store, computing(workers, 1, None)))
+
+
+@app.command()
 def sweep(
     study: StudyArgument,
     out: Annotated[Path, typer.Option(help="Folder of sweep.csv, sweep.parquet and sweep.html.")] = Path("build/sweep"),

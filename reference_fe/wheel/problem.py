@@ -24,7 +24,7 @@ from reference_fe.problem.static_problem import Discretisation, StaticProblem
 from reference_fe.problem.supports import Support
 from reference_fe.wheel.case import WheelLoadCase
 
-__all__ = ["WheelProblem", "ground_axes", "wheel_problem"]
+__all__ = ["WheelProblem", "ground_axes", "hub_supports", "wheel_problem"]
 
 CONTACT_FACES = ("tire_outer", "tread_outer", "grouser_outer")
 
@@ -61,7 +61,7 @@ def wheel_problem(mesh: TaggedMesh, materials: Mapping[str, Material], load_case
     flexible = {part: materials[part] for part in mesh.parts if part not in rigid and part in materials}
     half_width = "symmetry" in mesh.faces
     _check_symmetry(load_case, prismatic=half_width or mesh.dim == 2)
-    supports = _hub_supports(mesh, rigid, materials, load_case)
+    supports = hub_supports(mesh, rigid, materials, load_case)
     if half_width:
         supports.append(Support(faces=("symmetry",), components=(1,)))
     domain = Domain.from_tagged(mesh)
@@ -156,7 +156,7 @@ def _inner_contact(mesh: TaggedMesh, load_case: WheelLoadCase) -> InnerContact |
     return InnerContact(pairs=pairs, stiffness=load_case.inner_contact_stiffness) if pairs else None
 
 
-def _hub_supports(
+def hub_supports(
     mesh: TaggedMesh, rigid: tuple[str, ...], materials: Mapping[str, Material], load_case: WheelLoadCase
 ) -> list[Support]:
     """What holds the wheel, expanded as its material is: its rigid parts, and the bore of an elastic inner hub."""

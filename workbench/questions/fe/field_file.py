@@ -28,6 +28,7 @@ __all__ = [
     "write_fields",
     "write_points",
     "write_pressures",
+    "write_shapes",
 ]
 
 POINTS_FILE = "points.npz"
@@ -74,6 +75,24 @@ def write_fields(
         point_data={"displacement_m": displacement, "von_mises_Pa": von_mises},
         cell_data={"part": [mesh.cell_tags]},
     )
+
+
+def write_shapes(
+    points: NDArray[np.float64], cells: NDArray[np.int64], shapes: NDArray[np.float64], path: Path
+) -> None:
+    """Write shapes (n, n_points, 3) on a mesh as the point data ``mode_01``, ...; warp by one to see it.
+
+    points, cells : (n_points, 3) [m]; (m, 4) quadrangles, (m, 8) or (m, 27) hexahedra in gmsh's order
+    """
+    import meshio
+
+    kind, order = {
+        4: ("quad", tuple(range(4))),
+        8: ("hexahedron", tuple(range(8))),
+        27: ("hexahedron27", VTK_FROM_GMSH),
+    }[cells.shape[1]]
+    data = {f"mode_{number:02d}": shape.astype(np.float32) for number, shape in enumerate(shapes, start=1)}
+    meshio.write_points_cells(str(path), points, [(kind, cells[:, list(order)])], point_data=data)
 
 
 def write_points(points: Sequence[Fields], path: Path) -> None:

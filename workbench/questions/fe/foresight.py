@@ -34,6 +34,7 @@ __all__ = ["foreseen", "own_bytes", "solve_bytes", "solve_seconds"]
 
 _MESH, _SOLVE = "workbench.questions.wheel.mesh_task:build", "workbench.questions.fe.task:solve_orientation"
 _TRAVEL = "workbench.questions.fe.travel_task:solve_travel"
+_MODES = "workbench.questions.modes.fe_task:solve"
 _OWN = "workbench.questions.wheel.own_mesh_task:read"
 _SECTION = "workbench.questions.section.task:solve_orientation"
 
@@ -41,6 +42,8 @@ _TETRAHEDRA = 1.3
 """Memory of a solve on tetrahedra over that on strips of as many unknowns [-]: 1.26 at 100 000 and 156 000."""
 _UNSYMMETRIC = 2.0
 """Factors with friction over those without [-]: both triangles are kept."""
+_STANDING, _MODES_ALONE = 8, 2
+"""What modes take as points of a curve: until the wheel stands under its load, and where it need not."""
 ITERATIONS = 3.0
 """Factorisations for each point of a curve; counted on the built-in study's curves."""
 
@@ -91,12 +94,14 @@ def _with_needs(task: Task, counts: Mapping[str, MeshCount], filled: Mapping[str
         count = counts[task.name]
         return replace(task, cost=mesh_seconds(count), memory=mesh_bytes(count))
     name, dim = (task.name, 2) if task.function == _SECTION else (next(iter(task.needs), ""), 3)
-    if task.function not in (_SOLVE, _SECTION, _TRAVEL) or name not in counts:
+    if task.function not in (_SOLVE, _SECTION, _TRAVEL, _MODES) or name not in counts:
         return task
     unknowns = dim * counts[name].nodes
     points = len(task.inputs["deflections"])
     if task.inputs.get("unload"):
         points *= 2
+    if task.function == _MODES:
+        points = _STANDING if task.inputs["modes"]["state"] == "standing" else _MODES_ALONE
     if task.function == _TRAVEL:
         points = APPROACH + len(task.inputs["travel"]["steps"])
     cost = solve_seconds(unknowns, points)

@@ -1,0 +1,1 @@
+"""Natural frequencies and modes of a body about a state of rest, see docs/theory/vibration.md."""
