@@ -5,7 +5,7 @@ Verified by tests/end_to_end/test_report.py and tests/unit/test_workbench_rover_
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,10 +19,22 @@ from geometry.hexahedra import face_nodes
 from workbench.charts.palette import ABOVE_YIELD, PART_COLOURS
 from workbench.charts.solids import WORLD, Deforming, Solid
 
-__all__ = ["QUARTERS", "Scene", "View", "draw_deformed", "draw_motion", "draw_parts", "facet_parts", "surface"]
+__all__ = [
+    "QUARTERS",
+    "Scene",
+    "View",
+    "draw_deformed",
+    "draw_modes",
+    "draw_motion",
+    "draw_parts",
+    "facet_parts",
+    "surface",
+]
 
 Array = NDArray[np.float64]
 _SIZE = (1600, 1200)
+_MODES, _PANEL, _SWING = (2, 3), 640, 0.18
+"""Rows and columns of modes, pixels of each, largest way of a point over the wheel's radius."""
 _MATTE: dict[str, Any] = {"ambient": 0.35, "diffuse": 0.65, "specular": 0.0}
 _SCALAR_BAR: dict[str, Any] = {
     "above_label": "above yield",
@@ -147,6 +159,44 @@ def draw_deformed(
     )
     plotter.add_mesh(_ground(points, direction_h), color="#c9c4bb", **_MATTE)
     _save(plotter, path, scene or Scene(eye=(0.35, -1.0, 0.22), zoom=1.45, shift=0.12))
+
+
+def draw_modes(fields: Path, titles: Mapping[int, str], path: Path, parity: Mapping[int, int] | None = None) -> None:
+    """Up to six modes side by side, each as a shape on the wheel, coloured by how far its points move.
+
+    Parameters
+    ----------
+    fields : VTU with the point data ``mode_01``, ...
+    titles : number of a mode -> what stands above it
+    path : PNG to write
+    parity : of half a wheel's modes, 1 even or -1 odd about y = 0, by their numbers; None for a whole wheel
+    """
+    drawn: Any = pv.read(fields).extract_surface(algorithm="dataset_surface", nonlinear_subdivision=2)
+    chosen = list(titles)[: _MODES[0] * _MODES[1]]
+    rows = 1 if len(chosen) <= _MODES[1] else _MODES[0]
+    size = [_PANEL * min(len(chosen), _MODES[1]), _PANEL * rows]
+    plotter: Any = pv.Plotter(off_screen=True, window_size=size, lighting="light kit", border=False,
+                              shape=(rows, min(len(chosen), _MODES[1])))  # fmt: skip
+    radius = float(np.linalg.norm(drawn.points, axis=1).max())
+    for place, number in enumerate(chosen):
+        plotter.subplot(*divmod(place, _MODES[1]))
+        shape = np.asarray(drawn.point_data[f"mode_{number:02d}"], dtype=np.float64)
+        moved = np.linalg.norm(shape, axis=1)
+        shape *= _SWING * radius / moved.max()
+        for side in (1.0, -1.0) if parity else (1.0,):
+            mirror = np.array([1.0, side, 1.0])
+            turned = shape * mirror * (1.0 if side > 0.0 or parity is None else float(parity[number]))
+            one = drawn.copy()
+            one.points = np.asarray(drawn.points * mirror + turned)
+            look = {"scalars": moved / moved.max(), "cmap": "YlGnBu", "clim": [0.0, 1.0], "show_scalar_bar": False}
+            plotter.add_mesh(one, **look, **_MATTE)
+        plotter.add_text(titles[number], font_size=15, color="black", position="upper_edge")
+        plotter.set_background("white")
+        plotter.enable_parallel_projection()
+        plotter.camera_position = [(0.62, -1.0, 0.42), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
+        plotter.reset_camera()
+    plotter.screenshot(str(path))
+    plotter.close()
 
 
 def draw_motion(

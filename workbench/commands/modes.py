@@ -20,6 +20,7 @@ from workbench.execution.terminal import empty_table
 from workbench.questions.modes.graph import COMPARED, LOAD, MODELS, AskedModes, modes_name, modes_tasks
 from workbench.questions.modes.kinds import ModeKind, mode_kinds
 from workbench.questions.modes.mode_file import FIELDS, MODES, KeptModes, read_modes
+from workbench.questions.modes.picture import PICTURE
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish
 from workbench.study.model import Study
@@ -29,6 +30,8 @@ from workbench.study.reading import built_in_study
 __all__ = ["ModeChoices", "doubts_of", "run_modes"]
 
 _BOTH = "both"
+_IN_TABLE = (1.0, 1.0, 1.0, 1e3, 1e3, 1e3)
+"""From kg and kg m^2 to the table's kg and g m^2."""
 _ALIKE = 0.5
 """Criterion below which a pair is none."""
 
@@ -75,7 +78,7 @@ class ModeChoices:
 
 
 def run_modes(study_path: Path | None, choices: ModeChoices, out: Path, store: Path, computing: Computing) -> int:
-    """Find the modes; print them, write ``modes/modes_{model}_{state}.csv`` and ``.vtu``, by both what is paired.
+    """Find the modes; print them, write ``modes/modes_{model}_{state}.csv``, ``.vtu`` and ``.png``; by both, pair them.
 
     Raises
     ------
@@ -100,7 +103,8 @@ def run_modes(study_path: Path | None, choices: ModeChoices, out: Path, store: P
         kept = read_modes(folder / MODES)
         kinds = mode_kinds(kept)
         name = f"modes/{modes_name(model, asked)}"
-        texts[f"{name}.csv"], copies[f"{name}.vtu"] = _csv(kept, kinds), folder / FIELDS
+        texts[f"{name}.csv"] = _csv(kept, kinds)
+        copies |= {f"{name}.vtu": folder / FIELDS, f"{name}.png": folder / PICTURE}
         _print(f"{study.title} by {model}: {asked.words}", kept, kinds)
         doubts += doubts_of(model, kept)
     if len(choices.models) > 1:
@@ -109,7 +113,7 @@ def run_modes(study_path: Path | None, choices: ModeChoices, out: Path, store: P
         _print_compared(rows)
     tell_kept(publish(out, f"modes {choices.model} {asked.state}", texts, copies=copies))
     warn(path, doubts)
-    console.print(f"tables and fields: {out / 'modes'}", soft_wrap=True)
+    console.print(f"tables, fields, pictures: {out / 'modes'}", soft_wrap=True)
     return 0
 
 
@@ -147,23 +151,19 @@ def _difference(row: Mapping[str, Any]) -> float:
 def _print(title: str, kept: KeptModes, kinds: Sequence[ModeKind]) -> None:
     """A row a mode, its effective masses in per cent of what moves, and their sums."""
     modes = kept.modes
-    columns = ("mode", "frequency", "kind", "most energy in", *DIRECTIONS)
-    table = empty_table(title, columns, texts=["kind", "most energy in"])
+    table = empty_table(title, ("mode", "frequency", "kind", *DIRECTIONS), texts=["kind"])
     share = 100.0 * modes.effective_mass / modes.moving
     for i, kind in enumerate(kinds):
-        value = f"{modes.frequency[i]:.2f} Hz" if modes.growth[i] == 0.0 else f"grows {modes.growth[i]:.3g}/s"
-        energy = f"{kind.part} {100.0 * kind.share:.0f} %"
-        table.add_row(f"{i + 1}", value, kind.words, energy, *(_per_cent(one) for one in share[i]))
-    table.add_row("", "", "sum, % of what moves", "", *(_per_cent(one) for one in share.sum(axis=0)))
-    table.add_row("", "", "moves (kg; g m^2)", "", *(f"{m:.3f}" for m in modes.moving * _IN_TABLE))
+        value = f"{modes.frequency[i]:.2f} Hz" if modes.growth[i] == 0.0 else f"+{modes.growth[i]:.3g}/s"
+        table.add_row(f"{i + 1}", value, kind.words, *(_per_cent(one) for one in share[i]))
+    table.add_row("", "", "sum, %", *(_per_cent(one) for one in share.sum(axis=0)))
+    table.add_row("", "", "kg; g m^2", *(f"{m:.3g}" for m in modes.moving * _IN_TABLE))
     console.print(table)
-
-
-_IN_TABLE = (1.0, 1.0, 1.0, 1e3, 1e3, 1e3)
+    console.print("x to rz: effective mass and inertia, % of what moves (last row), along and about the axes")
 
 
 def _per_cent(value: float) -> str:
-    return f"{value:.1f}" if value >= 0.05 else "."
+    return "." if value < 0.05 else f"{value:.1f}" if value < 99.95 else f"{value:.0f}"
 
 
 def _print_compared(rows: Sequence[Mapping[str, Any]]) -> None:

@@ -19,6 +19,7 @@ from workbench.execution.result_files import write_result
 from workbench.questions.ancf_wheel.ground import terrain_of
 from workbench.questions.fe.field_file import write_shapes
 from workbench.questions.modes.mode_file import FIELDS, MODES, KeptModes, write_modes
+from workbench.questions.modes.picture import PICTURE, draw
 from workbench.questions.wheel.mesh_file import MESH, read_mesh
 from workbench.study.wheel_design import design_from
 
@@ -37,7 +38,7 @@ def wheel_of(inputs: Mapping[str, Any]) -> AncfWheel:
 
 
 def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``modes.npz``, ``shapes.npz``, ``modes.vtu`` and ``result.json``; returns the unknowns.
+    """``modes.npz``, ``shapes.npz``, ``modes.vtu``, ``modes.png`` and ``result.json``; returns the unknowns.
 
     A free wheel needs the task of the whole mesh, for what of it is no plate.
     """
@@ -59,9 +60,11 @@ def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
     part = np.zeros(len(modes.points), dtype=np.int64)
     for number in range(len(parts) - 1, -1, -1):
         part[wheel.plates.plates[wheel.parts == parts[number]]] = number
-    write_modes(KeptModes(modes=modes, parts=parts, part=part, half=False), out / MODES)
+    kept = KeptModes(modes=modes, parts=parts, part=part, half=False)
+    write_modes(kept, out / MODES)
     np.savez_compressed(out / SHAPES, allow_pickle=False, shapes=shapes)
     write_shapes(modes.points, wheel.plates.plates[:, [0, 2, 3, 1]], modes.shape, out / FIELDS)
+    draw(kept, out / FIELDS, out / PICTURE)
     numbers = {
         "dofs": wheel.basis.shape[1],
         "load_N": 0.0 if stands is None else stands.load,

@@ -15,6 +15,7 @@ from workbench.execution.result_files import write_result
 from workbench.questions.fe.field_file import write_shapes
 from workbench.questions.fe.task import load_case, materials_of
 from workbench.questions.modes.mode_file import FIELDS, MODES, KeptModes, write_modes
+from workbench.questions.modes.picture import PICTURE, draw
 from workbench.questions.wheel.mesh_file import MESH, read_mesh
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ __all__ = ["solve"]
 
 
 def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``modes.npz``, ``modes.vtu`` and ``result.json``; returns the unknowns. Needs the task that holds the mesh."""
+    """``modes.npz``, ``modes.vtu``, ``modes.png``, ``result.json``; returns the unknowns. Needs the mesh's task."""
     (mesh_folder,) = needs.values()
     mesh, asked, begun = read_mesh(mesh_folder / MESH), inputs["modes"], time.perf_counter()
     found = wheel_modes(
@@ -38,8 +39,10 @@ def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
     )
     half = "symmetry" in mesh.faces
     part = _part_of_points(mesh)
-    write_modes(KeptModes(modes=found.modes, parts=tuple(mesh.parts), part=part, half=half), out / MODES)
+    kept = KeptModes(modes=found.modes, parts=tuple(mesh.parts), part=part, half=half)
+    write_modes(kept, out / MODES)
     write_shapes(mesh.points, mesh.cells, found.modes.shape, out / FIELDS)
+    draw(kept, out / FIELDS, out / PICTURE)
     numbers = {
         "dofs": found.dofs,
         "load_N": found.load,
