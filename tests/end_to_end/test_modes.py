@@ -19,6 +19,7 @@ def table(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
+@pytest.mark.long
 def test_both_models_have_the_same_modes(tmp_path: Path) -> None:
     study = tmp_path / "wheel.toml"
     study.write_text(tiny_study(), encoding="utf-8")

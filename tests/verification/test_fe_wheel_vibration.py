@@ -2,7 +2,8 @@
 
 Source: the mirror plane of the design (even and odd motions do not mix), its three-fold rotation (modes in pairs), the
 mass and inertia of the parts by geometry's own quadrature. Tolerances: equal up to round-off and the load at which it
-stands (1e-4 of it): 1e-5. Negative control: four times the density halves every frequency.
+stands (1e-4 of it): 1e-5; thin plates, which share no code with the solid, within 2 % on this mesh. Negative control:
+four times the density halves every frequency.
 """
 
 from __future__ import annotations
@@ -13,9 +14,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ancf_reduced.wheel import vibration
+from ancf_reduced.wheel.mesh import build_ancf_wheel
+from ancf_reduced.wheel.static import WheelOnGround
 from contracts.errors import InputError
 from contracts.materials import TI_6AL_4V
 from contracts.mesh import TaggedMesh
+from contracts.modes import Modes
 from geometry.build import build_mesh
 from geometry.inertia import rigid_mass
 from geometry.wheel import exomars_hoops
@@ -36,6 +41,7 @@ def standing(*, half_width: bool) -> WheelModes:
     return wheel_modes(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), CASE, WheelState.STANDING, 8, load=30.0)
 
 
+@pytest.mark.long
 def test_half_a_standing_wheel_has_the_modes_of_the_whole() -> None:
     half, full = standing(half_width=True), standing(half_width=False)
     assert half.load == pytest.approx(30.0, rel=1e-4)
@@ -45,22 +51,32 @@ def test_half_a_standing_wheel_has_the_modes_of_the_whole() -> None:
         np.testing.assert_allclose(getattr(half.modes, name), getattr(full.modes, name), rtol=1e-5)
     effective = (one.modes.effective_mass.sum(axis=0) / one.modes.moving for one in (half, full))
     np.testing.assert_allclose(*effective, atol=1e-4)
+    assert half.modes.unstable == half.negative_pivots == 0
+    assert pairs_of(half.modes) < 3  # the ground ends the wheel's symmetry
 
 
-def test_pairs_of_a_held_wheel_are_split_by_the_ground() -> None:
+def test_a_held_wheel_has_pairs_and_the_modes_of_its_plates() -> None:
     mesh = wheel_mesh(half_width=True)
     materials = dict.fromkeys(mesh.parts, TI_6AL_4V)
     held = wheel_modes(mesh, materials, CASE, WheelState.HELD, 8).modes
-    pairs, split = ([len(g) for g in one.clusters()].count(2) for one in (held, standing(half_width=True).modes))
-    assert pairs >= 3 > split
+    assert pairs_of(held) >= 3
     assert (held.effective_mass.sum(axis=0) < held.moving).all()
     assert (held.moving < held.whole).all()
+    wheel = build_ancf_wheel(exomars_hoops(), element_size=24e-3, axial_size=60e-3, half_width=False)
+    plates, _ = vibration.wheel_modes(WheelOnGround(wheel, 0.0), 8)
+    np.testing.assert_allclose(plates.frequency, held.frequency, rtol=0.02)
+    np.testing.assert_allclose(plates.moving, held.moving, rtol=0.02)
     heavy = {part: replace(one, density=4.0 * one.density) for part, one in materials.items()}
-    halved = wheel_modes(mesh, heavy, CASE, WheelState.HELD, 8).modes
-    np.testing.assert_allclose(halved.frequency, 0.5 * held.frequency, rtol=1e-6)
-    assert standing(half_width=True).modes.unstable == standing(half_width=True).negative_pivots == 0
+    halved = wheel_modes(mesh, heavy, CASE, WheelState.HELD, 2).modes
+    np.testing.assert_allclose(halved.frequency, 0.5 * held.frequency[:2], rtol=1e-6)
 
 
+def pairs_of(modes: Modes) -> int:
+    """Groups of two modes that share their frequency."""
+    return [len(group) for group in modes.clusters()].count(2)
+
+
+@pytest.mark.long
 def test_a_free_wheel_moves_with_the_mass_of_its_parts() -> None:
     mesh, whole = (wheel_mesh(half_width=half, every_part=True) for half in (True, False))
     materials = dict.fromkeys(mesh.parts, TI_6AL_4V)
