@@ -210,6 +210,9 @@ def modes(
             show_default=False,
         ),
     ] = None,
+    grip: Annotated[
+        bool, typer.Option("--grip", help="Points that touch the ground stick to it; else they slide freely.")
+    ] = False,
     count: Annotated[int, typer.Option(help="Modes, besides those of a rigid body.")] = 10,
     out: Annotated[Path, typer.Option(help="Folder of the tables and fields.")] = Path("build/modes"),
     store: StoreOption = DEFAULT_STORE,
@@ -218,7 +221,7 @@ def modes(
     """Natural frequencies and modes of the wheel: free, held at its hub, or standing under a load."""
     from workbench.commands.modes import ModeChoices, run_modes
 
-    choices = ModeChoices(model=model, state=state, load=load, orientation=orientation, count=count)
+    choices = ModeChoices(model=model, state=state, load=load, orientation=orientation, count=count, grip=grip)
     raise typer.Exit(run_modes(study, choices, out, store, computing(workers, 1, None)))
 
 

@@ -20,7 +20,8 @@ from scipy.sparse import csc_array, csr_array
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh, splu
 
 from ancf_reduced.wheel.mesh import AncfWheel
-from ancf_reduced.wheel.static import Equilibrium, Mixed, WheelOnGround
+from ancf_reduced.wheel.rubbing import congruent
+from ancf_reduced.wheel.static import Equilibrium, Mixed, System, WheelOnGround
 from contracts.errors import ConvergenceError, InputError
 from contracts.modes import Modes
 
@@ -38,7 +39,12 @@ _FIRST, _LONGEST, _CLOSE, _STEPS = 1e-3, 6e-3, 1e-4, 60
 
 
 def wheel_modes(
-    problem: WheelOnGround, count: int, *, state: Equilibrium | None = None, hub: Array | None = None
+    problem: WheelOnGround,
+    count: int,
+    *,
+    state: Equilibrium | None = None,
+    hub: Array | None = None,
+    grip: bool = False,
 ) -> tuple[Modes, Array]:
     """The lowest modes of a wheel, besides those of a rigid body, and their coordinates.
 
@@ -49,6 +55,7 @@ def wheel_modes(
     state : in which it stands; without it, it is held at its hub and touches no ground
     hub : mass matrix (6, 6) of the hub, by translations along the axes and turns about the origin, for a free wheel
         without ``state`` [kg; kg m; kg m^2]
+    grip : whether points that touch the ground stick to it, as stiffly as they are held off; else they slide freely
 
     Returns
     -------
@@ -73,7 +80,7 @@ def wheel_modes(
         raise InputError("friction coefficient", told, "has no symmetric stiffness", "leave friction away")
     if state is not None and hub is not None:
         raise InputError("free wheel", "under a load", "is none", "leave out the hub's mass or the state")
-    linear = _Linear(problem, state, hub)
+    linear = _Linear(problem, state, hub, grip=grip)
     loose = 0 if hub is None else 6
     if not 0 < count < linear.size - loose - 1:
         raise InputError("number of modes", count, f"must lie between 1 and {linear.size - loose - 2}", "ask for 10")
@@ -140,7 +147,7 @@ def node_shapes(wheel: AncfWheel, plate: NDArray[np.int64], rows: Array, shape: 
 class _Linear:
     """Stiffness and mass about a state, in coordinates (s, h) or s alone."""
 
-    def __init__(self, problem: WheelOnGround, state: Equilibrium | None, hub: Array | None) -> None:
+    def __init__(self, problem: WheelOnGround, state: Equilibrium | None, hub: Array | None, *, grip: bool) -> None:
         wheel, rest = problem.wheel, state or problem.unloaded()
         plates = wheel.plates
         self._T, self.mass = wheel.basis, plates.mass()
@@ -151,6 +158,8 @@ class _Linear:
         touching = np.flatnonzero(system.gaps < 0.0)
         G, k = system.slopes[touching], system.stiffness[touching]
         self.K = csc_array(system.tangent + G.T @ csr_array(G * k[:, None]))
+        if grip:
+            self.K = csc_array(self.K + _gripping(problem, rest, system))
         self.own = csc_array(self._T.T @ self.mass @ self._T)
         columns = self.rigid if hub is not None else np.zeros((len(self.rigid), 0))
         self.border = np.asarray(self._T.T @ (self.mass @ columns))
@@ -257,6 +266,17 @@ def _told_apart(values: Array, vectors: Array, linear: _Linear, rigid: Array) ->
         told = f"{int(of_body.sum())} of {len(found)} motions of a rigid body are among the modes"
         raise ConvergenceError(f"natural modes: {told}; look for a part that nothing holds", [])
     return np.concatenate([values[of_body], values[~of_body]]), np.column_stack([*found, vectors[:, ~of_body]])
+
+
+def _gripping(problem: WheelOnGround, state: Equilibrium, system: System) -> csc_array:
+    """k (I - n n^T) of the points that touch the ground, (n_free, n_free) [N/m]."""
+    ground = system.ground
+    assert ground.surface is not None
+    touch = np.flatnonzero(ground.gaps < 0.0)
+    normals, T = ground.surface.normals[touch], problem.wheel.basis
+    along = np.eye(3) - normals[:, :, None] * normals[:, None, :]
+    ways = problem.ground.slopes(problem.wheel.coordinates(state.free), ground.points[touch])
+    return csc_array(congruent(csr_array(ways @ T), ground.stiffness[touch, None, None] * along))
 
 
 def _rigid(q: Array) -> Array:

@@ -12,17 +12,18 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array, eye_array, kron
+from scipy.sparse import coo_array, csr_array, eye_array, kron
 from scipy.sparse.linalg import LinearOperator, cg
 
 from contracts.errors import ConvergenceError, InputError
 from contracts.modes import Modes
+from reference_fe.contact.surface_term import SurfaceTerm
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.vibration.eigen import lowest_modes
 from reference_fe.vibration.mass import consistent_mass, nodal_mass
 from reference_fe.vibration.motions import Parity, coordinates, rigid_vectors
 
-__all__ = ["Support", "natural_modes", "stiffness"]
+__all__ = ["Support", "gripping", "natural_modes", "stiffness"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -67,7 +68,30 @@ def stiffness(problem: StaticProblem) -> csr_array:
     return csr_array(found + found.T)
 
 
-def natural_modes(problem: StaticProblem, densities: Mapping[str, float], support: Support, count: int) -> Modes:
+def gripping(problem: StaticProblem, term: SurfaceTerm) -> csr_array:
+    """What a contact adds to the stiffness if points that touch stick as stiffly as they are held off.
+
+    At each point k (I - n n^T) with the stiffness k n n^T that it has against the surface, which is flat;
+    (n_dofs, n_dofs) [N/m].
+    """
+    batch = term.evaluate(problem.u.x.array, 0.0)
+    whole = np.einsum("maibi->mab", batch.stiffness)
+    blocks = np.einsum("mab,ij->maibj", whole, np.eye(3)) - batch.stiffness
+    dofs = (3 * batch.nodes[:, :, None] + np.arange(3)).reshape(len(batch.nodes), -1)
+    count = dofs.shape[1]
+    rows, columns = np.repeat(dofs, count, axis=1).ravel(), np.tile(dofs, (1, count)).ravel()
+    size = problem.own_dofs
+    return csr_array(coo_array((blocks.ravel(), (rows, columns)), shape=(size, size)))
+
+
+def natural_modes(
+    problem: StaticProblem,
+    densities: Mapping[str, float],
+    support: Support,
+    count: int,
+    *,
+    grips: SurfaceTerm | None = None,
+) -> Modes:
     """The lowest modes about the problem's present state, besides those of a rigid body.
 
     Parameters
@@ -76,6 +100,7 @@ def natural_modes(problem: StaticProblem, densities: Mapping[str, float], suppor
     densities : part -> density, of rigid parts too [kg/m^3]
     support : what holds it while it vibrates, whatever holds it in the problem
     count : of modes
+    grips : the contact with flat ground whose touching points stick; without it they slide freely
 
     Raises
     ------
@@ -87,7 +112,10 @@ def natural_modes(problem: StaticProblem, densities: Mapping[str, float], suppor
     if not problem.surfaces.symmetric:
         raise InputError("contact", "with friction", "has no symmetric stiffness", "leave friction away")
     mass = consistent_mass(problem.domain, problem.V, densities)
-    whole = _Whole(problem, csr_array(kron(mass, eye_array(3))))
+    K = stiffness(problem)
+    if grips is not None:
+        K = csr_array(K + gripping(problem, grips))
+    whole = _Whole(problem, K, csr_array(kron(mass, eye_array(3))))
     parities = (Parity.EVEN, Parity.ODD) if len(support.mirror) else (Parity.NONE,)
     parts = [whole.modes(support, parity, count) for parity in parities]
     eigenvalue, shape, participation, rigid = (
@@ -125,8 +153,8 @@ class _Part:
 class _Whole:
     """Stiffness, mass and rigid motions of all unknowns."""
 
-    def __init__(self, problem: StaticProblem, mass: csr_array) -> None:
-        self._problem, self._K, self._M = problem, stiffness(problem), mass
+    def __init__(self, problem: StaticProblem, K: csr_array, M: csr_array) -> None:
+        self._problem, self._K, self._M = problem, K, M
         self._rigid = rigid_vectors(problem.V, problem.u.x.array)
         self.whole = np.einsum("kn,kn->k", self._rigid, (self._M @ self._rigid.T).T)
         fastest = max(m.young_modulus / m.density for m in problem.materials.values())

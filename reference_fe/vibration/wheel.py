@@ -18,6 +18,8 @@ from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from contracts.modes import Modes
+from reference_fe.contact.obstacle import ObstacleTerm
+from reference_fe.contact.obstacles import Plane
 from reference_fe.problem.support_dofs import build_supports
 from reference_fe.solver.increments import solve_increments
 from reference_fe.solver.newton import NewtonSolver
@@ -72,6 +74,7 @@ def wheel_modes(
     count: int,
     *,
     load: float = 0.0,
+    grip: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> WheelModes:
     """The lowest modes of a wheel.
@@ -83,6 +86,8 @@ def wheel_modes(
     state : free, held or standing
     count : of modes, besides those of a rigid body
     load : on the ground, for a wheel that stands [N]
+    grip : whether points that touch the ground, a plane, stick to it in the vibration, where there had been no friction
+        while it was loaded; else they slide freely
     progress : called with the share of the load that is reached
 
     Raises
@@ -97,6 +102,9 @@ def wheel_modes(
     if load_case.friction:
         rule = "has no symmetric stiffness; points that touch slide freely in a vibration"
         raise InputError("friction coefficient", f"{load_case.friction:g}", rule, "leave friction away")
+    if grip and (state is not WheelState.STANDING or not isinstance(load_case.obstacle, Plane)):
+        told = f"{state.value} on {type(load_case.obstacle).__name__}"
+        raise InputError("grip", told, "needs a wheel that stands on a plane", "leave it out")
     wheel = wheel_problem(mesh, materials, load_case)
     standing = _Standing(wheel)
     if state is WheelState.STANDING:
@@ -104,8 +112,11 @@ def wheel_modes(
     else:
         wheel.problem.set_control(-_AWAY)
     densities = {part: materials[part].density for part in mesh.parts}
+    terms = wheel.problem.surfaces.terms
+    ground = next(term for term in terms if isinstance(term, ObstacleTerm)) if grip else None
+    support = _support(wheel, materials, load_case, state)
     return WheelModes(
-        modes=natural_modes(wheel.problem, densities, _support(wheel, materials, load_case, state), count),
+        modes=natural_modes(wheel.problem, densities, support, count, grips=ground),
         load=standing.load,
         deflection=standing.deflection,
         negative_pivots=standing.negative_pivots,

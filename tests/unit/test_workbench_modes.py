@@ -91,7 +91,12 @@ def test_tasks() -> None:
     stands = ModeChoices(model="both", state="standing", load=150.0, orientation=15.0).asked(study)
     tasks = {task.name: task for task in modes_tasks(study, ("fe", "ancf_wheel"), stands)}
     assert list(tasks) == ["mesh", "modes_fe_standing", "modes_ancf_wheel_standing", "modes_compared"]
-    assert tasks["modes_fe_standing"].inputs["modes"] == {"state": "standing", "load": 150.0, "count": 10}
+    assert tasks["modes_fe_standing"].inputs["modes"] == {
+        "state": "standing",
+        "load": 150.0,
+        "count": 10,
+        "grip": False,
+    }
     assert tasks["modes_fe_standing"].memory > 1e8
     assert tasks["modes_ancf_wheel_standing"].inputs["options"]["half_width"] is False
     free = [task.name for task in modes_tasks(study, ("ancf_wheel",), replace(stands, state="free"))]
@@ -107,6 +112,7 @@ def test_tasks() -> None:
         ({"state": "standing", "load": -1.0}, "must lie between"),
         ({"state": "standing", "orientation": 400.0}, "orientation"),
         ({"count": 0}, "count"),
+        ({"grip": True}, "is of no use to --state held"),
     ],
 )
 def test_choices_that_cannot_be_used_are_refused(choices: dict[str, float], text: str) -> None:

@@ -47,6 +47,7 @@ class ModeChoices:
     load : on a wheel that stands [N]
     orientation : what of it faces the ground [deg]
     count : of modes
+    grip : whether points that touch the ground stick to it
     """
 
     model: str = "fe"
@@ -54,6 +55,7 @@ class ModeChoices:
     load: float | None = None
     orientation: float | None = None
     count: int = 10
+    grip: bool = False
 
     @property
     def models(self) -> tuple[str, ...]:
@@ -74,6 +76,7 @@ class ModeChoices:
             load=(LOAD if self.load is None else self.load) if stands else 0.0,
             orientation_deg=faces if stands else 0.0,
             count=self.count,
+            grip=self.grip,
         )
 
 
@@ -97,7 +100,7 @@ def run_modes(study_path: Path | None, choices: ModeChoices, out: Path, store: P
     folders = {name: entry.path for name, entry in computed(path, tasks, store, computing).items()}
     texts, copies, doubts = dict[str, str](), dict[str, Path](), list[str]()
     if asked.state == "standing" and study.fe.friction:
-        doubts.append("[fe] friction is left out: points that touch the ground slide freely in these modes")
+        doubts.append("[fe] friction is left out while the wheel is loaded; --grip lets touching points stick in modes")
     for model in choices.models:
         folder = folders[modes_name(model, asked)]
         kept = read_modes(folder / MODES)

@@ -35,6 +35,7 @@ def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
         WheelState(asked["state"]),
         asked["count"],
         load=asked["load"],
+        grip=asked["grip"],
         progress=lambda share: progress(0.8 * share),
     )
     half = "symmetry" in mesh.faces

@@ -36,6 +36,7 @@ class AskedModes:
     load : on the ground of a wheel that stands [N]; 0 for others
     orientation_deg : what of it faces the ground [deg]; 0 for others
     count : of modes besides those of a rigid body
+    grip : whether points that touch the ground stick to it, else they slide freely
 
     Raises
     ------
@@ -47,12 +48,15 @@ class AskedModes:
     load: float
     orientation_deg: float
     count: int
+    grip: bool = False
 
     def __post_init__(self) -> None:
         if self.state not in STATES:
             raise InputError("state", repr(self.state), "is not known", f"give {', '.join(STATES)}")
         if self.state == "standing" and not 0.1 <= self.load <= 1e6:
             raise InputError("load", f"{self.load:g} N", "must lie between 0.1 and 1e6 N", f"{LOAD:g} N is usual")
+        if self.grip and self.state != "standing":
+            raise InputError("grip", "", f"is of no use to --state {self.state}", "leave it out")
         if not 1 <= self.count <= _MOST:
             raise InputError("count", self.count, f"must lie between 1 and {_MOST}", "10 is usual")
 
@@ -61,7 +65,8 @@ class AskedModes:
         """Title of the state."""
         if self.state != "standing":
             return {"free": "free in space", "held": "held at its hub"}[self.state]
-        return f"held at its hub, standing on {self.orientation_deg:g} deg under {self.load:g} N"
+        grips = ", gripping" if self.grip else ""
+        return f"held at its hub, standing on {self.orientation_deg:g} deg under {self.load:g} N{grips}"
 
 
 def modes_name(model: str, asked: AskedModes) -> str:
@@ -77,6 +82,8 @@ def modes_tasks(study: Study, models: tuple[str, ...], asked: AskedModes) -> tup
     InputError
         For a model that is not known, and a study that it cannot take.
     """
+    if asked.grip and study.fe.obstacle.shape != "plane":
+        raise InputError("grip", f"on {study.fe.obstacle.shape}", "needs a plane", "leave it out")
     tasks = list[Task]()
     for model in models:
         if model not in MODELS:
