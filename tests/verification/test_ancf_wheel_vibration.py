@@ -47,6 +47,10 @@ def test_held_free_and_standing() -> None:
     assert state.load == pytest.approx(30.0, rel=1e-4)
     stands, _ = wheel_modes(problem, 6, state=state)
     assert stands.unstable == state.negative == 0
+    grips, _ = wheel_modes(problem, 6, state=state, grip=True)
+    assert grips.frequency[0] > 1.2 * stands.frequency[0]  # the rim turns about the axle: along the ground
+    up = [one.frequency[one.effective_mass[:, 2].argmax()] for one in (stands, grips)]
+    assert up[0] == pytest.approx(up[1], rel=1e-3)  # across it nothing changes
     pairs, split = ([len(g) for g in one.clusters()].count(2) for one in (held, stands))
     assert pairs >= 2 > split  # the ground ends the wheel's symmetry
 

@@ -53,6 +53,10 @@ def test_half_a_standing_wheel_has_the_modes_of_the_whole() -> None:
     np.testing.assert_allclose(*effective, atol=1e-4)
     assert half.modes.unstable == half.negative_pivots == 0
     assert pairs_of(half.modes) < 3  # the ground ends the wheel's symmetry
+    mesh = wheel_mesh(half_width=True)
+    materials = dict.fromkeys(mesh.parts, TI_6AL_4V)
+    grips = wheel_modes(mesh, materials, CASE, WheelState.STANDING, 4, load=30.0, grip=True).modes
+    assert grips.frequency[0] > 1.2 * half.modes.frequency[0]  # the rim turns about the axle: along the ground
 
 
 def test_a_held_wheel_has_pairs_and_the_modes_of_its_plates() -> None:
