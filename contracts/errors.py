@@ -14,6 +14,7 @@ __all__ = [
     "ConvergenceError",
     "IncrementRecord",
     "InputError",
+    "LimitLoad",
     "MemoryLimitError",
     "MeshError",
     "MissingLibraryError",
@@ -116,6 +117,27 @@ class IncrementRecord:
     residuals: tuple[float, ...]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimitLoad:
+    """Where a body gives way: equilibrium ends (limit point) or is left by another one (branch point).
+
+    Attributes
+    ----------
+    branch : whether the drive does no work on the mode: a branch point
+    control : control parameter at which the tangent's lowest eigenvalue reaches zero, extrapolated [its unit]
+    load : force of the obstacle, or of the supports where there is none, at the last converged state [N]
+    left : that eigenvalue there over the one at the state before [-]
+    part, place : part, and reference place (dim,) [m], of the node that moves most in its mode
+    """
+
+    branch: bool
+    control: float
+    load: float
+    left: float
+    part: str
+    place: tuple[float, ...]
+
+
 class ConvergenceError(WorkbenchError):
     """A nonlinear solve did not converge; carries the history and how far the solution came.
 
@@ -124,9 +146,17 @@ class ConvergenceError(WorkbenchError):
     message : where it stopped, how far it came, what to try
     history : every increment attempted, in order
     last_good : the partial result up to the last converged increment, or None
+    limit : the limit load that ended it, if it was one
     """
 
-    def __init__(self, message: str, history: Sequence[IncrementRecord], last_good: object | None = None) -> None:
+    def __init__(
+        self,
+        message: str,
+        history: Sequence[IncrementRecord],
+        last_good: object | None = None,
+        limit: LimitLoad | None = None,
+    ) -> None:
         self.history = tuple(history)
         self.last_good = last_good
+        self.limit = limit
         super().__init__(message)

@@ -62,6 +62,7 @@ class StaticProblem:
     u : displacement (DOLFINx function) [m]
     du : last Newton step [m]
     bcs : Dirichlet conditions of the supports (DOLFINx)
+    prescribed : components of the supports, each with its unknowns
     supported : unknowns held by a support, ascending
     laws : part name -> its law
     lame, stretch, transverse_strain : constants on each cell, see `elastic_fields.ElasticFields`
@@ -95,7 +96,7 @@ class StaticProblem:
         self.load_factor = fem.Constant(mesh, 0.0)
         self._build_forms(loads)
         self._edge_force = edge_force(domain, self.V, loads)
-        self.bcs, self._prescribed = build_supports(domain, self.V, supports)
+        self.bcs, self.prescribed = build_supports(domain, self.V, supports)
         marked = [bc.dof_indices()[0] for bc in self.bcs]
         self.supported = np.unique(np.concatenate(marked)) if marked else np.zeros(0, dtype=np.int32)
         terms = [surface.build(domain, self.V) for surface in surfaces]
@@ -121,7 +122,7 @@ class StaticProblem:
     def set_control(self, control: float) -> None:
         """Set the control parameter: load factor of supports and loads [-], or rise of the plane [m]."""
         self.load_factor.value = control
-        for prescribed in self._prescribed:
+        for prescribed in self.prescribed:
             prescribed.set_control(control)
         self.surfaces.set_control(control)
 

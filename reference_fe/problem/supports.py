@@ -9,7 +9,25 @@ from dataclasses import dataclass
 from contracts.errors import InputError
 from reference_fe.dolfinx_api import Expr
 
-__all__ = ["BodyForce", "EdgeLoad", "EndMoment", "Load", "Support", "Traction"]
+__all__ = ["BodyForce", "EdgeLoad", "EndMoment", "Load", "Middle", "Support", "Traction"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Middle:
+    """Nodes halfway between two faces: a shell's mid-surface, or its line or point in other faces, such as a hinge.
+
+    There are some if the wall has an even number of cells across it, or one of 27 nodes.
+
+    Attributes
+    ----------
+    between : the two faces, such as the inner and outer one of a shell
+    within : faces that have the nodes in common too: none for the whole mid-surface, one for its line in that face
+
+    Verified by tests/unit/test_fe_supports.py.
+    """
+
+    between: tuple[str, str]
+    within: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -18,8 +36,10 @@ class Support:
 
     Attributes
     ----------
+    name : by which its force on the body is asked for, see `reactions`; several supports may share one
     faces, parts : names in the mesh; at least one
     meetings : each names the faces that have the supported nodes in common: two for a line, three for a point
+    middles : nodes halfway between two faces
     components : displacement components held, of 0 (x), 1 (y), 2 (z); a planar body has 0 and 1 only, its two axes
     value : displacement at load factor 1, one for each component [m]; zero holds the faces
     stretch : free thermal stretch theta of what is held [-]: it is displaced by (theta - 1) X from the start, X counted
@@ -31,14 +51,16 @@ class Support:
     faces: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
     meetings: tuple[tuple[str, ...], ...] = ()
+    middles: tuple[Middle, ...] = ()
     components: tuple[int, ...] = (0, 1, 2)
     value: tuple[float, ...] | None = None
     stretch: float = 1.0
+    name: str = ""
 
     def __post_init__(self) -> None:
         if not self.stretch > 0.0:
             raise InputError("support stretch", self.stretch, "must be > 0", "1 is no expansion")
-        if not self.faces and not self.parts and not self.meetings:
+        if not (self.faces or self.parts or self.meetings or self.middles):
             raise InputError("support", "no face, no part", "must name where it holds", "name a face or a part")
         if any(len(faces) < 2 for faces in self.meetings):
             raise InputError("support meetings", self.meetings, "need two faces or more each", "use faces for one face")

@@ -9,39 +9,21 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from contracts.errors import ConvergenceError, IncrementRecord, InputError, LimitLoad
 from reference_fe.problem.static_problem import ProblemState, StaticProblem
+from reference_fe.solver import process_sums
+from reference_fe.solver.arc_length import ArcLength, follow_path
 from reference_fe.solver.checkpoint import Arrays, Checkpoint, below, packed, unpacked
+from reference_fe.solver.converged_state import ConvergedState
+from reference_fe.solver.limit_point import limit_point
 from reference_fe.solver.newton import NewtonOutcome, NewtonSolver
 
-__all__ = ["ConvergedState", "solve_increments"]
+__all__ = ["solve_increments"]
 
 type NextTarget = Callable[[float], float | None]
 """Control parameter reached -> the next target; None at the end."""
 SMALLEST_FRACTION = 1.0 / 1024.0
 """An increment cut below this fraction of the first wanted step ends the run."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ConvergedState:
-    """One converged increment.
-
-    Attributes
-    ----------
-    control : control parameter reached [m for a raised plane, - for a load factor]
-    wanted : whether it is one of the targets asked for, not only a cut-back stop on the way
-    start : the state that its increment began with
-    outcome : Newton history and residual
-    contact_force : force of the plane on the body [N]
-    reaction : sum of the support forces on the body [N]
-    """
-
-    control: float
-    wanted: bool
-    start: ProblemState
-    outcome: NewtonOutcome
-    contact_force: NDArray[np.float64]
-    reaction: NDArray[np.float64]
 
 
 def solve_increments(
@@ -51,6 +33,8 @@ def solve_increments(
     attempt_limit: int = 400,
     on_attempt: Callable[[IncrementRecord], None] | None = None,
     checkpoint: Checkpoint | None = None,
+    *,
+    past_limits: bool = False,
 ) -> Iterator[ConvergedState]:
     """Yield each converged state on the way through ``targets`` from an unloaded start; the caller may stop early.
 
@@ -64,11 +48,15 @@ def solve_increments(
     a ``checkpoint``, each converged state is kept when the caller asks for the next one, and a run that finds one goes
     on behind it: on one process with the very numbers of a run that was never stopped.
 
+    With ``past_limits``, a rising increment that does not converge is not halved: the path is followed by arc length
+    (see `follow_path`) from the last converged state until it comes to the target, over limit points on the way. These
+    states are yielded like the others, their control parameters may fall; they are not kept in the checkpoint.
+
     Raises
     ------
     ConvergenceError
         When the residual stalls at round-off, when the increment falls below 1/1024 of the first step, or after
-        ``attempt_limit`` attempts; carries history.
+        ``attempt_limit`` attempts; carries history, and the limit load where one ended it (see `limit_point`).
 
     Verified by tests/unit/test_fe_increments.py, tests/verification/test_fe_resume.py,
     tests/verification/test_fe_unloading.py and tests/verification/test_fe_ring.py.
@@ -77,7 +65,7 @@ def solve_increments(
     problem = solver.problem
     smallest = SMALLEST_FRACTION * float(next_target(0.0) or 0.0)
     place = _resumed(problem, history, checkpoint) or _Place(reached=0.0, step=0.0, target=0.0)
-    good = problem.state()
+    good, earlier = problem.state(), None
     while (target := next_target(place.reached)) is not None:
         place = place.towards(float(target))
         goal, rise = place.next()
@@ -92,6 +80,7 @@ def solve_increments(
         if outcome.converged:
             problem.accept()
             before = (place.reached, good.displacement) if problem.histories.remembered else None
+            earlier = place.reached, good
             place, start = replace(place, reached=goal, step=2.0 * abs(rise), before=before), good
             good = problem.state()
             yield ConvergedState(
@@ -106,9 +95,19 @@ def solve_increments(
                 checkpoint.write(_kept(good, place, history))
             continue
         problem.restore(good)
+        if past_limits and earlier is not None and rise > 0.0 and not (outcome.stalled or outcome.spurious):
+            last_arc = process_sums.global_norm((good.displacement - earlier[1].displacement)[: problem.own_dofs])
+            span = {"start": place.reached, "target": place.target, "first_arc": last_arc}
+            yield from follow_path(solver, ArcLength(first=rise), history, attempt_limit, on_attempt, **span)
+            place, good, earlier = replace(place, reached=place.target, step=abs(rise)), problem.state(), None
+            continue
         place = replace(place, step=0.5 * abs(rise))
         if outcome.stalled or place.step < smallest or len(history) >= attempt_limit:
-            raise ConvergenceError(_message(place.reached, goal, place.step, outcome), history)
+            told = _message(place.reached, goal, place.step, outcome)
+            if earlier is None or outcome.stalled or outcome.spurious or not earlier[0] < place.reached < goal:
+                raise ConvergenceError(told, history)
+            limit = limit_point(solver, earlier, (place.reached, good), rise)
+            raise ConvergenceError(told if limit is None else _at_limit(problem, limit), history, limit=limit)
 
 
 def _in_order(targets: Sequence[float]) -> NextTarget:
@@ -186,6 +185,26 @@ def _lag(problem: StaticProblem, step: float, *, first: bool) -> float:
     if problem.contact is None and not problem.surfaces.terms:
         return 0.0
     return (0.98 if first else 1.0) * step
+
+
+def _at_limit(problem: StaticProblem, limit: LimitLoad) -> str:
+    """What a run that ended at a limit or branch point says."""
+    driven = any(one.at_load_factor_1 for one in problem.prescribed)
+    what = "height of the ground" if problem.contact is not None else "displacement" if driven else "load"
+    carried = "the ground presses with" if problem.contact is not None else "the supports carry"
+    place = ", ".join(f"{x:.4g}" for x in limit.place)
+    if limit.branch:
+        ends = "another path branches off, on which the drive does no work: buckling"
+    elif what == "load":
+        ends = "no equilibrium lies beyond it nearby: snap-through"
+    else:
+        ends = f"the {what} turns back there: snap-back"
+    return (
+        f"limit load: the driven {what} ends at control {limit.control:.6g}, where {carried} {limit.load:.4g} N and "
+        f"{ends} (the tangent's lowest eigenvalue, {limit.left:.3g} of what it was an increment before, reaches zero); "
+        f"its mode moves most in part {limit.part} at ({place}) m; a finer mesh or smaller increments do not help: "
+        "follow the path by arc length (docs/how_to/limit_load.md), or stiffen what gives way"
+    )
 
 
 def _message(reached: float, goal: float, step: float, outcome: NewtonOutcome) -> str:

@@ -89,15 +89,15 @@ class NewtonSolver:
     """Solves a `StaticProblem` at its present control parameter; keeps matrix, pattern and symbolic analysis.
 
     ``inner_force`` is added to the support and contact forces that residuals are held against [N]: free expansion has
-    neither, nor has a wheel that the ground has left.
+    neither, nor has a wheel that the ground has left. ``free`` (n_own_dofs,) marks the unknowns without support.
     """
 
     def __init__(self, problem: StaticProblem, settings: NewtonSettings, inner_force: float = 0.0) -> None:
         self.problem, self.settings, self.inner_force = problem, settings, inner_force
         self._matrix: api.PETSc.Mat | None = None
         self._direct: DirectSolver | None = None
-        self._free = np.ones(problem.own_dofs, dtype=bool)
-        self._free[problem.own_supported] = False
+        self.free = np.ones(problem.own_dofs, dtype=bool)
+        self.free[problem.own_supported] = False
 
     def solve(self, rise: float = 0.0) -> NewtonOutcome:
         """Iterate from the present displacement; leaves the last iterate in ``problem.u``.
@@ -126,14 +126,14 @@ class NewtonSolver:
         augmentations, goal = 0, self.settings.relative_tolerance
         while True:
             residual = problem.body_residual() - force
-            history.append(self._relative(residual, moved=not history and offset.size > 0))
+            history.append(self.relative(residual, moved=not history and offset.size > 0))
             augmented = history[-1] <= max(AUGMENTATION_TOLERANCE, goal) and problem.surfaces.augment()
             reached = history[-1] <= goal and not augmented
             stalled = not reached and _is_stalled(history, goal)
             tired = len(history) - augmentations > self.settings.maximum_iterations
             cycling = augmentations == 0 and _is_cycling(history)
             if reached or stalled or tired or cycling or not np.isfinite(history[-1]):
-                spurious = reached and self._is_spurious()
+                spurious = reached and self.is_spurious()
                 return NewtonOutcome(
                     converged=reached and not spurious,
                     residuals=tuple(history),
@@ -150,7 +150,7 @@ class NewtonSolver:
                 force = self._step(residual, force, offset)
                 offset = np.zeros(0)
 
-    def _is_spurious(self) -> bool:
+    def is_spurious(self) -> bool:
         """Whether some point is compressed beyond what St. Venant-Kirchhoff material can mean, or inside out."""
         laws = self.problem.laws
         kirchhoff = [part for part, law in laws.items() if isinstance(law, StVenantKirchhoff)]
@@ -166,26 +166,31 @@ class NewtonSolver:
         force : contact forces that ``residual`` holds
         """
         problem = self.problem
-        right_hand_side = np.where(self._free, -residual, 0.0)
+        right_hand_side = np.where(self.free, -residual, 0.0)
         if offset.size:
-            right_hand_side -= self._lifted(offset)
+            right_hand_side -= self.lifted(offset)
             right_hand_side[problem.own_supported] = offset[problem.own_supported]
-        last, self._matrix = self._matrix, problem.tangent(self._matrix)
-        if self._direct is None or self._matrix is not last:
-            if self._direct is not None:
-                self._direct.release()
-            self._direct = direct_solver(self._matrix, symmetric=problem.surfaces.symmetric)
-        self._direct.factorise()
-        problem.du.x.array[: problem.own_dofs] = self._solved(right_hand_side)
+        self.factorise()
+        problem.du.x.array[: problem.own_dofs] = self.solved(right_hand_side)
         problem.du.x.scatter_forward()
         if problem.surfaces.terms:
-            force = settle_contact(problem, self._solved, force, self._free)
+            force = settle_contact(problem, self.solved, force, self.free)
         if problem.discretisation.mixed_integration_points:
             problem.store_stress(extrapolate=True)
         problem.u.x.array[:] += problem.du.x.array
         return force
 
-    def _solved(self, right_hand_side: NDArray[np.float64]) -> NDArray[np.float64]:
+    def factorise(self) -> int | None:
+        """Factorise the tangent at the present displacement and stored stress; its negative eigenvalues, if known."""
+        last, self._matrix = self._matrix, self.problem.tangent(self._matrix)
+        if self._direct is None or self._matrix is not last:
+            if self._direct is not None:
+                self._direct.release()
+            self._direct = direct_solver(self._matrix, symmetric=self.problem.surfaces.symmetric)
+        self._direct.factorise()
+        return self._direct.negative_pivots
+
+    def solved(self, right_hand_side: NDArray[np.float64]) -> NDArray[np.float64]:
         """Solution with the present factors, (n_own_dofs,); SingularMatrixError where it is no finite number."""
         assert self._matrix is not None
         assert self._direct is not None
@@ -210,8 +215,8 @@ class NewtonSolver:
         offset = np.asarray(target - self.problem.u.x.array)[: self.problem.own_dofs]
         return offset if process_sums.global_norm(offset) > 0.0 else np.zeros(0)
 
-    def _lifted(self, offset: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Tangent times the supports' offset, (n_own_dofs,) [N]."""
+    def lifted(self, offset: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Tangent, supports disregarded, times a displacement of the supports (n_own_dofs,) [m], (n_own_dofs,) [N]."""
         full = self.problem.unsupported_tangent()
         x, y = full.createVecRight(), full.createVecLeft()
         x.array[:] = offset
@@ -221,15 +226,15 @@ class NewtonSolver:
             item.destroy()
         return product
 
-    def _relative(self, residual: NDArray[np.float64], *, moved: bool) -> float:
+    def relative(self, residual: NDArray[np.float64], *, moved: bool = False) -> float:
         """Residual norm over free unknowns relative to that of the support and contact forces.
 
         Infinite where a force is no finite number, and before the supports' move 1.
         """
         if moved:
             return 1.0 if np.isfinite(process_sums.global_norm(residual)) else float("inf")
-        out_of_balance = process_sums.global_norm(residual[self._free])
-        applied = process_sums.global_norm(residual[~self._free]) + float(np.linalg.norm(self.problem.contact_force()))
+        out_of_balance = process_sums.global_norm(residual[self.free])
+        applied = process_sums.global_norm(residual[~self.free]) + float(np.linalg.norm(self.problem.contact_force()))
         applied += self.inner_force
         if not np.isfinite(applied + out_of_balance):
             return float("inf")

@@ -22,7 +22,8 @@ from reference_fe.contact.obstacle import ContactMethod, ObstacleContact
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import Discretisation, StaticProblem
 from reference_fe.problem.supports import Support
-from reference_fe.solver.increments import ConvergedState, solve_increments
+from reference_fe.solver.converged_state import ConvergedState
+from reference_fe.solver.increments import solve_increments
 from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 

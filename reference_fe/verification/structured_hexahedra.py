@@ -6,13 +6,14 @@ Verified by tests/verification/test_fe_patch.py.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contracts.mesh import TaggedMesh
 
-__all__ = ["block_mesh", "stacked"]
+__all__ = ["block_mesh", "merged", "stacked"]
 
 # Positions of gmsh's 27 nodes (MElement numbering: vertices, edges, faces, centre) on the 3 x 3 x 3 lattice.
 _VERTICES = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
@@ -85,3 +86,10 @@ def stacked(first: TaggedMesh, second: TaggedMesh, part: str) -> TaggedMesh:
         parts={"body": 1, part: 2},
         faces=dict(first.faces) | {f"{part}_{name}": tag + 6 for name, tag in second.faces.items()},
     )
+
+
+def merged(mesh: TaggedMesh) -> TaggedMesh:
+    """The mesh with nodes in the same place (to 1e-9 m) made one: bodies that touch become one body."""
+    _, first, number = np.unique(np.round(mesh.points, 9), axis=0, return_index=True, return_inverse=True)
+    number = number.ravel()
+    return replace(mesh, points=mesh.points[first], cells=number[mesh.cells], facets=number[mesh.facets])

@@ -29,7 +29,8 @@ from reference_fe.material.stress import StressRecovery
 from reference_fe.problem.balance import support_moment
 from reference_fe.problem.problem_state import ProblemState
 from reference_fe.solver.checkpoint import Arrays, Checkpoint, below, packed, problem_key, unpacked
-from reference_fe.solver.increments import ConvergedState, solve_increments
+from reference_fe.solver.converged_state import ConvergedState
+from reference_fe.solver.increments import solve_increments
 from reference_fe.solver.newton import NewtonSolver
 from reference_fe.wheel.case import NO_STRIPS, FieldSnapshot, WheelLoadCase, WheelResult
 from reference_fe.wheel.problem import wheel_problem
@@ -98,7 +99,7 @@ def solve_wheel(
                 progress(state.control, load)
     except ConvergenceError as error:
         where = f"orientation {load_case.orientation_deg:g} deg, {run.reach()}: "
-        raise ConvergenceError(where + str(error), error.history, run.result(partial=True)) from error
+        raise ConvergenceError(where + str(error), error.history, run.result(partial=True), error.limit) from error
     if kept is not None:
         kept.discard()
     return run.result(partial=False)

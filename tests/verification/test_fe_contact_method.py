@@ -23,7 +23,8 @@ from reference_fe.contact import obstacle as contact_obstacle
 from reference_fe.contact.facets import gauss_line
 from reference_fe.contact.obstacle import ContactMethod, ObstacleTerm
 from reference_fe.contact.obstacles import HalfRoundRock
-from reference_fe.solver.increments import ConvergedState, solve_increments
+from reference_fe.solver.converged_state import ConvergedState
+from reference_fe.solver.increments import solve_increments
 from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.ring_between_plates import RADIUS, quarter_ring
 from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel

@@ -29,7 +29,8 @@ from reference_fe.contact.parts_overlap import PartsOverlap
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.problem.supports import Support, Traction
-from reference_fe.solver.increments import ConvergedState, solve_increments
+from reference_fe.solver.converged_state import ConvergedState
+from reference_fe.solver.increments import solve_increments
 from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh, stacked
 from reference_fe.wheel.pressed import WheelLoadCase, WheelResult, solve_wheel
