@@ -41,6 +41,16 @@ MEASURED: Results = {
     "end_shear": PATH,
     "end_moment": PATH,
     "hemisphere": PATH,
+    "hinged_roof": PATH | {"peak": [0.194, 0.1953], "trough": [-0.127, -0.1288], "distance": 6e-3},
+    "pulled_cylinder": {
+        "load": [0.5, 1.0],
+        "deflection": [[2.5, 3.7, 3.7], [2.7, 4.5, 3.3]],
+        "table": [[0.5, 2.5, 3.7, 3.7], [1.0, 2.8, 4.6, 3.3]],
+        "full": [2.734, 2.768],
+        "distance": 0.012,
+        "free_side": 7e-3,
+        "damaged": 0.019,
+    },
     "half_cylinder": {
         "load": [0.5, 1.0],
         "force_N": [-3458.4908, -5412.4747],
@@ -112,6 +122,11 @@ def _order(results: Results) -> None:
         (_order, "verify.manufactured_l2_degree2"),
         (_scaled("end_shear", "full", 1.03), "verify.end_shear_full_load"),
         (_scaled("end_moment", "path_error", 6.0), "verify.end_moment_path"),
+        (_scaled("hinged_roof", "peak", 1.01), "verify.hinged_roof_peak"),
+        (_scaled("hinged_roof", "trough", 1.03), "verify.hinged_roof_trough"),
+        (_scaled("hinged_roof", "distance", 2.0), "verify.hinged_roof_path"),
+        (_scaled("pulled_cylinder", "distance", 2.0), "verify.pulled_cylinder_path"),
+        (_scaled("pulled_cylinder", "full", 1.03), "verify.pulled_cylinder_full_load"),
         (_scaled("half_cylinder", "calculix_N", 1.00002), "verify.half_cylinder_calculix"),
         (_scaled("half_cylinder", "felupe_N", 1.000001), "verify.half_cylinder_felupe"),
         (_scaled("ring", "load", 1.02), "verify.ring_load"),
@@ -139,10 +154,11 @@ def test_mesh_studies_are_those_of_the_shells() -> None:
         "Cantilever, end shear force",
         "Cantilever rolled to a circle",
         "Hemisphere with a hole",
+        "Hinged roof, snap-through and snap-back",
     ]
 
 
 def test_every_figure_is_drawn() -> None:
     figures = verification_figures(measured())
-    assert set(figures) == {"ring", "orders", "cantilevers", "hemisphere"}
+    assert set(figures) == {"ring", "orders", "cantilevers", "hemisphere", "hinged_roof", "pulled_cylinder"}
     assert all("slope 3" in html for name, html in figures.items() if name == "orders")

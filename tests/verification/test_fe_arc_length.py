@@ -88,7 +88,7 @@ def test_control_a_clamped_edge_is_caught() -> None:
 
 def test_a_cylinder_pulled_apart_follows_the_published_path_through_its_snap() -> None:
     path = cylinder_path()
-    assert np.all(distance_to_path(path, cylinder_table()).max(axis=0) < [0.015, 0.01, 0.01])
+    assert np.all(distance_to_path(path, cylinder_table()).max(axis=0) < [0.015, 0.009, 0.009])
     peak, after = limit_loads(path)  # where B goes on inwards and C comes back: a drop of the load that the table skips
     assert 0.5 < after < peak < 0.525
     assert path.negative.max() == 1
@@ -100,8 +100,8 @@ def test_the_cylinder_converges_with_the_mesh_and_a_thicker_one_is_caught() -> N
     meshes = [distance_to_path(cylinder_path((n, n)), cylinder_table())[:, 0].max() for n in (8, 12, 16)]
     assert np.all(np.diff(meshes) < 0.0)
     assert meshes[-1] < 0.007
-    thicker = distance_to_path(cylinder_path((16, 16), thickness=1.02 * WALL), cylinder_table())
-    assert thicker.max() > 0.015
+    thicker = distance_to_path(cylinder_path(thickness=1.02 * WALL), cylinder_table())
+    assert thicker[:, 1:].max() > 0.014
 
 
 def test_a_driven_displacement_is_followed_back_and_gives_the_same_path_as_the_force() -> None:

@@ -12,6 +12,9 @@ from workbench.verdict.rules import at_most
 
 __all__ = ["BENCHMARKS"]
 
+_SZE = "Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569, section"
+_DISTANCE = "largest distance of a published point from our curve, over the curve's width and height"
+
 
 def _patch(numbers: Numbers) -> Benchmark:
     rules = Rules(
@@ -53,8 +56,7 @@ def _manufactured(numbers: Numbers) -> Benchmark:
 
 
 def _shell(name: str, title: str, section: str, damage: str, numbers: Numbers) -> Benchmark:
-    source = f"Sze, Liu & Lo, Finite Elem. Anal. Des. 40 (2004) 1551-1569, section {section}"
-    rules = Rules(name=name, title=title, source=source)
+    rules = Rules(name=name, title=title, source=f"{_SZE} {section}")
     lines = [
         rules.near("full_load", "deflection at full load, the worse of two", "-", numbers["full"], 0.02),
         rules.at_most("path", f"largest difference at {len(numbers['load'])} points of the path", "-",
@@ -73,6 +75,30 @@ def _end_moment(numbers: Numbers) -> Benchmark:
 
 def _hemisphere(numbers: Numbers) -> Benchmark:
     return _shell("hemisphere", "Hemisphere with a hole", "3.4", "3 x 3 x 3 Gauss points, which lock", numbers)
+
+
+def _hinged_roof(numbers: Numbers) -> Benchmark:
+    rules = Rules(
+        name="hinged_roof",
+        title="Hinged roof, snap-through and snap-back",
+        source=f"{_SZE} 3.8, h = 6.35 mm",
+    )
+    lines = [
+        rules.near("peak", "load over the full one where it first turns", "-", numbers["peak"], 0.01),
+        rules.near("trough", "load over the full one where it turns again, negative", "-", numbers["trough"], 0.015),
+        rules.at_most("path", _DISTANCE, "-", numbers["distance"], 0.01, "difference"),
+    ]
+    return rules.benchmark(numbers, lines, rules.caught("roof 2 % thicker: peak", numbers, 0.03))
+
+
+def _pulled_cylinder(numbers: Numbers) -> Benchmark:
+    rules = Rules(name="pulled_cylinder", title="Open cylinder pulled apart", source=f"{_SZE} 3.5")
+    lines = [
+        rules.near("full_load", "displacement at full load, the worst of three", "-", numbers["full"], 0.02),
+        rules.at_most("path", _DISTANCE, "-", numbers["distance"], 0.015, "difference"),
+    ]
+    control = rules.caught("cylinder 2 % thicker: distance of B and C", numbers, 0.014)
+    return rules.benchmark(numbers, lines, control, numbers["free_side"])
 
 
 def _half_cylinder(numbers: Numbers) -> Benchmark:
@@ -125,6 +151,8 @@ BENCHMARKS: dict[str, Reader] = {
     "end_shear": _end_shear,
     "end_moment": _end_moment,
     "hemisphere": _hemisphere,
+    "hinged_roof": _hinged_roof,
+    "pulled_cylinder": _pulled_cylinder,
     "half_cylinder": _half_cylinder,
     "ring": _ring,
     "hertz": _hertz,

@@ -6,7 +6,7 @@ tests/end_to_end/test_verification.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -39,6 +39,11 @@ def verification_figures(numbers: Mapping[str, Mapping[str, Any]]) -> dict[str, 
             _cantilever_figure(numbers["end_shear"], numbers["end_moment"]), "verification-cantilevers"
         ),
         "hemisphere": figure_html(_hemisphere(numbers["hemisphere"]), "verification-hemisphere"),
+        "hinged_roof": figure_html(_snapping(numbers["hinged_roof"], ("centre",), "mm"), "verification-hinged-roof"),
+        "pulled_cylinder": figure_html(
+            _snapping(numbers["pulled_cylinder"], ("A, outward", "B, inward", "C, inward"), "R = 4.953"),
+            "verification-pulled-cylinder",
+        ),
     }
 
 
@@ -77,6 +82,16 @@ def _hemisphere(numbers: Mapping[str, Any]) -> Any:
     figure = low_figure("load / full load", "displacement (R = 10)")
     for k, (way, colour) in enumerate((("outward, A", _BLUE), ("inward, B", _ORANGE))):
         _add_path(figure, numbers, k, way, colour)
+    return figure
+
+
+def _snapping(numbers: Mapping[str, Any], ways: Sequence[str], unit: str) -> Any:
+    """Load against each displacement along a path that turns back, published points on our curve."""
+    figure = low_figure(f"displacement [{unit}]", "load / full load")
+    table, load, ours = (np.array(numbers[key]) for key in ("table", "load", "deflection"))
+    for k, (way, colour) in enumerate(zip(ways, (_BLUE, _ORANGE, _GREEN), strict=False)):
+        _add_line(figure, [0.0, *ours[:, k]], [0.0, *load], f"{way}, ours", colour)
+        _add_points(figure, table[:, 1 + k], table[:, 0], f"{way}, Sze et al.", colour, "circle-open")
     return figure
 
 
