@@ -279,6 +279,6 @@ def _message(here: _Point, reached: _Reached, pressed: Array, largest: float) ->
     """pressed, largest : force of the obstacle on the body now, and the largest on the way [N]"""
     told = f"no equilibrium found along the path beyond control {here.control:.6g}"
     if largest > 0.0 and np.linalg.norm(pressed) < 1e-3 * largest:
-        return f"{told}: there the body leaves the obstacle, which pressed it with up to {largest:.4g} N"
+        return f"{told}: there the body leaves the obstacle, which pressed it with up to {largest:.4g} N on this path"
     residuals = ", ".join(f"{value:.1e}" for value in reached.outcome.residuals)
     return f"{told}; relative residuals of the last attempt {residuals}; try a shorter first arc, or more iterations"
