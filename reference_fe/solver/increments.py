@@ -191,7 +191,7 @@ def _at_limit(problem: StaticProblem, limit: LimitLoad) -> str:
     """What a run that ended at a limit or branch point says."""
     driven = any(one.at_load_factor_1 for one in problem.prescribed)
     what = "height of the ground" if problem.contact is not None else "displacement" if driven else "load"
-    carried = "the ground presses with" if problem.contact is not None else "the supports carry"
+    carried = "the ground presses on the mesh with" if problem.contact is not None else "the supports carry"
     place = ", ".join(f"{x:.4g}" for x in limit.place)
     if limit.branch:
         ends = "another path branches off, on which the drive does no work: buckling"
