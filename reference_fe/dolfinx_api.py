@@ -6,12 +6,14 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import functools
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from contracts.errors import WorkbenchError
 from reference_fe.form_cache import sole_compiler
 from reference_fe.solver import triangular_product
 from reference_fe.solver.loopback import keep_to_this_machine
@@ -65,10 +67,13 @@ __all__ = [
     "fem_petsc",
     "flush",
     "gauss_rule",
+    "matrix_product",
     "mesh_from_arrays",
     "meshtags",
+    "petsc_library",
     "quadrature_space",
     "shared_matrix",
+    "triangular_matrix",
     "ufl",
     "versions",
 ]
@@ -240,35 +245,67 @@ def add_block(matrix: Any, rows: NDArray[np.int32], block: NDArray[np.float64]) 
     matrix.setValuesLocal(rows, rows, block, add)
 
 
-def cell_matrix(V: Any, groups: Sequence[NDArray[np.int32]], diagonal_blocks: NDArray[np.int32]) -> Any:
-    """Empty DOLFINx CSR matrix that couples the nodes of each group, with room on the diagonal of further nodes.
+def cell_matrix(V: Any, groups: Sequence[NDArray[np.int32]]) -> Any:
+    """Empty DOLFINx CSR matrix that couples the nodes of each group.
 
     It is this process' own: rows and columns are all nodes the process knows, those of its neighbours included.
 
-    groups, diagonal_blocks : (k,) int each, and (n,) int, nodes in this process' numbers
+    groups : (k,) int each, nodes in this process' numbers
     """
     index_map = V.dofmap.index_map
     nodes_here = dolfinx.common.IndexMap(MPI.COMM_SELF, index_map.size_local + index_map.num_ghosts)
     pattern = dolfinx.cpp.la.SparsityPattern(MPI.COMM_SELF, [nodes_here, nodes_here], [3, 3])
     for nodes in groups:
         pattern.insert(nodes, nodes)
-    pattern.insert_diagonal(diagonal_blocks)
     pattern.finalize()
     return dolfinx.la.matrix_csr(pattern, block_mode=dolfinx.la.BlockMode.expanded)
 
 
-def shared_matrix(csr: Any) -> PETSc.Mat:
-    """PETSc matrix on the arrays of a DOLFINx CSR matrix: values written there are seen here after stateIncrease."""
-    size = len(csr.indptr) - 1
-    indptr: Any = np.ascontiguousarray(csr.indptr, dtype=PETSc.IntType)
-    indices: Any = np.ascontiguousarray(csr.indices, dtype=PETSc.IntType)
-    matrix = PETSc.Mat().createAIJWithArrays((size, size), (indptr, indices, csr.data), comm=PETSc.COMM_SELF)
+def shared_matrix(indptr: NDArray[Any], indices: NDArray[Any], values: NDArray[np.float64]) -> PETSc.Mat:
+    """PETSc matrix on the arrays of a CSR matrix: values written there are seen here after stateIncrease."""
+    size = len(indptr) - 1
+    arrays: Any = (indptr, indices, values)
+    matrix = PETSc.Mat().createAIJWithArrays((size, size), arrays, comm=PETSc.COMM_SELF)
     _call_symmetric(matrix)
     return matrix
 
 
+def triangular_matrix(indptr: NDArray[Any], indices: NDArray[Any]) -> tuple[PETSc.Mat, NDArray[np.float64]]:
+    """Symmetric PETSc matrix from the pattern of its upper triangle, and its values, zero, to be written in place.
+
+    They are gone with the matrix, and seen by it after stateIncrease.
+    """
+    size = len(indptr) - 1
+    arrays: Any = (indptr, indices)
+    matrix = PETSc.Mat().createSBAIJ((size, size), 1, csr=arrays, comm=PETSc.COMM_SELF)
+    address = ctypes.POINTER(ctypes.c_double)()
+    if petsc_library().MatSeqSBAIJGetArray(ctypes.c_void_p(matrix.handle), ctypes.byref(address)):
+        raise WorkbenchError("PETSc does not give the values of a symmetric matrix; report this")
+    return matrix, np.ctypeslib.as_array(address, (len(indices),))
+
+
+@functools.cache
+def petsc_library() -> ctypes.CDLL:
+    """The PETSc library that petsc4py is linked to."""
+    return ctypes.CDLL(PETSc.__file__)
+
+
+def matrix_product(matrix: PETSc.Mat, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A matrix times x; both of this process' own rows."""
+    right, left = matrix.createVecRight(), matrix.createVecLeft()
+    right.array[:] = x
+    matrix.mult(right, left)
+    product = np.array(left.array, dtype=np.float64)
+    right.destroy()
+    left.destroy()
+    return product
+
+
 def distributed_matrix(
-    csr: Any, V: Any, further: tuple[NDArray[np.int64], NDArray[np.int64]] | None = None
+    indptr: NDArray[Any],
+    indices: NDArray[Any],
+    V: Any,
+    further: tuple[NDArray[np.int64], NDArray[np.int64]] | None = None,
 ) -> PETSc.Mat:
     """PETSc matrix over all processes with room for the sum of their own CSR matrices, see `distributed_values`.
 
@@ -278,12 +315,12 @@ def distributed_matrix(
     here = index_map.size_local + index_map.num_ghosts
     nodes = index_map.local_to_global(np.arange(here, dtype=np.int32))
     numbers = (block * nodes[:, None] + np.arange(block)).ravel()
-    rows = np.repeat(numbers, np.diff(csr.indptr))
+    rows = np.repeat(numbers, np.diff(indptr))
     sizes = (block * index_map.size_local, block * index_map.size_global)
     matrix = PETSc.Mat().create(PETSc.COMM_WORLD)
     matrix.setSizes((sizes, sizes))
     matrix.setType("aij")
-    columns = numbers[csr.indices]
+    columns = numbers[indices]
     if further is not None:
         rows, columns = np.concatenate([rows, further[0]]), np.concatenate([columns, further[1]])
     coordinates: Any = (rows.astype(PETSc.IntType), columns.astype(PETSc.IntType))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from reference_fe import dolfinx_api as api
 from reference_fe.cells import reference_cell
+from reference_fe.cells.block_matrix import BlockRows
 from reference_fe.problem.domain import Domain
 
 __all__ = ["CellGroup", "cell_dofs", "gradients_at"]
@@ -31,9 +32,9 @@ class CellGroup(Protocol):
         """Store S(E(u)) + CC : DE(u)[du] at the Gauss points."""
 
     def add_tangent(
-        self, u: NDArray[np.float64], indptr: NDArray[np.int32], blocks: NDArray[np.int32], values: NDArray[np.float64]
+        self, u: NDArray[np.float64], rows: BlockRows, places: NDArray[np.int32], values: NDArray[np.float64]
     ) -> None:
-        """Add the tangent at u with the stored stress [N/m] to CSR values; see `kernels.add_tangent`."""
+        """Add the tangent at u with the stored stress [N/m] to a matrix; see `kernels.add_tangent`."""
 
 
 def cell_dofs(nodes: NDArray[np.int32]) -> NDArray[np.int32]:

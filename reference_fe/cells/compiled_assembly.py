@@ -1,7 +1,8 @@
 """Deformable cells assembled by compiled loops, whatever their law.
 
-Each process assembles its own cells into its own CSR matrix. On one process PETSc shares the values: assembling writes
-them in place and nothing is copied. On several, rows of nodes that belong to a neighbour are sent there.
+Each process assembles its own cells into its own matrix, see `cells.block_matrix`. On one process PETSc shares the
+values: assembling writes them in place and nothing is copied; of a symmetric tangent there is the upper triangle alone.
+On several, rows of nodes that belong to a neighbour are sent there.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe import dolfinx_api as api
-from reference_fe.cells import kernels as cell_kernels
+from reference_fe.cells import block_matrix
 from reference_fe.cells.cell_group import CellGroup
 from reference_fe.contact.surface_assembly import SurfaceAssembly
 from reference_fe.solver import process_sums
@@ -34,6 +35,8 @@ class CompiledCells:
     def __init__(self, V: api.Expr, groups: Sequence[CellGroup]) -> None:
         self._V, self._groups = V, tuple(groups)
         self._force = api.fem.Function(V)
+        self._matrix: api.PETSc.Mat | None = None
+        self._values = np.zeros(0)
 
     def internal_force(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
         """int S(E(u)) : DE(u)[v] dV, (n_own_dofs,) [N]; u (n_dofs,) [m], neighbours' nodes included."""
@@ -48,59 +51,79 @@ class CompiledCells:
         for group in self._groups:
             group.store_stress(u, du)
 
-    def prepare_matrix(self, supported: NDArray[np.int32], surfaces: SurfaceAssembly) -> None:
+    def prepare_matrix(self, supported: NDArray[np.int32], surfaces: SurfaceAssembly, boundary: api.Expr) -> None:
         """Lay out the matrix: pattern, place of each cell's blocks, entries that the supports fix.
 
         supported : (n,) int, held unknowns this process knows, in its own numbers
         surfaces : couple further groups of nodes, with room for a full block each
+        boundary : a bilinear form on facets, or None
         """
-        coupled = [*(nodes for group in self._groups for nodes in group.nodes), *surfaces.couplings()]
-        self._csr = api.cell_matrix(self._V, coupled, np.unique(supported // 3).astype(np.int32))
-        indptr, indices = self._csr.indptr, self._csr.indices
-        self._indptr = np.ascontiguousarray(indptr, dtype=np.int32)
-        self._indices = np.ascontiguousarray(indices, dtype=np.int32)
-        held = np.zeros(len(indptr) - 1, dtype=bool)
-        held[supported] = True
-        self._fixed = np.flatnonzero(np.repeat(held, np.diff(indptr)) | held[indices])
-        own = supported[supported < 3 * self._V.dofmap.index_map.size_local]
-        self._fixed_diagonal = cell_kernels.diagonal_places(own, self._indptr, self._indices)
-        places = cell_kernels.block_places
-        self._blocks = [places(group.nodes, self._indptr, self._indices) for group in self._groups]
+        self._release_matrix()
+        nodes = self._V.dofmap.index_map
+        n_nodes = nodes.size_local + nodes.num_ghosts
+        cells = [group.nodes for group in self._groups]
+        coupled = [*cells, *surfaces.couplings()]
+        one = api.COMM.size == 1
+        self._rows = block_matrix.block_rows(n_nodes, coupled, upper=one and surfaces.symmetric)
+        self._places = [block_matrix.block_places(group, self._rows) for group in cells]
+        self._held = np.zeros(3 * n_nodes, dtype=bool)
+        self._held[supported] = True
+        self._boundary = None if boundary is None else api.cell_matrix(self._V, [row for g in cells for row in g])
         self._whole = surfaces.whole
-        if api.COMM.size == 1:
-            self._matrix = api.shared_matrix(self._csr)
+        pattern = block_matrix.scalar_csr(self._rows, np.zeros(0, dtype=api.PETSc.IntType))
+        if self._rows.upper:
+            self._matrix, self._values = api.triangular_matrix(*pattern)
+            return
+        self._values = np.zeros(self._rows.entries)
+        if one:
+            self._matrix = api.shared_matrix(*pattern, self._values)
         else:
             far = surfaces.whole.lay_out(surfaces.whole_couplings(), supported) if surfaces.whole else None
-            self._matrix = api.distributed_matrix(self._csr, self._V, far)
+            self._matrix = api.distributed_matrix(*pattern, self._V, far)
 
     def assemble(self, u: NDArray[np.float64], boundary: api.Expr, surfaces: SurfaceAssembly) -> None:
         """Fill the matrix [N/m]: cells' tangent at u with the stored stress, plus a boundary form (or None), surfaces.
 
         u : (n_dofs,) [m], neighbours' nodes included
         """
-        self._csr.data[:] = 0.0
-        if boundary is not None:
-            api.fem.assemble_matrix(self._csr, boundary)
-        for group, blocks in zip(self._groups, self._blocks, strict=True):
-            group.add_tangent(u, self._indptr, blocks, self._csr.data)
-        surfaces.add_to_csr(self._indptr, self._indices, self._csr.data)
+        self._values[:] = 0.0
+        if self._boundary is not None:
+            csr = self._boundary
+            csr.data[:] = 0.0
+            api.fem.assemble_matrix(csr, boundary)
+            block_matrix.add_csr(self._rows, csr.indptr, csr.indices, csr.data, self._values)
+        for group, places in zip(self._groups, self._places, strict=True):
+            group.add_tangent(u, self._rows, places, self._values)
+        surfaces.add_to_rows(self._rows, self._values)
 
     def supported_matrix(self) -> api.PETSc.Mat:
         """The assembled matrix with unit rows and zero columns at supported unknowns; one object for each pattern."""
-        self._csr.data[self._fixed] = 0.0
-        self._csr.data[self._fixed_diagonal] = 1.0
-        self._hand_over(supported=True)
-        return self._matrix
+        block_matrix.hold(self._rows, self._held, 3 * self._V.dofmap.index_map.size_local, self._values)
+        return self._handed_over(supported=True)
+
+    def product(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The assembled matrix as it stands times x, both (n_own_dofs,)."""
+        if api.COMM.size == 1:
+            return block_matrix.product(self._rows, self._values, x)
+        return api.matrix_product(self._handed_over(supported=False), x)
 
     def copied_matrix(self) -> api.PETSc.Mat:
-        """The assembled matrix as it stands, as a new PETSc matrix."""
-        self._hand_over(supported=False)
-        return self._matrix.copy()
+        """The assembled matrix as it stands, all of it, as a new PETSc matrix."""
+        matrix = self._handed_over(supported=False)
+        return matrix.convert("aij", out=api.PETSc.Mat()) if self._rows.upper else matrix.copy()
 
-    def _hand_over(self, *, supported: bool) -> None:
-        """Make PETSc see the values of the CSR matrices."""
+    def _release_matrix(self) -> None:
+        """Forget the last matrix before there is another; who factorised it has let go of it."""
+        if self._matrix is not None:
+            self._matrix.destroy()
+            self._matrix, self._values = None, np.zeros(0)
+
+    def _handed_over(self, *, supported: bool) -> api.PETSc.Mat:
+        """The matrix, once PETSc has seen the values."""
+        assert self._matrix is not None
         if api.COMM.size == 1:
             self._matrix.stateIncrease()
         else:
             far = np.zeros(0) if self._whole is None else self._whole.own_stiffness(supported=supported)
-            api.distributed_values(self._matrix, np.concatenate([self._csr.data, far]))
+            api.distributed_values(self._matrix, np.concatenate([self._values, far]))
+        return self._matrix

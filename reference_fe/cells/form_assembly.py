@@ -6,20 +6,21 @@ at the Gauss points. Verified by tests/verification/test_fe_cells.py against the
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe import dolfinx_api as api
 from reference_fe.cells.discretisation import Discretisation
+from reference_fe.contact.surface_assembly import SurfaceAssembly
 from reference_fe.dolfinx_api import Expr, fem, ufl
 from reference_fe.material import hyperelastic as law_of
 from reference_fe.material.hyperelastic import MaterialLaw
 from reference_fe.material.point_evaluation import PointEvaluation
 from reference_fe.problem.domain import Domain
 
-__all__ = ["FormCells"]
+__all__ = ["FormCells", "form_matrix"]
 
 
 class FormCells:
@@ -87,3 +88,25 @@ class FormCells:
             values = (extrapolated if extrapolate else current)(self._mesh, cells)
             size = int(np.prod(values.shape[1:]))
             self._stored.x.array.reshape(-1, size)[cells] = values.reshape(-1, size)
+
+
+def form_matrix(
+    form: api.Expr,
+    surfaces: SurfaceAssembly,
+    bcs: Sequence[api.DirichletBC],
+    supported: NDArray[np.int32],
+    matrix: api.PETSc.Mat | None = None,
+) -> api.PETSc.Mat:
+    """Matrix of a tangent's form and the surfaces [N/m], with unit rows at supported unknowns; written into one given.
+
+    bcs, supported : the supports' conditions, and the unknowns (n,) that they hold
+    """
+    if matrix is None:
+        matrix = api.create_matrix(form, np.unique(supported // surfaces.dim).astype(np.int32), surfaces.couplings())
+    else:
+        matrix.zeroEntries()
+    api.fem_petsc.assemble_matrix(matrix, form, bcs=bcs)
+    api.flush(matrix)
+    surfaces.add_to_matrix(matrix, supported)
+    matrix.assemble()
+    return matrix

@@ -13,6 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from reference_fe.cells.block_matrix import BlockRows, add_block
 from reference_fe.cells.general_kernels import CellTables, gradient_row, pressure_at, shifted_gradient
 from reference_fe.compiled import compiled
 from reference_fe.material.point_response import HISTORY, respond
@@ -31,17 +32,17 @@ def add_tangent(
     pressure: Array,
     stiffness: Array,
     past: Array,
-    indptr: Index,
-    blocks: Index,
+    rows: BlockRows,
+    places: Index,
     values: Array,
 ) -> None:
-    """Add the condensed tangent of every cell to CSR values.
+    """Add the condensed tangent of every cell to the values of a matrix.
 
     Parameters
     ----------
     stress, pressure : (n_cells, m, 6) and (n_cells, k) what is stored of S_0 and p [Pa]
     stiffness : (n_cells, k, k) T at u [Pa/m^3]
-    indptr, blocks, values : as in `cells.kernels.add_tangent`
+    rows, places, values : as in `cells.kernels.add_tangent`
     u, t, past : as in the other loops
     """
     m, k = t.N.shape
@@ -68,7 +69,7 @@ def add_tangent(
         if t.bulk[c] != 0.0:
             h = np.dot(Z, B)
             K += np.dot(h.T, np.dot(stiffness[c], h))
-        _scatter(K, geometric, t.dofs[c], indptr, blocks[c], values)
+        _scatter(K, geometric, t.dofs[c], rows, places[c], values)
 
 
 @compiled(error_model="numpy")
@@ -107,16 +108,13 @@ def _geometric_factors(w: float, S: Array, G: Array, out: Array, SG: Array) -> N
 
 
 @compiled()
-def _scatter(K: Array, geometric: Array, dofs: Index, indptr: Index, blocks: Index, values: Array) -> None:
-    """Add K (3 n, 3 n), and geometric (n, n) on the diagonals of its blocks, to CSR values."""
-    n = dofs.shape[0]
-    for a in range(n):
-        start = indptr[dofs[a, 0]]
-        length = indptr[dofs[a, 0] + 1] - start
-        for i in range(3):
-            row = start + i * length
-            for b in range(n):
-                place = row + blocks[a, b]
-                for j in range(3):
-                    values[place + j] += K[3 * a + i, 3 * b + j]
-                values[place + i] += geometric[a, b]
+def _scatter(K: Array, geometric: Array, dofs: Index, rows: BlockRows, places: Index, values: Array) -> None:
+    """Add K (3 n, 3 n), and geometric (n, n) on the diagonals of its blocks, to the values of a matrix."""
+    block = np.empty((3, 3))
+    for a in range(dofs.shape[0]):
+        for b in range(dofs.shape[0]):
+            if places[a, b] >= 0:
+                block[:] = K[3 * a : 3 * a + 3, 3 * b : 3 * b + 3]
+                for i in range(3):
+                    block[i, i] += geometric[a, b]
+                add_block(rows, dofs[a, 0] // 3, places[a, b], block, values)

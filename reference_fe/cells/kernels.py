@@ -15,9 +15,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from reference_fe.cells.block_matrix import BlockRows, add_block
 from reference_fe.compiled import compiled
 
-__all__ = ["add_tangent", "block_places", "diagonal_places", "internal_force", "point_stress"]
+__all__ = ["add_tangent", "internal_force", "point_stress"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int32]
@@ -94,30 +95,6 @@ def point_stress(u: Array, du: Array, G: Array, moduli: Array, dofs: Index, out:
                 out[c, q, i, i] += lam * trace
 
 
-@compiled()
-def block_places(nodes: Index, indptr: Index, indices: Index) -> Index:
-    """Place of node b's three columns within the rows of node a, (n_cells, n_nodes, n_nodes); nodes (n_cells, n_nodes).
-
-    indptr, indices : pattern of a CSR matrix of three unknowns a node, columns ascending
-    """
-    places = np.empty((nodes.shape[0], nodes.shape[1], nodes.shape[1]), dtype=np.int32)
-    for c in range(nodes.shape[0]):
-        for a in range(nodes.shape[1]):
-            row = indices[indptr[3 * nodes[c, a]] : indptr[3 * nodes[c, a] + 1]]
-            for b in range(nodes.shape[1]):
-                places[c, a, b] = np.searchsorted(row, 3 * nodes[c, b])
-    return places
-
-
-@compiled()
-def diagonal_places(rows: Index, indptr: Index, indices: Index) -> NDArray[np.int64]:
-    """Places of the diagonal entries of rows in the values of a CSR matrix, (n_rows,)."""
-    places = np.empty(len(rows), dtype=np.int64)
-    for k, row in enumerate(rows):
-        places[k] = indptr[row] + np.searchsorted(indices[indptr[row] : indptr[row + 1]], row)
-    return places
-
-
 @compiled(fastmath={"contract", "reassoc"})
 def add_tangent(
     u: Array,
@@ -126,39 +103,33 @@ def add_tangent(
     w: Array,
     moduli: Array,
     dofs: Index,
-    indptr: Index,
-    blocks: Index,
+    rows: BlockRows,
+    places: Index,
     values: Array,
 ) -> None:
-    """Add the tangent of every cell to CSR values.
+    """Add the tangent of every cell to the values of a matrix.
 
     Parameters
     ----------
     stress : (n_cells, n_points, 3, 3) stored stress S_m [Pa]
-    indptr : (n_dofs + 1,) row starts of the matrix; the three rows of a node are equally long
-    blocks : (n_cells, n_nodes, n_nodes) place of node b's three columns within the rows of node a
-    values : (nnz,) [N/m]
+    rows, values : the matrix and its values [N/m]
+    places : (n_cells, n_nodes, n_nodes) see `block_matrix.block_places`
     u, G, w, moduli, dofs : as in `internal_force`
     """
     n, m = G.shape[3], G.shape[1]
     H, block = np.empty((3, 3)), np.empty((3, 3))
     g, f, s, B = np.empty((3, n, m)), np.empty((3, n, m)), np.empty((3, n, m)), np.empty((6, m))
-    start, length = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
     for c in range(G.shape[0]):
         for q in range(m):
             _displacement_gradient(G[c, q], u, dofs[c], H)
             _point_factors(w[c, q], moduli[c, 1], H, stress[c, q], G[c, q], q, g, f, s, B)
         for a in range(n):
-            start[a] = indptr[dofs[c, a, 0]]
-            length[a] = indptr[dofs[c, a, 0] + 1] - start[a]
             for b in range(a + 1):
                 _node_pair(a, b, moduli[c, 0], moduli[c, 1], w[c], g, f, s, B, block)
-                here, mirrored = start[a] + blocks[c, a, b], start[b] + blocks[c, b, a]
-                for i in range(3):
-                    for k in range(3):
-                        values[here + i * length[a] + k] += block[i, k]
-                        if b < a:
-                            values[mirrored + i * length[b] + k] += block[k, i]
+                if places[c, a, b] >= 0:
+                    add_block(rows, dofs[c, a, 0] // 3, places[c, a, b], block, values)
+                if b < a and places[c, b, a] >= 0:
+                    add_block(rows, dofs[c, b, 0] // 3, places[c, b, a], block.T, values)
 
 
 @compiled(fastmath={"contract", "reassoc"}, error_model="numpy")

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from reference_fe import dolfinx_api as api
 from reference_fe.cells import kernels as cell_kernels
+from reference_fe.cells.block_matrix import BlockRows
 from reference_fe.cells.cell_group import cell_dofs, gradients_at
 from reference_fe.problem.domain import Domain
 
@@ -49,7 +50,7 @@ class KirchhoffCells:
         """See `CellGroup`."""
         cell_kernels.point_stress(u, du, self._gradients, self._moduli, self._dofs, self._stress)
 
-    def add_tangent(self, u: Array, indptr: NDArray[np.int32], blocks: NDArray[np.int32], values: Array) -> None:
+    def add_tangent(self, u: Array, rows: BlockRows, places: NDArray[np.int32], values: Array) -> None:
         """See `CellGroup`."""
-        tables = (self._gradients, self._weights, self._moduli, self._dofs, indptr, blocks, values)
+        tables = (self._gradients, self._weights, self._moduli, self._dofs, rows, places, values)
         cell_kernels.add_tangent(u, self._stress, *tables)

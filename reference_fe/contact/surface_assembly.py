@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
+from reference_fe.cells.block_matrix import BlockRows, add_block, place_of
 from reference_fe.compiled import compiled
 from reference_fe.contact.surface_term import SurfaceForces, SurfaceTerm, TermState
 from reference_fe.contact.whole_body import WholeBody
@@ -40,11 +41,15 @@ class SurfaceAssembly:
     terms : the terms, in a fixed order
     V : displacement space
 
+    Attributes
+    ----------
+    terms, dim : the terms, dimension of space
+
     Verified by tests/unit/test_fe_surface_assembly.py.
     """
 
     def __init__(self, terms: Sequence[SurfaceTerm], V: api.Expr) -> None:
-        self.terms, self._dim = tuple(terms), int(V.dofmap.index_map_bs)
+        self.terms, self.dim = tuple(terms), int(V.dofmap.index_map_bs)
         self._whole_terms = [t for t in self.terms if getattr(t, "whole_body", False)]
         self._local_terms = [t for t in self.terms if t not in self._whole_terms]
         self.whole = WholeBody(V) if self._whole_terms else None
@@ -104,13 +109,13 @@ class SurfaceAssembly:
             product += self.whole.own_product(stiffness.whole, self.whole.gathered(x.array))
         return product
 
-    def add_to_csr(self, indptr: NDArray[np.int32], indices: NDArray[np.int32], data: NDArray[np.float64]) -> None:
-        """Add the stiffness of the last evaluation [N/m] to a CSR matrix that has room for it.
+    def add_to_rows(self, rows: BlockRows, values: NDArray[np.float64]) -> None:
+        """Add the stiffness of the last evaluation [N/m] to the values of a matrix that has room for it.
 
-        indptr, indices, data : (n_dofs + 1,), (nnz,), (nnz,), rows and columns of all unknowns this process knows
+        rows : over all nodes this process knows
         """
         for batch in self._batches:
-            _add_blocks(batch.nodes, batch.stiffness, indptr, indices, data)
+            _add_blocks(batch.nodes, batch.stiffness, rows, values)
 
     def add_to_matrix(self, matrix: api.PETSc.Mat, supported: NDArray[np.int32]) -> None:
         """Add the stiffness of the last evaluation [N/m] to a PETSc matrix, not at the unknowns ``supported`` (n,).
@@ -128,13 +133,13 @@ class SurfaceAssembly:
         for batch in self._batches:
             for nodes, stiffness in zip(batch.nodes, batch.stiffness, strict=True):
                 here = np.flatnonzero(nodes >= 0)
-                rows = (self._dim * nodes[here, None] + np.arange(self._dim)).ravel().astype(np.int32)
+                rows = (self.dim * nodes[here, None] + np.arange(self.dim)).ravel().astype(np.int32)
                 block = stiffness[here][:, :, here].reshape(len(rows), len(rows))
                 api.add_block(matrix, rows, free[rows, None] * block * free[rows])
 
     def resultant(self) -> NDArray[np.float64]:
         """Sum of all outer surface forces on the body at the last evaluation, (dim,) [N]."""
-        return np.asarray(sum((term.resultant() for term in self.terms), np.zeros(self._dim)))
+        return np.asarray(sum((term.resultant() for term in self.terms), np.zeros(self.dim)))
 
     def augment(self) -> bool:
         """Let every term improve its multipliers; True if any asks for another solve."""
@@ -183,22 +188,11 @@ def _add_products(
 
 @compiled()
 def _add_blocks(
-    nodes: NDArray[np.int64],
-    stiffness: NDArray[np.float64],
-    indptr: NDArray[np.int32],
-    indices: NDArray[np.int32],
-    data: NDArray[np.float64],
+    nodes: NDArray[np.int64], stiffness: NDArray[np.float64], rows: BlockRows, values: NDArray[np.float64]
 ) -> None:
-    """Each node pair is found by bisection in its first row; the columns of a node lie side by side in all its rows."""
-    dim = stiffness.shape[2]
     for m in range(nodes.shape[0]):
         for a in range(nodes.shape[1]):
             for b in range(nodes.shape[1]):
-                if nodes[m, a] < 0 or nodes[m, b] < 0:
+                if nodes[m, a] < 0 or nodes[m, b] < 0 or (rows.upper == 1 and nodes[m, b] < nodes[m, a]):
                     continue
-                row = dim * nodes[m, a]
-                first, last = indptr[row], indptr[row + 1]
-                place = np.searchsorted(indices[first:last], dim * nodes[m, b])
-                for i in range(dim):
-                    for j in range(dim):
-                        data[indptr[row + i] + place + j] += stiffness[m, a, i, b, j]
+                add_block(rows, nodes[m, a], place_of(rows, nodes[m, a], nodes[m, b]), stiffness[m, a, :, b], values)

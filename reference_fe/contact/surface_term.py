@@ -12,10 +12,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.errors import WorkbenchError
 from reference_fe.dolfinx_api import Expr
 from reference_fe.problem.domain import Domain
 
-__all__ = ["SurfaceDescription", "SurfaceForces", "SurfaceTerm", "TermState", "joined"]
+__all__ = ["SurfaceDescription", "SurfaceForces", "SurfaceTerm", "TermState", "WildIterateError", "joined"]
 
 type TermState = Mapping[str, NDArray[np.float64]]
 """History of a term by name: committed slip, multipliers; empty where there is none."""
@@ -50,6 +51,10 @@ def joined(batches: Sequence[SurfaceForces], dim: int) -> SurfaceForces:
         force=np.concatenate([b.force for b in batches]),
         stiffness=np.concatenate([b.stiffness for b in batches]),
     )
+
+
+class WildIterateError(WorkbenchError):
+    """An iterate so far from balance that contact cannot be looked up in it: its pairs would fill the memory."""
 
 
 class SurfaceTerm(Protocol):

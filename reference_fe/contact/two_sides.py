@@ -13,13 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from contracts.errors import WorkbenchError
 from reference_fe.contact.facet_kernels import shape_values
 from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.surface import ContactSurface
-from reference_fe.contact.surface_term import SurfaceForces, joined
+from reference_fe.contact.surface_term import SurfaceForces, WildIterateError, joined
 
-__all__ = ["InnerLaw", "TwoSides", "WildIterateError", "as_set"]
+__all__ = ["InnerLaw", "TwoSides", "as_set"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -28,10 +27,6 @@ _SKIN = 3e-3
 """How far a node may move before the facets near each other are looked up anew [m]."""
 _WILD = 5.0
 """Size of a facet over the largest before, above which an iterate is no state of any body [-]."""
-
-
-class WildIterateError(WorkbenchError):
-    """An iterate so far from balance that contact cannot be looked up in it: its pairs would fill the memory."""
 
 
 class InnerLaw(Protocol):

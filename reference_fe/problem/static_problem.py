@@ -21,7 +21,7 @@ from reference_fe import dolfinx_api as api
 from reference_fe.cells.choice import compiled_groups, form_laws
 from reference_fe.cells.compiled_assembly import CompiledCells
 from reference_fe.cells.discretisation import Discretisation, ElementFamily
-from reference_fe.cells.form_assembly import FormCells
+from reference_fe.cells.form_assembly import FormCells, form_matrix
 from reference_fe.cells.histories import Histories
 from reference_fe.contact.obstacle import ObstacleContact, ObstacleTerm
 from reference_fe.contact.surface_assembly import SurfaceAssembly
@@ -110,6 +110,11 @@ class StaticProblem:
         return int(self.V.dofmap.index_map.size_global * self.V.dofmap.index_map_bs)
 
     @property
+    def needs_matrix(self) -> bool:
+        """Whether the next tangent has another pattern than the last one, and is another matrix."""
+        return self._pattern_version != self.surfaces.pattern_version
+
+    @property
     def own_dofs(self) -> int:
         """Number of displacement unknowns that belong to this process."""
         return int(self.V.dofmap.index_map.size_local * self.V.dofmap.index_map_bs)
@@ -151,37 +156,37 @@ class StaticProblem:
         if self._compiled is not None:
             self._assemble_compiled()
             return self._compiled.supported_matrix()
-        if matrix is None or self._pattern_version != self.surfaces.pattern_version:
-            self._pattern_version = self.surfaces.pattern_version
-            supported = np.unique(self.supported // self.domain.dim).astype(np.int32)
-            matrix = api.create_matrix(self._tangent_form, supported, self.surfaces.couplings())
-        else:
-            matrix.zeroEntries()
-        fem_petsc.assemble_matrix(matrix, self._tangent_form, bcs=self.bcs)
-        api.flush(matrix)
-        self.surfaces.add_to_matrix(matrix, self.supported)
-        matrix.assemble()
-        return matrix
+        if self.needs_matrix:
+            self._pattern_version, matrix = self.surfaces.pattern_version, None
+        return form_matrix(self._tangent_form, self.surfaces, self.bcs, self.supported, matrix)
+
+    def lifted_tangent(
+        self, matrix: api.PETSc.Mat | None, offset: NDArray[np.float64]
+    ) -> tuple[api.PETSc.Mat, NDArray[np.float64]]:
+        """`tangent`, and the one without regard to supports times their offset [m]; both (n_own_dofs,), forces in N."""
+        if self._compiled is not None:
+            self._assemble_compiled()
+            lifted = self._compiled.product(offset)  # before it is supported
+            return self._compiled.supported_matrix(), lifted
+        full = self.unsupported_tangent()
+        lifted = api.matrix_product(full, offset)
+        full.destroy()
+        return self.tangent(matrix), lifted
 
     def unsupported_tangent(self) -> api.PETSc.Mat:
         """Tangent stiffness without regard to the supports [N/m]; a new matrix, to be destroyed by the caller."""
         if self._compiled is not None:
             self._assemble_compiled()
             return self._compiled.copied_matrix()
-        matrix = api.create_matrix(self._tangent_form, np.zeros(0, dtype=np.int32), self.surfaces.couplings())
-        fem_petsc.assemble_matrix(matrix, self._tangent_form)
-        api.flush(matrix)
-        self.surfaces.add_to_matrix(matrix, np.zeros(0, dtype=np.int32))
-        matrix.assemble()
-        return matrix
+        return form_matrix(self._tangent_form, self.surfaces, (), np.zeros(0, dtype=np.int32))
 
     def _assemble_compiled(self) -> None:
         assert self._compiled is not None
         if not self.discretisation.mixed_integration_points:
             self.store_stress(extrapolate=False)
-        if self._pattern_version != self.surfaces.pattern_version:
+        if self.needs_matrix:
             self._pattern_version = self.surfaces.pattern_version
-            self._compiled.prepare_matrix(self.supported, self.surfaces)
+            self._compiled.prepare_matrix(self.supported, self.surfaces, self._tangent_form)
         self._compiled.assemble(self.u.x.array, self._tangent_form, self.surfaces)
 
     def state(self) -> ProblemState:

@@ -215,10 +215,10 @@ class _Run:
         solver = self._solver
         force, moved = control_rate(self._problem, control, body)
         right_hand_side = np.where(solver.free, -force, moved)
-        if process_sums.global_norm(moved) > 0.0:
-            right_hand_side -= np.where(solver.free, solver.lifted(moved), 0.0)
-        negative = solver.factorise()
-        return solver.solved(right_hand_side), negative
+        lifted = solver.factorise(moved if process_sums.global_norm(moved) > 0.0 else np.zeros(0))
+        if lifted.size:
+            right_hand_side -= np.where(solver.free, lifted, 0.0)
+        return solver.solved(right_hand_side), solver.negative_pivots
 
     def attempt(self, here: _Point, length: float) -> _Reached:
         """Iterate to the point that lies ``length`` ahead; leaves the last iterate in the problem."""

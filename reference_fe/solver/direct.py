@@ -128,6 +128,7 @@ class DirectSolver:
             raise self._too_large(f"MUMPS INFOG(1) = {state} in the analysis")
         if 1e6 * self.factors.getMumpsInfog(LARGEST) > self._memory().bytes:
             raise self._too_large("found by the analysis, before anything was factorised")
+        _give_back_freed_memory()
 
     def _numeric(self) -> int:
         """Compute the factors; MUMPS' outcome, 0 if all went well."""
@@ -137,7 +138,7 @@ class DirectSolver:
     def _call(self, name: str, *more: None) -> None:
         """One of PETSc's C functions on factors and matrix."""
         handles = (ctypes.c_void_p(one.handle) for one in (self.factors, self._matrix))
-        outcome = getattr(_petsc(), name)(*handles, *more)
+        outcome = getattr(api.petsc_library(), name)(*handles, *more)
         if outcome == PETSC_OUT_OF_MEMORY:
             raise self._too_large(f"{name} got no more", alone=True)
         if outcome:
@@ -146,7 +147,7 @@ class DirectSolver:
     def _pattern(self) -> int:
         """A number that changes whenever entries come to the matrix or go."""
         state = ctypes.c_int64()
-        _petsc().MatGetNonzeroState(ctypes.c_void_p(self._matrix.handle), ctypes.byref(state))
+        api.petsc_library().MatGetNonzeroState(ctypes.c_void_p(self._matrix.handle), ctypes.byref(state))
         return state.value
 
     def _more_room(self) -> int:
@@ -189,12 +190,6 @@ def direct_solver(matrix: api.PETSc.Mat, *, symmetric: bool) -> DirectSolver:
     return DirectSolver(matrix, symmetric=symmetric)
 
 
-@functools.cache
-def _petsc() -> ctypes.CDLL:
-    """The PETSc library that petsc4py is linked to."""
-    return ctypes.CDLL(api.PETSc.__file__)
-
-
 class _HeapUse(ctypes.Structure):
     """glibc's struct mallinfo2; ``fordblks`` is what is free within the heap [byte]."""
 
@@ -210,11 +205,19 @@ def _kept_memory() -> float:
     return float(library.mallinfo2().fordblks)
 
 
+def _give_back_freed_memory() -> None:
+    """Give the system what was freed so far: gaps that the factors do not fit into."""
+    library = ctypes.CDLL(None)
+    if hasattr(library, "malloc_trim"):
+        library.malloc_trim(0)
+
+
 def _is_full(matrix: api.PETSc.Mat) -> bool:
     """Whether every unknown is coupled with every other."""
     everywhere: Any = api.PETSc.Mat.InfoType.GLOBAL_SUM  # the stubs give it the wrong type
     entries = matrix.getInfo(everywhere)["nz_used"]
-    return bool(entries >= matrix.getSize()[0] ** 2)
+    size = matrix.getSize()[0]
+    return bool(entries >= (size * (size + 1) // 2 if matrix.type.endswith("sbaij") else size**2))
 
 
 @functools.cache

@@ -114,10 +114,9 @@ def lowest_mode(solver: NewtonSolver, control: float, state: ProblemState, *, be
     problem.store_stress(extrapolate=False)
     problem.surfaces.force(problem.u.x.array, 0.0)
     force, moved = control_rate(problem, control, problem.body_residual())
-    if process_sums.global_norm(moved) > 0.0:
-        force += solver.lifted(moved)
-    force = np.where(solver.free, force, 0.0)
-    negative = solver.factorise()
+    lifted = solver.factorise(moved if process_sums.global_norm(moved) > 0.0 else np.zeros(0))
+    force = np.where(solver.free, force + lifted if lifted.size else force, 0.0)
+    negative = solver.negative_pivots
     assert negative is not None
     basis, diagonal, beside = [_unit(np.where(solver.free, begin, 0.0))], list[float](), list[float]()
     while True:

@@ -12,7 +12,7 @@ from contracts.errors import InputError
 from contracts.material_laws import StVenantKirchhoff
 from reference_fe import dolfinx_api as api
 from reference_fe.contact.newton_step import settle_contact
-from reference_fe.contact.two_sides import WildIterateError
+from reference_fe.contact.surface_term import WildIterateError
 from reference_fe.material.hyperelastic import SMALLEST_STRETCH
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.solver import process_sums
@@ -141,7 +141,7 @@ class NewtonSolver:
                     spurious=spurious,
                     stalled=stalled,
                     augmentations=augmentations,
-                    negative_pivots=self._direct.negative_pivots if self._direct and len(history) > 1 else None,
+                    negative_pivots=self.negative_pivots if len(history) > 1 else None,
                 )
             if augmented:
                 augmentations += 1
@@ -167,10 +167,10 @@ class NewtonSolver:
         """
         problem = self.problem
         right_hand_side = np.where(self.free, -residual, 0.0)
+        lifted = self.factorise(offset)
         if offset.size:
-            right_hand_side -= self.lifted(offset)
+            right_hand_side -= lifted
             right_hand_side[problem.own_supported] = offset[problem.own_supported]
-        self.factorise()
         problem.du.x.array[: problem.own_dofs] = self.solved(right_hand_side)
         problem.du.x.scatter_forward()
         if problem.surfaces.terms:
@@ -180,15 +180,28 @@ class NewtonSolver:
         problem.u.x.array[:] += problem.du.x.array
         return force
 
-    def factorise(self) -> int | None:
-        """Factorise the tangent at the present displacement and stored stress; its negative eigenvalues, if known."""
-        last, self._matrix = self._matrix, self.problem.tangent(self._matrix)
+    def factorise(self, offset: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Factorise the tangent at the present displacement and stored stress.
+
+        Returns it, supports disregarded, times an offset of the supports (n_own_dofs,) [m]: (n_own_dofs,) [N], empty
+        without one. Empty on one process means empty on all.
+        """
+        problem, last, lifted = self.problem, self._matrix, np.zeros(0)
+        if self._direct is not None and problem.needs_matrix:
+            self._direct.release()  # before there is another matrix
+        if offset.size:
+            self._matrix, lifted = problem.lifted_tangent(last, offset)
+        else:
+            self._matrix = problem.tangent(last)
         if self._direct is None or self._matrix is not last:
-            if self._direct is not None:
-                self._direct.release()
-            self._direct = direct_solver(self._matrix, symmetric=self.problem.surfaces.symmetric)
+            self._direct = direct_solver(self._matrix, symmetric=problem.surfaces.symmetric)
         self._direct.factorise()
-        return self._direct.negative_pivots
+        return lifted
+
+    @property
+    def negative_pivots(self) -> int | None:
+        """Negative eigenvalues of the tangent last factorised; None without one, or with an unsymmetric one."""
+        return None if self._direct is None else self._direct.negative_pivots
 
     def solved(self, right_hand_side: NDArray[np.float64]) -> NDArray[np.float64]:
         """Solution with the present factors, (n_own_dofs,); SingularMatrixError where it is no finite number."""
@@ -214,17 +227,6 @@ class NewtonSolver:
             bc.set(target)
         offset = np.asarray(target - self.problem.u.x.array)[: self.problem.own_dofs]
         return offset if process_sums.global_norm(offset) > 0.0 else np.zeros(0)
-
-    def lifted(self, offset: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Tangent, supports disregarded, times a displacement of the supports (n_own_dofs,) [m], (n_own_dofs,) [N]."""
-        full = self.problem.unsupported_tangent()
-        x, y = full.createVecRight(), full.createVecLeft()
-        x.array[:] = offset
-        full.mult(x, y)
-        product = np.array(y.array, dtype=np.float64)
-        for item in (full, x, y):
-            item.destroy()
-        return product
 
     def relative(self, residual: NDArray[np.float64], *, moved: bool = False) -> float:
         """Residual norm over free unknowns relative to that of the support and contact forces.

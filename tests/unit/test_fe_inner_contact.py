@@ -19,7 +19,7 @@ from reference_fe.contact.inner import ContactPair, InnerContact, InnerContactTe
 from reference_fe.contact.inner_kernels import contact_blocks, nearest_contacts
 from reference_fe.contact.inner_pairs import wheel_contact_pairs
 from reference_fe.contact.surface import contact_surface, node_positions
-from reference_fe.contact.two_sides import WildIterateError
+from reference_fe.contact.surface_term import WildIterateError
 from reference_fe.dolfinx_api import fem
 from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh, stacked

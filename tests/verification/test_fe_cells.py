@@ -11,6 +11,7 @@ import pytest
 from contracts.materials import Material
 from reference_fe.cells import kernels as cell_kernels
 from reference_fe.cells.discretisation import Discretisation, ElementFamily
+from reference_fe.dolfinx_api import PETSc
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.problem.supports import Support
@@ -38,8 +39,7 @@ def problem(order: int, family: ElementFamily, *, compiled: bool) -> StaticProbl
 
 
 def tangent(made: StaticProblem) -> np.ndarray:
-    matrix = made.tangent()
-    indptr, indices, values = matrix.getValuesCSR()
+    indptr, indices, values = made.tangent().convert("aij", out=PETSc.Mat()).getValuesCSR()
     dense = np.zeros((made.dofs, made.dofs))
     dense[np.repeat(np.arange(made.dofs), np.diff(indptr)), indices] = values
     return dense
