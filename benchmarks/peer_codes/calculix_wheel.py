@@ -70,13 +70,16 @@ class WheelDeck:
 class CalculixRun:
     """Of the ground on the whole wheel [N]: loads at deflections; forces forwards from the last on, one a travel.
 
-    With the iterations and wall time [s] of the run.
+    With iterations, converged increments, wall and processor time [s] and largest resident set [MB] of the run.
     """
 
     loads: tuple[float, ...]
     forwards: tuple[float, ...]
     iterations: int
     wall_s: float
+    increments: int
+    cpu_s: float
+    memory_MB: float
 
 
 def face_labels(mesh: TaggedMesh, group: str, without: NDArray[np.int64] | None = None) -> list[tuple[int, int]]:
@@ -197,4 +200,7 @@ def solve(deck: WheelDeck, folder: Path, threads: int, limit_s: float) -> Calcul
         forwards=tuple(forwards.tolist()),
         iterations=sum(int(row[3]) for row in rows),
         wall_s=run.wall_s,
+        increments=sum(not row[2].endswith("U") for row in rows),
+        cpu_s=run.cpu_s,
+        memory_MB=run.memory_MB,
     )

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import sys
 import time
+from pathlib import Path
 
 import felupe
 import numpy as np
 import pypardiso
 
-from benchmarks.peer_codes.case import TOLERANCE, LoadCase, from_description
+from benchmarks.peer_codes.case import TOLERANCE, LoadCase, read_case
 from geometry.inp import TWENTY_NODES
 
 
@@ -64,4 +65,4 @@ def _mask(mesh: felupe.Mesh, nodes: np.ndarray) -> np.ndarray:
 
 if __name__ == "__main__":
     wanted = json.loads(sys.argv[1])
-    print(json.dumps(solve(from_description(wanted["case"]), wanted["steps"], wanted["points"])))
+    print(json.dumps(solve(read_case(Path(wanted["case"])), wanted["steps"], wanted["points"])))

@@ -28,6 +28,7 @@ class Outcome:
     wall_s : wall time of the whole run [s]; says less than ``cpu_s`` when something else runs beside it
     memory_MB : largest resident set of the process [MB]
     force_N : force of the driven line at full travel, on the whole body [N]
+    libraries_MB : the part of the memory that Python, its libraries and compiled loops take, where it is known [MB]
     """
 
     unknowns: int
@@ -37,6 +38,7 @@ class Outcome:
     wall_s: float
     memory_MB: float
     force_N: float
+    libraries_MB: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
