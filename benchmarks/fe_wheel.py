@@ -2,8 +2,8 @@
 
 Run by `make bench NAME=fe_wheel`; `make bench NAME=fe_wheel ARGS="--only half-cylinder-40"` runs chosen cases. Prints a
 table and writes build/bench/fe_wheel.json. Cases: a clamped half cylinder whose digits all codes agree on, and half the
-ExoMars wheel pressed by 20 mm: on the edge of a grouser, which no code needs contact for, and, by us and CalculiX, on a
-plane. README.md here has the last measured table.
+ExoMars wheel pressed on the edge of a grouser by 20 mm, which no code needs contact for, and, by us and CalculiX, on a
+plane by 5 mm. README.md here has the last measured table.
 
 Times are processor seconds of one thread, which another load on the machine changes little; set-up is included.
 Memory is the largest resident set of the solver's process, which reads its mesh from a file; ours is given once more
@@ -100,24 +100,28 @@ CASES = {
         element="20 nodes, 18 points",
         peer=("ground", 0.008, 0.020),
         calculix_element="C3D20R",
+        steps=1,
     ),
     "ground-60k": Comparison(
         ours=("ground", 0.0055, 0.015),
         element="20 nodes, 18 points",
         peer=("ground", 0.0055, 0.015),
         calculix_element="C3D20R",
+        steps=1,
     ),
     "ground-60k-27-nodes": Comparison(
         ours=("ground", 0.0055, 0.015),
         element="27 nodes",
         peer=("ground", 0.0055, 0.015),
         calculix_element="C3D20R",
+        steps=1,
     ),
     "ground-140k": Comparison(
         ours=("ground", 0.003, 0.0085),
         element="20 nodes, 18 points",
         peer=("ground", 0.003, 0.0085),
         calculix_element="C3D20R",
+        steps=1,
     ),
 }
 
@@ -140,6 +144,8 @@ def compare(name: str, wanted: Comparison, threads: int) -> list[dict[str, objec
 def _rows(case: str, ours: Outcome, theirs: Outcome | None) -> list[dict[str, object]]:
     rows: list[dict[str, object]] = []
     for metric, (unit, value) in METRICS.items():
+        if case.startswith("ground") and metric.endswith("20 mm"):
+            continue  # pressed less far
         mine, other = value(ours), None if theirs is None else value(theirs)
         ratio = None if other is None or metric in NO_RATIO else other / mine
         rows.append({"case": case, "metric": metric, "unit": unit, "ours": mine, "peer": other, "ratio": ratio})

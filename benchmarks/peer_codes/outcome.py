@@ -15,6 +15,18 @@ from typing import Any
 __all__ = ["Measured", "Outcome", "measured", "python_run"]
 
 
+_LAUNCHER = """
+import resource, subprocess, sys
+resource.setrlimit(resource.RLIMIT_CPU, 2 * (int(sys.argv[2]),))
+code = subprocess.call(sys.argv[3:])
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+with open(sys.argv[1], "w") as file:
+    file.write(f"{used.ru_utime + used.ru_stime} {used.ru_maxrss}")
+sys.exit(code if code >= 0 else 128 - code)
+"""
+"""Starts the command from a small process: Linux counts what its parent held at that moment as its own peak."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
     """One code's run through one case.
@@ -61,20 +73,19 @@ def measured(command: Sequence[str], folder: Path, threads: int, limit_s: float)
     """
     environment = dict(os.environ) | {"OMP_NUM_THREADS": str(threads), "MKL_NUM_THREADS": str(threads)}
     environment["PYTHONPATH"] = str(Path(__file__).resolve().parents[2])
-    command = ["bash", "-c", f'ulimit -t {int(limit_s)}; exec "$@"', "bash", *command]
-    log = folder / "log"
+    log, usage = folder / "log", folder / "usage"
+    launched = [sys.executable, "-I", "-S", "-c", _LAUNCHER, str(usage), str(int(limit_s)), *command]
     started = time.perf_counter()
     with log.open("w") as file:
-        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=file, stderr=subprocess.STDOUT)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
+        code = subprocess.call(launched, cwd=folder, env=environment, stdout=file, stderr=subprocess.STDOUT)
     text = log.read_text(errors="replace")
-    if process.returncode:
-        raise subprocess.SubprocessError(f"{command[4]}: exit {process.returncode}, last lines:\n{text[-600:]}")
+    if code:
+        raise subprocess.SubprocessError(f"{command[0]}: exit {code}, last lines:\n{text[-600:]}")
+    cpu_s, kilobytes = map(float, usage.read_text().split())
     return Measured(
-        cpu_s=usage.ru_utime + usage.ru_stime,
+        cpu_s=cpu_s,
         wall_s=time.perf_counter() - started,
-        memory_MB=usage.ru_maxrss / 1024.0,
+        memory_MB=kilobytes / 1024.0,
         output=text,
     )
 

@@ -13,10 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.errors import WorkbenchError
 from reference_fe.compiled import compiled
 
 __all__ = [
     "BlockRows",
+    "Places",
     "add_block",
     "add_csr",
     "block_places",
@@ -30,6 +32,8 @@ __all__ = [
 Array = NDArray[np.float64]
 Index = NDArray[np.int32]
 Long = NDArray[np.int64]
+Places = NDArray[np.int16]
+"""Places of blocks within the rows of a node, as `block_places` finds them."""
 
 
 class BlockRows(NamedTuple):
@@ -56,6 +60,11 @@ def block_rows(n_nodes: int, groups: Sequence[Index], *, upper: bool) -> BlockRo
     """Pattern that couples the nodes of each group with each other, and every node with itself.
 
     groups : (m, k) int each, m groups of k nodes, or one of (k,)
+
+    Raises
+    ------
+    WorkbenchError
+        Where a node is coupled with more than 32 767 others: `Places` cannot tell them.
     """
     tables = [np.atleast_2d(group) for group in groups]
     flat = np.concatenate([np.zeros(0, dtype=np.int32), *(table.ravel() for table in tables)]).astype(np.int32)
@@ -64,6 +73,8 @@ def block_rows(n_nodes: int, groups: Sequence[Index], *, upper: bool) -> BlockRo
     members, owners = _groups_of_nodes(n_nodes, ends, flat)
     starts = np.zeros(n_nodes + 1, dtype=np.int64)
     _couple(upper, members, owners, ends, flat, starts, np.zeros(0, dtype=np.int32))
+    if (most := int(starts.max())) > np.iinfo(np.int16).max:
+        raise WorkbenchError(f"a node is coupled with {most} others, 32767 at most; report this with the study")
     starts = np.cumsum(starts)
     nodes = np.empty(starts[-1], dtype=np.int32)
     _couple(upper, members, owners, ends, flat, starts, nodes)
@@ -131,9 +142,9 @@ def place_of(rows: BlockRows, a: int, b: int) -> int:
 
 
 @compiled()
-def block_places(nodes: Index, rows: BlockRows) -> Index:
+def block_places(nodes: Index, rows: BlockRows) -> Places:
     """`place_of` node b for node a of each cell, (n_cells, n_nodes, n_nodes); nodes (n_cells, n_nodes)."""
-    places = np.empty((nodes.shape[0], nodes.shape[1], nodes.shape[1]), dtype=np.int32)
+    places = np.empty((nodes.shape[0], nodes.shape[1], nodes.shape[1]), dtype=np.int16)
     for c in range(nodes.shape[0]):
         for a in range(nodes.shape[1]):
             for b in range(nodes.shape[1]):

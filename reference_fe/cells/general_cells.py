@@ -22,7 +22,7 @@ from contracts.materials import Material
 from reference_fe import dolfinx_api as api
 from reference_fe.cells import general_kernels as loops
 from reference_fe.cells import general_tangent
-from reference_fe.cells.block_matrix import BlockRows
+from reference_fe.cells.block_matrix import BlockRows, Places
 from reference_fe.cells.cell_group import cell_dofs, gradients_at
 from reference_fe.material.law_constants import law_constants
 from reference_fe.material.point_response import VIRGIN
@@ -133,7 +133,7 @@ class GeneralCells:
         self._pressure, stiffness, _ = self.pressure(u)
         loops.point_stress(u, du, points.tables, self._pressure, stiffness, points.past, self._stress)
 
-    def add_tangent(self, u: Array, rows: BlockRows, places: Index, values: Array) -> None:
+    def add_tangent(self, u: Array, rows: BlockRows, places: Places, values: Array) -> None:
         """See `CellGroup`."""
         points = self.points
         fields = (self._stress, points.tables, self._pressure, self.pressure(u)[1], points.past)

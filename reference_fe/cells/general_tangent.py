@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from reference_fe.cells.block_matrix import BlockRows, add_block
+from reference_fe.cells.block_matrix import BlockRows, Places, add_block
 from reference_fe.cells.general_kernels import CellTables, gradient_row, pressure_at, shifted_gradient
 from reference_fe.compiled import compiled
 from reference_fe.material.point_response import HISTORY, respond
@@ -33,7 +33,7 @@ def add_tangent(
     stiffness: Array,
     past: Array,
     rows: BlockRows,
-    places: Index,
+    places: Places,
     values: Array,
 ) -> None:
     """Add the condensed tangent of every cell to the values of a matrix.
@@ -108,7 +108,7 @@ def _geometric_factors(w: float, S: Array, G: Array, out: Array, SG: Array) -> N
 
 
 @compiled()
-def _scatter(K: Array, geometric: Array, dofs: Index, rows: BlockRows, places: Index, values: Array) -> None:
+def _scatter(K: Array, geometric: Array, dofs: Index, rows: BlockRows, places: Places, values: Array) -> None:
     """Add K (3 n, 3 n), and geometric (n, n) on the diagonals of its blocks, to the values of a matrix."""
     block = np.empty((3, 3))
     for a in range(dofs.shape[0]):

@@ -1,6 +1,7 @@
 """Compiled loops over hexahedra of St. Venant-Kirchhoff material: residual, tangent, stored stress.
 
-Letters as in docs/theory.md 2: G reference gradients of the shape functions, H = grad u, F = I + H, S second
+Letters as in docs/theory.md 2: G gradients of the shape functions, made from those in the reference cell as they are
+needed because all of them would be the largest table of a problem, H = grad u, F = I + H, S second
 Piola-Kirchhoff stress, w weight times Jacobian; lam, mu Lame parameters, s the stress offset of free thermal expansion
 (`hyperelastic.thermal_moduli`). The tangent's 3 x 3 block of nodes a and b is
 
@@ -15,13 +16,21 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from reference_fe.cells.block_matrix import BlockRows, add_block
+from reference_fe.cells.block_matrix import BlockRows, Places, add_block
 from reference_fe.compiled import compiled
 
 __all__ = ["add_tangent", "internal_force", "point_stress"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int32]
+
+
+@compiled()
+def _gradients(shape: Array, inverse: Array, G: Array) -> None:
+    """G (3, n) at one point from the reference cell's, shape (3, n), and the inverse (3, 3) of dX/dxi."""
+    for a in range(shape.shape[1]):
+        for J in range(3):
+            G[J, a] = inverse[0, J] * shape[0, a] + inverse[1, J] * shape[1, a] + inverse[2, J] * shape[2, a]
 
 
 @compiled()
@@ -48,39 +57,42 @@ def _second_piola(H: Array, moduli: Array, S: Array) -> None:
 
 
 @compiled()
-def internal_force(u: Array, G: Array, w: Array, moduli: Array, dofs: Index, out: Array) -> None:
+def internal_force(u: Array, shape: Array, inverse: Array, w: Array, moduli: Array, dofs: Index, out: Array) -> None:
     """Add int S : DE[v] dV of every cell to ``out`` (n_dofs,) [N].
 
     Parameters
     ----------
     u : (n_dofs,) [m]
-    G : (n_cells, n_points, 3, n_nodes) [1/m]
+    shape : (n_points, 3, n_nodes) gradients in the reference cell [-]
+    inverse : (n_cells, n_points, 3, 3) inverse of dX_i/dxi_j, xi first [1/m]
     w : (n_cells, n_points) [m^3]
     moduli : (n_cells, 3) lambda, mu, stress offset [Pa]
     dofs : (n_cells, n_nodes, 3)
     """
-    H, S, P = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
-    for c in range(G.shape[0]):
-        for q in range(G.shape[1]):
-            _displacement_gradient(G[c, q], u, dofs[c], H)
+    H, S, P, G = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty(shape.shape[1:])
+    for c in range(dofs.shape[0]):
+        for q in range(shape.shape[0]):
+            _gradients(shape[q], inverse[c, q], G)
+            _displacement_gradient(G, u, dofs[c], H)
             _second_piola(H, moduli[c], S)
             for i in range(3):
                 for J in range(3):
                     P[i, J] = w[c, q] * (S[i, J] + H[i, 0] * S[0, J] + H[i, 1] * S[1, J] + H[i, 2] * S[2, J])
-            for a in range(G.shape[3]):
+            for a in range(G.shape[1]):
                 for i in range(3):
-                    out[dofs[c, a, i]] += P[i, 0] * G[c, q, 0, a] + P[i, 1] * G[c, q, 1, a] + P[i, 2] * G[c, q, 2, a]
+                    out[dofs[c, a, i]] += P[i, 0] * G[0, a] + P[i, 1] * G[1, a] + P[i, 2] * G[2, a]
 
 
 @compiled()
-def point_stress(u: Array, du: Array, G: Array, moduli: Array, dofs: Index, out: Array) -> None:
+def point_stress(u: Array, du: Array, shape: Array, inverse: Array, moduli: Array, dofs: Index, out: Array) -> None:
     """Extrapolated stress S(E(u)) + CC : DE(u)[du] at every point into ``out`` (n_cells, n_points, 3, 3) [Pa]."""
-    H, dH, S = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
-    for c in range(G.shape[0]):
+    H, dH, S, G = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty(shape.shape[1:])
+    for c in range(dofs.shape[0]):
         lam, mu = moduli[c, 0], moduli[c, 1]
-        for q in range(G.shape[1]):
-            _displacement_gradient(G[c, q], u, dofs[c], H)
-            _displacement_gradient(G[c, q], du, dofs[c], dH)
+        for q in range(shape.shape[0]):
+            _gradients(shape[q], inverse[c, q], G)
+            _displacement_gradient(G, u, dofs[c], H)
+            _displacement_gradient(G, du, dofs[c], dH)
             _second_piola(H, moduli[c], S)
             trace = 0.0
             for i in range(3):
@@ -99,12 +111,13 @@ def point_stress(u: Array, du: Array, G: Array, moduli: Array, dofs: Index, out:
 def add_tangent(
     u: Array,
     stress: Array,
-    G: Array,
+    shape: Array,
+    inverse: Array,
     w: Array,
     moduli: Array,
     dofs: Index,
     rows: BlockRows,
-    places: Index,
+    places: Places,
     values: Array,
 ) -> None:
     """Add the tangent of every cell to the values of a matrix.
@@ -114,15 +127,16 @@ def add_tangent(
     stress : (n_cells, n_points, 3, 3) stored stress S_m [Pa]
     rows, values : the matrix and its values [N/m]
     places : (n_cells, n_nodes, n_nodes) see `block_matrix.block_places`
-    u, G, w, moduli, dofs : as in `internal_force`
+    u, shape, inverse, w, moduli, dofs : as in `internal_force`
     """
-    n, m = G.shape[3], G.shape[1]
-    H, block = np.empty((3, 3)), np.empty((3, 3))
+    n, m = shape.shape[2], shape.shape[0]
+    H, block, G = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, n))
     g, f, s, B = np.empty((3, n, m)), np.empty((3, n, m)), np.empty((3, n, m)), np.empty((6, m))
-    for c in range(G.shape[0]):
+    for c in range(dofs.shape[0]):
         for q in range(m):
-            _displacement_gradient(G[c, q], u, dofs[c], H)
-            _point_factors(w[c, q], moduli[c, 1], H, stress[c, q], G[c, q], q, g, f, s, B)
+            _gradients(shape[q], inverse[c, q], G)
+            _displacement_gradient(G, u, dofs[c], H)
+            _point_factors(w[c, q], moduli[c, 1], H, stress[c, q], G, q, g, f, s, B)
         for a in range(n):
             for b in range(a + 1):
                 _node_pair(a, b, moduli[c, 0], moduli[c, 1], w[c], g, f, s, B, block)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from reference_fe import dolfinx_api as api
 from reference_fe.cells import kernels as cell_kernels
-from reference_fe.cells.block_matrix import BlockRows
-from reference_fe.cells.cell_group import cell_dofs, gradients_at
+from reference_fe.cells.block_matrix import BlockRows, Places
+from reference_fe.cells.cell_group import cell_dofs, inverse_jacobians, reference_gradients
 from reference_fe.problem.domain import Domain
 
 __all__ = ["KirchhoffCells"]
@@ -38,19 +38,20 @@ class KirchhoffCells:
         self.nodes = V.dofmap.list[cells]
         self._dofs = cell_dofs(self.nodes)
         points, weights = api.gauss_rule(gauss_points)
-        self._gradients, volume = gradients_at(domain, V, cells, points)
+        self._shape = reference_gradients(V, points)
+        self._inverse, volume = inverse_jacobians(domain, cells, points)
         self._weights = weights * volume
         self._stress = np.zeros((*self._weights.shape, 3, 3))
 
     def add_force(self, u: Array, out: Array) -> None:
         """See `CellGroup`."""
-        cell_kernels.internal_force(u, self._gradients, self._weights, self._moduli, self._dofs, out)
+        cell_kernels.internal_force(u, self._shape, self._inverse, self._weights, self._moduli, self._dofs, out)
 
     def store_stress(self, u: Array, du: Array) -> None:
         """See `CellGroup`."""
-        cell_kernels.point_stress(u, du, self._gradients, self._moduli, self._dofs, self._stress)
+        cell_kernels.point_stress(u, du, self._shape, self._inverse, self._moduli, self._dofs, self._stress)
 
-    def add_tangent(self, u: Array, rows: BlockRows, places: NDArray[np.int32], values: Array) -> None:
+    def add_tangent(self, u: Array, rows: BlockRows, places: Places, values: Array) -> None:
         """See `CellGroup`."""
-        tables = (self._gradients, self._weights, self._moduli, self._dofs, rows, places, values)
+        tables = (self._shape, self._inverse, self._weights, self._moduli, self._dofs, rows, places, values)
         cell_kernels.add_tangent(u, self._stress, *tables)

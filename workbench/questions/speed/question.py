@@ -65,13 +65,13 @@ class SpeedResults:
     @property
     def pairs(self) -> list[dict[str, BenchmarkRow]]:
         """Every case beside every peer that solved it: metric -> row."""
-        cases = self.wheel.cases(ITERATION)
+        cases = self.wheel.cases(WHOLE)
         return [{m: self.wheel.row(c, m) for m in (ITERATION, ITERATIONS, WHOLE, MEMORY, "unknowns")} for c in cases]
 
     @property
     def aims(self) -> list[Aim]:
         """Aims of the kept runs, then those of this report's curves."""
-        calculix = [case for case in self.wheel.cases(ITERATION) if case.endswith("CalculiX")]
+        calculix = [case for case in self.wheel.cases(ITERATIONS) if case.endswith("CalculiX")]
         faster, fewer = "Faster an iteration than CalculiX", "Fewer iterations than CalculiX, worst case"
         aims = [
             Aim(title=f"{faster} at equal accuracy", found=self._least([EQUAL_ACCURACY], ITERATION), limit=3.0),
