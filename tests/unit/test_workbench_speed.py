@@ -43,7 +43,8 @@ def results(*curves: CurveCost) -> SpeedResults:
 
 def test_the_kept_runs_are_whole() -> None:
     wheel, ranks = read_record("fe_wheel"), read_record("fe_ranks")
-    assert set(wheel.cases("time to 20 mm")) == {f"{c} against {p}" for c in CASES for p in ("CalculiX", "FElupe")}
+    far = [case for case in CASES if not case.startswith("ground")]  # those are pressed by 5 mm
+    assert set(wheel.cases("time to 20 mm")) == {f"{c} against {p}" for c in far for p in ("CalculiX", "FElupe")}
     assert len(ranks.cases(RANKS)) == 1
     for run in kept_runs().values():
         assert len(run.commit) == 40
