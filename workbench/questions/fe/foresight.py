@@ -1,8 +1,10 @@
 """What a graph's tasks will take, by the unknowns they will have: wall time and memory, before anything is meshed.
 
 The laws are fitted to our own runs on one machine. Memory: the wheel at 23 000, 42 000, 80 000, 151 000, 227 000 and
-329 000 unknowns, met within 5 %; beyond, it is extrapolated. Time of an iteration: the wheel
-at 37 000, 92 000 and 227 000 unknowns (benchmarks/README.md), within 8 %; a machine of another speed scales all times
+329 000 unknowns with both triangles of the matrix kept; beyond, it is extrapolated. With friction they still are;
+without, it is an upper bound, 7 to 10 % too much at 22 500 and 53 000 unknowns, half too much at 227 000. Time of an
+iteration: the wheel at 37 000, 92 000 and 227 000 unknowns (benchmarks/README.md), within 8 %; a machine of another
+speed scales all times
 alike, which `RemainingTime` learns as it goes.
 Verified by tests/unit/test_workbench_foresight.py.
 """
