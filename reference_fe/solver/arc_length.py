@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
-from reference_fe.contact.two_sides import WildIterateError
+from reference_fe.contact.surface_term import WildIterateError
 from reference_fe.problem.control_rate import control_rate
 from reference_fe.problem.problem_state import ProblemState
 from reference_fe.solver import process_sums
