@@ -69,6 +69,29 @@ def optimised(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     return folder, ended.stdout
 
 
+def test_the_best_of_a_few_wheels_is_a_study_of_its_own(tmp_path: Path) -> None:
+    """Five wheels, none confirmed: best.toml has the thickness of the lightest within the limits of the table."""
+    changes = {"samples = 16": "samples = 4", "batch = 8": "batch = 4", "rounds = 0": "confirm = 0"}
+    text = _study()
+    for old, new in changes.items():
+        text = text.replace(old, new, 1)
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    ended = run(*_arguments(tmp_path, "out", "store"))
+    assert ended.returncode == 0, ended.stderr
+    assert "not confirmed by the solid model" in ended.stdout
+    rows = _rows(tmp_path / "out")
+    assert [row["point"] for row in rows] == list("01234")
+    assert {row["model"] for row in rows} == {"section"}
+    best = min((row for row in rows if row["feasible"] == "1"), key=lambda row: float(row["mass_kg"]))
+    table = tomllib.loads((tmp_path / "out" / "best.toml").read_text(encoding="utf-8"))
+    thickness = best["wheel.tire.thickness = wheel.springs[0].thickness_mm"]
+    assert "optimise" not in table
+    assert table["wheel"]["springs"][0]["thickness"] == f"{float(thickness):.6g} mm"
+    assert 9e3 <= float(best["stiffness_at_60N_N_per_m"]) <= 15e3
+    assert (tmp_path / "out" / "optimise.svg").stat().st_size > 1000
+    assert "front, section model" in (tmp_path / "out" / "optimise.html").read_text(encoding="utf-8")
+
+
 def _stiffness(thickness: float) -> float:
     """Secant stiffness at 60 N [N/m] of the section model with rim and hoops of this thickness [m], solved here."""
     table: dict[str, Any] = tomllib.loads(_study())
@@ -81,6 +104,7 @@ def _stiffness(thickness: float) -> float:
     return 60.0 / solve_section(mesh, design, load_case(task.inputs)).curve.deflection_at(60.0)
 
 
+@pytest.mark.long
 def test_the_lightest_wheel_has_the_least_stiffness_that_will_do(optimised: tuple[Path, str]) -> None:
     folder, said_so = optimised
     rows = _rows(folder / "out")
@@ -100,6 +124,7 @@ def test_the_lightest_wheel_has_the_least_stiffness_that_will_do(optimised: tupl
     assert ratio != 1.0
 
 
+@pytest.mark.long
 def test_the_confirmed_wheel_is_a_study_or_the_limit_it_breaks_is_told(optimised: tuple[Path, str]) -> None:
     folder, said_so = optimised
     record = json.loads((folder / "out" / "optimise.json").read_text(encoding="utf-8"))
@@ -118,6 +143,7 @@ def test_the_confirmed_wheel_is_a_study_or_the_limit_it_breaks_is_told(optimised
     assert (folder / "out" / "optimise.svg").stat().st_size > 1000
 
 
+@pytest.mark.long
 def test_the_same_optimisation_computes_nothing_again(optimised: tuple[Path, str]) -> None:
     folder, _ = optimised
     stored = {path: path.stat().st_mtime_ns for path in folder.glob("store/??/*/manifest.json")}
@@ -146,6 +172,7 @@ def test_a_killed_optimisation_goes_on_to_the_same_table(optimised: tuple[Path, 
     assert (folder / "killed" / "optimise.csv").read_bytes() == (folder / "out" / "optimise.csv").read_bytes()
 
 
+@pytest.mark.long
 def test_a_band_that_no_wheel_has_ends_with_the_nearest(optimised: tuple[Path, str]) -> None:
     """Over results that are stored, as the first batch is the same one."""
     folder, _ = optimised
@@ -179,7 +206,8 @@ def test_a_band_that_no_wheel_has_ends_with_the_nearest(optimised: tuple[Path, s
 )
 def test_bad_input_is_one_message(tmp_path: Path, old: str, new: str, message: str) -> None:
     (tmp_path / "study.toml").write_text(_study().replace(old, new), encoding="utf-8")
-    for arguments in (("check", tmp_path / "study.toml"), _arguments(tmp_path, "out", "store")):
+    checked = [("check", tmp_path / "study.toml")] if "confirm_step" in new else []
+    for arguments in (*checked, _arguments(tmp_path, "out", "store")):
         ended = said(*arguments, folder=tmp_path)
         assert ended.returncode == 2
         (line,) = ended.stderr.splitlines()
