@@ -19,7 +19,7 @@ PAGE = Path(__file__).parents[1] / "reference" / "dependencies.md"
 PROJECT = "wheel-workbench"
 PURPOSES = {
     "aiohttp": "the viewer's pages and who may see them",
-    "cmaes": "points of a search (`workbench sweep`)",
+    "cmaes": "points of a search (`workbench sweep`, `optimise`)",
     "distributed": "many machines (`--scheduler`); only with the extra `dask`",
     "dolfinx-solver-real": "finite elements: DOLFINx with PETSc and MUMPS, compiled",
     "gmsh": "meshes and STEP files",
