@@ -33,6 +33,8 @@ NEO_HOOKEAN, OGDEN, J2 = 0, 1, 2
 mu, R, hardening modulus, saturation stress, saturation rate."""
 PAIRS = ((0, 1), (1, 2), (0, 2))
 _TWO_THIRDS = np.sqrt(2.0 / 3.0)
+_ROUND_OFF = 1e-9
+"""Share of the yield stress by which a point must lie beyond it to flow: one that has just flowed lies on it."""
 RETURN_LIMIT = 50
 """Iterations for the plastic multiplier; where the material hardens the function is convex and none fails."""
 
@@ -113,7 +115,7 @@ def _j2(c: Array, e: Array, alpha: float, tau: Array, D: Array, d: Array, flow: 
     twice = 2.0 * c[0]
     trial = twice * np.sqrt(strain[0] ** 2 + strain[1] ** 2 + strain[2] ** 2)
     multiplier, beta, rate = 0.0, 1.0, 0.0
-    if trial > _TWO_THIRDS * yield_stress(c, alpha)[0]:
+    if trial > _TWO_THIRDS * yield_stress(c, alpha)[0] * (1.0 + _ROUND_OFF):
         multiplier, slope = _return_length(c, trial, alpha)
         beta = 1.0 - twice * multiplier / trial
         rate = 1.0 / (1.0 + slope / (3.0 * c[0])) - (1.0 - beta)

@@ -15,6 +15,7 @@ from functools import partial
 import numpy as np
 
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
+from contracts.material_laws import J2Plasticity
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from contracts.modes import Modes
@@ -93,7 +94,8 @@ def wheel_modes(
     Raises
     ------
     InputError
-        For a load that is not positive, friction on the ground, a part without a material, and as `natural_modes` does.
+        For a load that is not positive, friction on the ground, a part without a material, one that yields in a wheel
+        that stands, and as `natural_modes` does.
     ConvergenceError
         If the wheel does not come to stand under the load, or modes are not found.
     """
@@ -106,6 +108,10 @@ def wheel_modes(
         told = f"{state.value} on {type(load_case.obstacle).__name__}"
         raise InputError("grip", told, "needs a wheel that stands on a plane", "leave it out")
     wheel = wheel_problem(mesh, materials, load_case)
+    if state is WheelState.STANDING and wheel.problem.histories.remembered:
+        rule = "yields: its wheel is not pressed to and fro until it stands under a load, which it would not forget"
+        flowing = [part for part, law in wheel.problem.laws.items() if isinstance(law, J2Plasticity)]
+        raise InputError("material law", ", ".join(flowing), rule, "ask with an elastic law")
     standing = _Standing(wheel)
     if state is WheelState.STANDING:
         standing.reach(load, load_case, progress)

@@ -60,7 +60,7 @@ def wheel_problem(mesh: TaggedMesh, materials: Mapping[str, Material], load_case
     rigid = tuple(part for part in load_case.rigid_parts if part in mesh.parts)
     flexible = {part: materials[part] for part in mesh.parts if part not in rigid and part in materials}
     half_width = "symmetry" in mesh.faces
-    _check_symmetry(load_case, prismatic=half_width or mesh.dim == 2)
+    _check_symmetry(load_case, prismatic=half_width or mesh.dim == 2, planar=mesh.dim == 2)
     supports = hub_supports(mesh, rigid, materials, load_case)
     if half_width:
         supports.append(Support(faces=("symmetry",), components=(1,)))
@@ -134,7 +134,7 @@ def ground_axes(down: NDArray[np.float64], load_case: WheelLoadCase) -> tuple[ND
     return normal, np.cos(yaw) * forward + np.sin(yaw) * across
 
 
-def _check_symmetry(load_case: WheelLoadCase, *, prismatic: bool) -> None:
+def _check_symmetry(load_case: WheelLoadCase, *, prismatic: bool, planar: bool) -> None:
     """Refuse a half-width or planar wheel on an obstacle that is not symmetric about its mid-plane."""
     turned, rule = (
         load_case.camber_deg or load_case.obstacle.yaw_deg,
@@ -142,6 +142,8 @@ def _check_symmetry(load_case: WheelLoadCase, *, prismatic: bool) -> None:
     )
     if prismatic and turned:
         raise InputError("camber or yaw", f"{turned:g} deg", rule, "mesh the full width")
+    if planar and load_case.travel is not None and load_case.travel.way.turns:
+        raise InputError("travel", load_case.travel.way.value, "turns what is solved in one plane", "mesh the wheel")
     if prismatic and load_case.travel is not None and not load_case.travel.way.mirrored:
         raise InputError("travel", load_case.travel.way.value, rule, "mesh the full width")
 

@@ -9,10 +9,22 @@ plate 2 % on 8 x 8 cells, from above; column 0.1 %. Negative controls: density t
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from contracts.material_laws import J2Plasticity
+from contracts.materials import Material
+from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.increments import solve_increments
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
+from reference_fe.verification.structured_hexahedra import block_mesh
 from reference_fe.verification.vibration import bar, cantilever_plate, column, free_ring
+from reference_fe.vibration.body import Support as Held
+from reference_fe.vibration.body import natural_modes
 
 
 def test_bar_converges_with_the_fourth_order() -> None:
@@ -49,6 +61,22 @@ def test_cantilever_plate() -> None:
     sums = found.modes.effective_mass.sum(axis=0) / found.modes.moving
     assert 0.7 < sums[2] < 1.0  # across the plate; along it nothing moves
     assert sums[0] < 1e-9
+
+
+def test_a_bar_that_flowed_vibrates_elastically() -> None:
+    """Its points lie on the yield surface: as when they are unloaded a little, and in pairs, for it is square."""
+    soft = Material(name="soft", young_modulus=1e7, poisson_ratio=0.3, density=1.0, yield_strength=1e5, source="test")
+    mesh = block_mesh((4, 1, 1), lambda X: X * [1.0, 0.1, 0.1])
+    ends = Support(faces=("x0",)), Support(faces=("x1",), components=(0,), value=(0.02,))
+    problem = StaticProblem(Domain.from_tagged(mesh), {"body": replace(soft, law=J2Plasticity())}, ends)
+    held = np.unique(np.concatenate([bc.dof_indices()[0] for bc in problem.bcs[:3]])).astype(np.int64)
+    path, found = iter([0.25, 0.5, 0.75, 1.0, 0.9999]), list[np.ndarray]()
+    for state in solve_increments(NewtonSolver(problem, NewtonSettings()), lambda _: next(path, None), []):
+        if state.control > 0.9:
+            found.append(natural_modes(problem, {"body": 1.0}, Held(held=held), 4).frequency)
+    pulled, unloaded = found
+    np.testing.assert_allclose(pulled, unloaded, rtol=1e-3)
+    np.testing.assert_allclose(pulled[::2], pulled[1::2], rtol=1e-6)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 0.9, -1.0])

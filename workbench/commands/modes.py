@@ -69,6 +69,9 @@ class ModeChoices:
                 raise InputError(name, f"{value:g}", f"is of no use to --state {self.state}", "leave it out")
         if self.orientation is not None:
             check_orientation(self.orientation)
+        if self.load is not None and self.load > study.fe.max_load:
+            rule = f"must be at most fe.max_load, {study.fe.max_load:g} N, at which the study's curves end"
+            raise InputError("load", f"{self.load:g} N", rule, "raise fe.max_load")
         stands = self.state == "standing"
         faces = degrees(study.fe.orientations[0]) if self.orientation is None else self.orientation
         return AskedModes(

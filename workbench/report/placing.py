@@ -56,7 +56,7 @@ def new_files(out: Path, by: str, names: Sequence[str], *, whole_set: bool = Fal
     out : the user's folder
     by : the command that writes them
     names : what will be written, with ``/`` for folders; the last one takes its place last
-    whole_set : files in folders of ``out`` that this command wrote before and does not write now are removed
+    whole_set : files in ``out`` that this command wrote before and does not write now are removed
 
     Raises
     ------
@@ -104,7 +104,7 @@ def _placed(out: Path, fresh: Path, digests: Mapping[str, str], by: str, whole_s
     if listed is None and os.path.lexists(out / FILES):
         told.append(f"{out / FILES} is damaged, so nothing was removed from {out}")
         foreign.append(FILES)
-    stale = [name for name, one in own.items() if whole_set and one.by == by and "/" in name and name not in digests]
+    stale = [name for name, one in own.items() if whole_set and one.by == by and name not in digests]
     for name in own:
         known = (*own[name].digests, *((digests[name],) if name in digests else ()))
         if (name in digests or name in stale) and os.path.lexists(out / name) and not holds(out / name, known):
