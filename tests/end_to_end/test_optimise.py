@@ -82,6 +82,7 @@ def test_the_best_of_a_few_wheels_is_a_study_of_its_own(tmp_path: Path) -> None:
     rows = _rows(tmp_path / "out")
     assert [row["point"] for row in rows] == list("01234")
     assert {row["model"] for row in rows} == {"section"}
+    assert {(row["negative_pivots"], row["miss_stability"]) for row in rows} == {("0.0", "0.0")}
     best = min((row for row in rows if row["feasible"] == "1"), key=lambda row: float(row["mass_kg"]))
     table = tomllib.loads((tmp_path / "out" / "best.toml").read_text(encoding="utf-8"))
     thickness = best["wheel.tire.thickness = wheel.springs[0].thickness_mm"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,11 +17,11 @@ from contracts.hub_travel import Way
 from workbench.commands.optimise_search import Optimised, search_and_confirm
 from workbench.commands.point_batches import PointBatches
 from workbench.questions.model_curves import mean_curve
-from workbench.questions.optimise.judging import Limit, corrected, front, nearest
-from workbench.questions.optimise.words import told_limits, told_point
+from workbench.questions.optimise.judging import Assessed, Limit, assess, best, corrected, front, limits_of, nearest
+from workbench.questions.optimise.words import told_limits, told_point, told_verdict
 from workbench.questions.sweep.graph import SweepRun, sweep_graph
 from workbench.questions.sweep.likeness import alike, unlike
-from workbench.questions.sweep.results import Outcome, measured
+from workbench.questions.sweep.results import Outcome, measured, pivots_up_to
 from workbench.questions.sweep.wheel_facts import WheelFacts, wheel_facts
 from workbench.study.optimise import OptimiseSection
 from workbench.study.reading import read_study, read_study_table, study_of
@@ -34,12 +35,17 @@ FACTS = wheel_facts(STUDY)
 SWEEP = SweepSection.model_validate({"strip_thickness": ["0.5 mm"], "loads": ["150 N"]})
 
 
-def _line(stiffness: float, orientation: float, stress: float = 2e6) -> StiffnessCurve:
-    """A straight line up to 300 N, with a stress in proportion to the load."""
-    load = np.linspace(0.0, 300.0, 61)
+def _line(stiffness: float, orientation: float, stress: float = 2e6, end: float = 300.0) -> StiffnessCurve:
+    """A straight line in steps of 5 N up to an end, with a stress in proportion to the load."""
+    load = np.arange(0.0, end + 1.0, 5.0)
     columns = {"max_linearised_leaves_Pa": stress * load, "max_von_mises_leaves_Pa": 2.0 * stress * load}
     return StiffnessCurve(
-        model="section", orientation_deg=orientation, deflection=load / stiffness, load=load, columns=columns
+        model="section",
+        orientation_deg=orientation,
+        deflection=load / stiffness,
+        load=load,
+        columns=columns,
+        partial=end < 300.0,
     )
 
 
@@ -84,6 +90,15 @@ def test_rows_of_other_meshes_models_and_stresses_are_not_alike() -> None:
     wide = STUDY.model_copy(update={"mesh": STUDY.mesh.model_copy(update={"axial_size": 0.05})})
     assert alike([_outcome([bare]), _outcome([bare], 2, study=wide)]) == [1, 1]  # no width in a section
     assert alike([_outcome([bare]), _outcome([bare], 2, "fe"), Outcome(run=rows[0].run)]) == [1, 2, None]
+
+
+def test_what_resists_a_turn_is_a_moment() -> None:
+    sweep = SWEEP.model_copy(update={"travels": tuple(Way)})
+    names = [name for name in measured(_outcome([_line(8e3, 0.0)]), sweep, 0.005) if name.split("_stiff")[0] in Way]
+    assert {name.split("_stiff")[0]: name.partition("150N_")[2] for name in names} == {
+        **dict.fromkeys(("fore_aft", "lateral", "radial"), "N_per_m"),
+        **dict.fromkeys(("turning", "leaning", "wind_up"), "N_m_per_rad"),
+    }
 
 
 def test_a_sweep_that_moves_the_hub_has_its_tasks() -> None:
@@ -199,7 +214,57 @@ def test_a_band_that_no_wheel_has_is_told_with_the_nearest(capsys: pytest.Captur
     )
 
 
-def test_a_curve_that_ends_below_the_load_misses_by_what_lacks() -> None:
+def _judged(curves: Sequence[StiffnessCurve], **more: Any) -> tuple[Assessed, OptimiseSection]:
+    """A band of 8 to 9 N/mm at 150 N."""
+    variables = {"wheel.tire.thickness": {"low": "0.4 mm", "high": "2 mm"}}
+    band = {"low": "8 N/mm", "high": "9 N/mm"}
+    section = OptimiseSection.model_validate({"variables": variables, "load": "150 N", "stiffness": band} | more)
+    outcome = _outcome(curves)
+    return assess(outcome, measured(outcome, section.as_sweep, 0.005), section, limits_of(section)), section
+
+
+@pytest.mark.parametrize("end", [0.0, 130.0])
+def test_an_orientation_that_never_bears_the_load_misses_by_what_lacks(end: float) -> None:
+    """The mean of the others, or of both up to 130 N of the softer, 185 of the stiffer, lies within the band."""
+    curves = [_line(10e3, 0.0), _line(7e3, 15.0)] if end else [_line(8.5e3, 0.0), _line(8.5e3, 15.0)]
+    whole, section = _judged(curves)
+    assert whole.feasible  # negative control
+    cut, _ = _judged([curves[0], _line(7e3, 15.0, end=end)])
+    mean = measured(cut.outcome, section.as_sweep, 0.005)["stiffness_at_150N_N_per_m"]
+    assert mean == pytest.approx(8.5e3)
+    assert not cut.feasible
+    assert cut.misses == {"stiffness": pytest.approx(2.0 - end / 150.0), "stability": 0.0}
+    assert "stiffness at 150 N unknown; misses stiffness by" in told_point(cut, section)
+
+
+def test_a_wheel_that_buckles_below_the_load_is_not_feasible() -> None:
+    """A negative pivot from 100 N on: 95 N are borne stably. Past the load, or with friction, none counts."""
+    found = {}
+    for begins in (0.0, 100.0, 155.0, math.inf):
+        line = _line(8.5e3, 15.0)
+        pivots = np.where(line.load >= begins, 2.0, 0.0)
+        curve = replace(line, columns={**line.columns, "negative_pivots": pivots})
+        found[begins], section = _judged([_line(8.5e3, 0.0), curve], utilisation=1.0, gap="50 mm")
+    assert [found[begins].feasible for begins in found] == [False, False, True, True]
+    assert found[100.0].misses["stability"] == pytest.approx(55.0 / 150.0)
+    assert found[0.0].misses["stability"] == 1.0
+    assert told_point(found[100.0], section).endswith("; buckles past 95 N")
+    assert told_verdict(found[100.0]) == "buckles"
+    assert best(list(found.values()), section.objective) in (found[155.0], found[math.inf])
+
+
+def test_pivots_count_up_to_where_a_load_is_first_borne() -> None:
+    """A curve that snaps through: 160 N at the second point, 50 N at the third."""
+    load = np.array([0.0, 160.0, 50.0, 300.0])
+    columns = {"negative_pivots": np.array([0.0, 0.0, 1.0, 0.0])}
+    curve = StiffnessCurve(
+        model="section", orientation_deg=0.0, deflection=1e-3 * np.arange(4.0), load=load, columns=columns
+    )
+    counts = [pivots_up_to(curve, wanted) for wanted in (150.0, 200.0, 400.0)]
+    assert [None if count is None else count.tolist() for count in counts] == [[0, 0], [0, 0, 1, 0], [0, 0, 1, 0]]
+
+
+def test_limits_are_relative_and_corrected_by_what_both_models_make_of_a_point() -> None:
     limit = Limit(name="gap", column="gap_at_150N_m", low=0.08)
     assert limit.miss(0.06) == pytest.approx(0.25)
     assert limit.miss(0.09) == 0.0

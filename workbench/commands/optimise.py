@@ -19,7 +19,7 @@ from workbench.execution.runner import Computing
 from workbench.execution.store import Store
 from workbench.questions.ancf_wheel.graph import require_ancf_wheel
 from workbench.questions.optimise.figures import confirmed_figure, trade_figure
-from workbench.questions.optimise.judging import Assessed, front, limits_of, nearest
+from workbench.questions.optimise.judging import STABILITY, Assessed, front, limits_of, nearest
 from workbench.questions.optimise.table import optimise_table
 from workbench.questions.optimise.words import limited, told_difference, told_limits, told_point
 from workbench.questions.section.graph import without_planar_model
@@ -95,7 +95,9 @@ def _sentences(section: OptimiseSection, found: Optimised, points: Sequence[Asse
     """What was found."""
     refused = sum(point.outcome.curve is None for point in points)
     counts = f"{len(points)} wheels by the {section.model} model, {sum(p.feasible for p in points)} within the limits"
-    told = [f"{counts}, {refused} could not be meshed or pressed" if refused else counts]
+    buckled = sum(point.misses[STABILITY] > 0.0 for point in points)
+    refusals = f", {refused} could not be meshed or pressed" if refused else ""
+    told = [f"{counts}{refusals}{f', {buckled} buckle below the load' if buckled else ''}"]
     if len(found.limits) > 1:
         told.append(f"limits of the last search, corrected by the solid model: {told_limits(found.limits[-1])}")
     told += [

@@ -29,7 +29,7 @@ from workbench.questions.optimise.judging import (
     nearest,
 )
 from workbench.questions.optimise.linearised import proposal
-from workbench.questions.optimise.words import told_limits, told_point
+from workbench.questions.optimise.words import told_limits, told_point, told_verdict
 from workbench.questions.sweep.results import Outcome, measured
 from workbench.questions.sweep.search import Strategy
 from workbench.study.optimise import OptimiseSection
@@ -116,9 +116,8 @@ class _Rounds:
             fast = next(numbers for o, numbers in found.searched if o.run.point.number == first.found)
             found.limits.append(corrected(found.limits[0], fast, first.solid.numbers))
             told = told_limits(found.limits[-1])
-            console.print(
-                f"the solid model breaks a limit; searched again for {told} by {section.model}", soft_wrap=True
-            )
+            why = f"the solid model {told_verdict(first.solid)}"
+            console.print(f"{why}; searched again for {told} by {section.model}", soft_wrap=True)
         return found
 
     def _search(self, number: int) -> None:
@@ -212,8 +211,8 @@ class _Rounds:
         new = [Confirmed(found=point.number, fast=fast, solid=solid) for point, fast, solid in pairs]
         self.found.confirmed += new
         for one in new:
-            within = "within the limits" if one.solid.feasible else "breaks a limit"
-            console.print(f"{one.found}, solid: {within}: {told_point(one.solid, section)}", soft_wrap=True)
+            verdict = told_verdict(one.solid)
+            console.print(f"{one.found}, solid: {verdict}: {told_point(one.solid, section)}", soft_wrap=True)
         return new[0]
 
 

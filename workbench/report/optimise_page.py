@@ -9,8 +9,15 @@ from string import Template
 
 from contracts.text import for_html
 from workbench.charts.interactive import Figure, figure_html
-from workbench.questions.optimise.judging import Assessed, Confirmed, limits_of
-from workbench.questions.optimise.words import limited, told_difference, told_limits, told_number
+from workbench.questions.optimise.judging import STABILITY, Assessed, Confirmed, limits_of
+from workbench.questions.optimise.words import (
+    limited,
+    told_buckling,
+    told_difference,
+    told_limits,
+    told_number,
+    told_verdict,
+)
 from workbench.questions.sweep.table import SweepTable
 from workbench.questions.sweep.words import Column, column_of
 from workbench.report.sweep_page import points_page, points_table
@@ -62,7 +69,9 @@ def optimise_page(
 def _confirmed(one: Confirmed, figure: Figure, section: OptimiseSection) -> str:
     difference = told_difference(one, section)
     words = f"{section.model} against solid model at the same orientations: {difference}." if difference else ""
-    head = f"Point {one.found} confirmed by the solid model, {'within' if one.solid.feasible else 'beyond'} the limits"
+    buckling = f" The solid model {told}." if (told := told_buckling(one.solid, section)) else ""
+    head = f"Point {one.found} by the solid model: {told_verdict(one.solid)}"
+    words = f"{words}{buckling}"
     return f"<h2>{for_html(head)}</h2><p>{for_html(words)}</p>{figure_html(figure, f'confirmed-{one.found}')}"
 
 
@@ -80,4 +89,5 @@ def _table(table: SweepTable, section: OptimiseSection) -> str:
     columns = [Column(name=name, label=label, factor=1.0) for name, label in labels.items()]
     columns += [Column(name=n, label=label, factor=1.0) for n, label in zip(table.inputs, table.labels, strict=True)]
     numbers = dict.fromkeys([section.objective.column, *limited(section), section.trade.column])
-    return points_table(shown, [*columns, *(column_of(name) for name in numbers)])
+    buckling = Column(name=f"miss_{STABILITY}", label="load lacking to stability", factor=1.0)
+    return points_table(shown, [*columns, *(column_of(name) for name in numbers), buckling])

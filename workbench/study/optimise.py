@@ -75,7 +75,8 @@ class OptimiseSection(Section):
     objective : what is sought
     against : what the figure of trade-offs shows beside it
     stiffness, utilisation, gap : limits at the load: secant stiffness of the mean curve [N/m], largest stress over
-        yield of any part at any orientation [-], room between hub and rim at the softest orientation [m]
+        yield of any part at any orientation [-], room between hub and rim less the deflection of the softest
+        orientation [m], of which a rim that is dented has less
     samples, batch, seed, first_step : of CMA-ES, as of a search in [sweep]
     confirm : points that the solid model runs, the best one and others of the front
     confirm_step : between the orientations of these runs, over the wheel's period; the study's own if left out
@@ -97,7 +98,7 @@ class OptimiseSection(Section):
     utilisation: Annotated[Number, Positive] | None = None
     """Largest stress over yield of any part at any orientation, up to the load [-]."""
     gap: Drop | None = None
-    """Least room between hub and rim at the load, at any orientation [m]."""
+    """Least room between hub and rim less the largest deflection, at the load [m]; a rim that is dented has less."""
     samples: Annotated[StrictInt, Field(ge=4, le=MOST_POINTS)] = 96
     """Points of the first search."""
     batch: Annotated[StrictInt, Field(ge=4, le=1000)] = 12

@@ -12,10 +12,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from workbench.questions.sweep.results import Outcome
+import numpy as np
+
+from workbench.questions.sweep.results import Outcome, pivots_up_to
 from workbench.study.optimise import OptimiseSection, Wish
 
 __all__ = [
+    "STABILITY",
     "WEIGHT",
     "Assessed",
     "Confirmed",
@@ -35,6 +38,8 @@ _MISSING = 10.0
 """Relative miss of a limit whose number a point does not have because it has no curve."""
 WEIGHT = 10.0
 """Cost of a relative miss of 1."""
+STABILITY = "stability"
+"""Name of the miss of a wheel that buckles, beside those of the limits."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,9 +65,10 @@ class Assessed:
     Attributes
     ----------
     outcome : its curves by one model
-    numbers : what the table tells of it
+    numbers : what the table tells of it; limited ones are None where an orientation does not bear the load
     objective : its value, in the unit of its column; None where it has none
-    misses : of each limit, relative to it [-]; 0 where it holds
+    misses : of each limit, relative to it, and of `STABILITY` the share of the load that is not borne stably [-];
+        0 where it holds
     """
 
     outcome: Outcome
@@ -77,12 +83,12 @@ class Assessed:
 
     @property
     def feasible(self) -> bool:
-        """Whether every limit holds and the objective is known."""
+        """Whether every limit holds, no orientation buckles up to the load and the objective is known."""
         return self.objective is not None and not any(self.misses.values())
 
     @property
     def missed(self) -> float:
-        """What all limits are missed by [-]."""
+        """What all limits and stability are missed by [-]."""
         return sum(self.misses.values())
 
     def cost(self, wish: Wish, scale: float) -> float:
@@ -113,15 +119,22 @@ def limits_of(section: OptimiseSection) -> tuple[Limit, ...]:
 
 
 def assess(outcome: Outcome, numbers: Numbers, section: OptimiseSection, limits: Sequence[Limit]) -> Assessed:
-    """An outcome against limits; one whose curve ends below the load misses each by 1 and the share that lacks."""
+    """An outcome against limits and for stability.
+
+    Where an orientation does not bear the load every limit is missed by 1 and the share that lacks, whatever the mean
+    of the others says.
+    """
     objective = numbers.get(section.objective.column)
     share = _share(outcome, section.load)
     lacking = _MISSING if share is None else 2.0 - share
+    if lacking > 1.0:
+        numbers = {**numbers, **dict.fromkeys(limit.column for limit in limits)}
     misses = {}
     for limit in limits:
         value = numbers.get(limit.column)
         known = isinstance(value, float) and math.isfinite(value)
         misses[limit.name] = limit.miss(value) if known and isinstance(value, float) else lacking
+    misses[STABILITY] = _unstable(outcome, section.load)
     known_objective = float(objective) if isinstance(objective, float | int) else None
     return Assessed(outcome=outcome, numbers=numbers, objective=known_objective, misses=misses)
 
@@ -131,6 +144,19 @@ def _share(outcome: Outcome, load: float) -> float | None:
     if outcome.curve is None or not outcome.by_orientation:
         return None
     return min(1.0, min(float(curve.load.max()) for curve in outcome.by_orientation) / load)
+
+
+def _unstable(outcome: Outcome, load: float) -> float:
+    """Share of the load beyond the last point before a negative pivot, of the orientation where that is most [-].
+
+    0 where there is none up to the load, or none is counted, as with friction.
+    """
+    most = 0.0
+    for curve in outcome.by_orientation:
+        counts = pivots_up_to(curve, load)
+        if counts is not None and counts.any():
+            most = max(most, 1.0 - float(curve.load[: int(np.argmax(counts > 0.0))].max(initial=0.0)) / load)
+    return most
 
 
 def best(points: Sequence[Assessed], wish: Wish) -> Assessed | None:

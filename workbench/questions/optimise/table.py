@@ -37,7 +37,7 @@ def optimise_table(
     Returns
     -------
     table : behind a sweep's columns ``round``, ``confirms``, ``feasible`` (1: within the limits), ``miss_...`` of each
-        limit, relative to it, and ``front``
+        limit, relative to it, and of stability, and ``front``
     """
     swept = study.model_copy(update={"sweep": section.as_sweep})
     whole = sweep_table(swept, keys, [point.outcome for point in points], {})

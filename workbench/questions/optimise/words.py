@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from workbench.questions.optimise.judging import Assessed, Confirmed, Limit, limits_of
+from workbench.questions.optimise.judging import STABILITY, Assessed, Confirmed, Limit, limits_of
 from workbench.questions.sweep.words import column_of
 from workbench.study.optimise import OptimiseSection
 
-__all__ = ["limited", "told_difference", "told_limits", "told_number", "told_point"]
+__all__ = ["limited", "told_buckling", "told_difference", "told_limits", "told_number", "told_point", "told_verdict"]
 
 
 def told_number(name: str, value: float | str | None) -> str:
@@ -21,12 +21,29 @@ def told_number(name: str, value: float | str | None) -> str:
 
 
 def told_point(point: Assessed, section: OptimiseSection) -> str:
-    """Number of a point, its objective and the numbers that are limited; by how much it misses a limit."""
+    """Number of a point, its objective and the numbers that are limited; by how much it misses a limit; buckling."""
     names = [section.objective.column, *limited(section)]
     told = ", ".join(told_number(name, point.numbers.get(name)) for name in dict.fromkeys(names))
-    missed = ", ".join(f"{name} by {100.0 * miss:.2g} %" for name, miss in point.misses.items() if miss)
+    missed = ", ".join(f"{name} by {100.0 * miss:.2g} %" for name, miss in _limits_missed(point).items())
     early = f" ({point.outcome.note})" if point.outcome.note else ""
-    return f"{point.number}: {told}{f'; misses {missed}' if missed else ''}{early}"
+    both = "".join(f"; {words}" for words in (missed and f"misses {missed}", told_buckling(point, section)) if words)
+    return f"{point.number}: {told}{both}{early}"
+
+
+def told_buckling(point: Assessed, section: OptimiseSection) -> str:
+    """``"buckles past 130 N"``, the last load borne without a negative pivot; ``""`` of a wheel that does not."""
+    lacking = point.misses[STABILITY]
+    return f"buckles past {(1.0 - lacking) * section.load:.4g} N" if lacking else ""
+
+
+def told_verdict(point: Assessed) -> str:
+    """``"within the limits"``, ``"breaks a limit"``, ``"buckles"`` or both of these."""
+    found = [*(["breaks a limit"] if _limits_missed(point) else []), *(["buckles"] if point.misses[STABILITY] else [])]
+    return " and ".join(found) or "within the limits"
+
+
+def _limits_missed(point: Assessed) -> dict[str, float]:
+    return {name: miss for name, miss in point.misses.items() if miss and name != STABILITY}
 
 
 def told_limits(limits: Sequence[Limit]) -> str:

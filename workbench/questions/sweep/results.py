@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contracts.curves import Around, StiffnessCurve, read_curve
 from contracts.errors import InputError
@@ -30,7 +31,16 @@ from workbench.study.full import around
 from workbench.study.model import Study
 from workbench.study.sweep import SweepSection
 
-__all__ = ["Outcome", "Reference", "measured", "nearest_orientation", "outcomes", "own_curves", "references"]
+__all__ = [
+    "Outcome",
+    "Reference",
+    "measured",
+    "nearest_orientation",
+    "outcomes",
+    "own_curves",
+    "pivots_up_to",
+    "references",
+]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -200,7 +210,7 @@ def measured(
         found[f"spread_at_{1e3 * d:g}mm"] = None if curve is None else _spread(curve, d)
     found |= wheel_numbers(outcome.wheel, curve, outcome.by_orientation, section.loads)
     for way in section.travels:
-        unit = "N_m_per_rad" if way is Way.TURNING else "N_per_m"
+        unit = "N_m_per_rad" if way.turns else "N_per_m"
         found[f"{way}_stiffness_at_{section.loads[0]:g}N_{unit}"] = outcome.travels.get(way)
     found["negative_pivots"] = _negative_pivots(outcome.by_orientation, max(section.loads))
     for name, own in (followed or {}).items():
@@ -231,9 +241,14 @@ def _spread(curve: StiffnessCurve, deflection: float) -> float | None:
 
 def _negative_pivots(curves: Sequence[StiffnessCurve], load: float) -> float | None:
     """Largest number of negative pivots of all orientations up to a load [N]."""
-    name = "negative_pivots"
-    counts = [c.columns[name][: int(np.searchsorted(c.load, load)) + 1] for c in curves if name in c.columns]
+    counts = [count for curve in curves if (count := pivots_up_to(curve, load)) is not None]
     return max((float(np.max(count)) for count in counts), default=None)
+
+
+def pivots_up_to(curve: StiffnessCurve, load: float) -> NDArray[np.float64] | None:
+    """Negative pivots at each point up to the first that bears the load [N], at all if none does; None if uncounted."""
+    counts, reached = curve.columns.get("negative_pivots"), np.flatnonzero(curve.load >= load)
+    return counts if counts is None or not len(reached) else counts[: int(reached[0]) + 1]
 
 
 def nearest_orientation(

@@ -62,7 +62,7 @@ def wheel_numbers(
     ``mass_kg`` is all parts', ``mass_off_hub_kg`` that of all but hubs, cone and impact springs. Stiffness is the
     secant, load over deflection, of the mean and of the softest and the stiffest orientation. ``utilisation`` is the
     largest of any part at any orientation, up to the load, ``weakest`` the orientation that has it. ``gap`` is the room
-    between hub and rim less the largest deflection: what a rim that is not dented leaves above the ground.
+    between hub and rim less the largest deflection; a rim that is dented has less.
     """
     masses = {} if facts is None else facts.masses
     off_hub = [mass for part, mass in masses.items() if part not in HUB_PARTS]
