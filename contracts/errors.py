@@ -125,9 +125,9 @@ class LimitLoad:
     ----------
     branch : whether the drive does no work on the mode: a branch point
     control : control parameter at which the tangent's lowest eigenvalue reaches zero, extrapolated [its unit]
-    load : force on the mesh: of the obstacle, else of the supports that move, else of all supports, at the last
-        converged state [N]
-    left : that eigenvalue there over the one at the state before [-]
+    load : force on the mesh there, extrapolated: of the obstacle, else of the supports that move, else of all
+        supports [N]
+    left : that eigenvalue at the last converged state over the one at the state before [-]
     part, place : part, and reference place (dim,) [m], of the node that moves most in its mode
     """
 

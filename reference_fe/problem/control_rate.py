@@ -1,4 +1,4 @@
-"""What the control parameter changes: loads, supports, and the place of an obstacle."""
+"""What the control parameter changes: loads, supports, and the place of an obstacle; whether the way there counts."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from reference_fe.problem.static_problem import StaticProblem
 
-__all__ = ["control_rate"]
+__all__ = ["control_rate", "depends_on_the_way"]
 
 type Array = NDArray[np.float64]
 
@@ -46,6 +46,15 @@ def control_rate(problem: StaticProblem, control: float, body_residual: Array) -
     displacement += _prescribed(problem)[:own]
     problem.set_control(control)
     return force, displacement
+
+
+def depends_on_the_way(problem: StaticProblem) -> bool:
+    """Whether equilibria depend on how they are reached: material with a memory, friction, multipliers of contact.
+
+    Verified by tests/verification/test_fe_arc_length.py and tests/verification/test_fe_limit_point.py.
+    """
+    multipliers = problem.contact is not None and problem.contact.closes_gaps
+    return bool(problem.histories.remembered) or not problem.surfaces.symmetric or multipliers
 
 
 def _prescribed(problem: StaticProblem) -> Array:

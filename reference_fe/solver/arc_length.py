@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError, IncrementRecord, InputError
 from reference_fe.contact.surface_term import WildIterateError
-from reference_fe.problem.control_rate import control_rate
+from reference_fe.problem.control_rate import control_rate, depends_on_the_way
 from reference_fe.problem.problem_state import ProblemState
 from reference_fe.solver import process_sums
 from reference_fe.solver.converged_state import ConvergedState
@@ -35,6 +35,8 @@ SMALLEST_FRACTION = 1.0 / 1024.0
 """An arc cut below this fraction of the first one ends the run."""
 LARGEST_CHANGE = 2.0
 """By which an arc is lengthened from one point to the next at most; a failed one is halved."""
+ROOM = 1.1
+"""Chords to the point beyond the target, within which the state at the target must lie; else it is another path's."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,37 +87,39 @@ def follow_path(
     Parameters
     ----------
     start : control parameter of the present displacement, an equilibrium
-    target : control parameter at which it ends, with a state exactly there, the first time the path passes it
+    target : control parameter at which it ends, with a state exactly there, the first time the path passes it, from
+        below or above
     first_arc : the first arc, root of the sum of the squares of all unknowns' changes [m]; None goes by ``arc.first``
 
     Raises
     ------
     InputError
         For material or contact with a memory (plastic flow, friction, multipliers): what they do depends on the way
-        there, which is not known before it is gone.
+        there, which is not known before it is gone. For a first arc that is not above zero.
     ConvergenceError
-        When the arc falls below 1/1024 of the first, or after ``attempt_limit`` attempts; carries history. Where the
-        control parameter moves nothing.
+        When the arc falls below 1/1024 of the first, when ``history`` has ``attempt_limit`` attempts before the target
+        is reached, or where the control parameter moves nothing; carries history.
     """
     problem = solver.problem
-    multipliers = problem.contact is not None and problem.contact.closes_gaps
-    if problem.histories.remembered or not problem.surfaces.symmetric or multipliers:
+    if depends_on_the_way(problem):
         rule = "is followed along no path: what it does depends on the way there"
         raise InputError("yielding material, friction or multipliers", "", rule, "leave them away, or drive the load")
+    if first_arc is not None and not (np.isfinite(first_arc) and first_arc > 0.0):
+        raise InputError("first arc", first_arc, "must be finite and > 0 m", "leave it out: it then goes by arc.first")
     problem.set_control(start)
-    run, largest = _Run(solver), 0.0
+    run, largest = _Run(solver, history), 0.0
     here = run.begin(start, way=arc.first)
     first = length = abs(arc.first / here.rate) if first_arc is None else first_arc
     while True:
         length = min(length, arc.widest / abs(here.rate))
         reached = run.attempt(here, length)
         rise = reached.control - here.control
-        passed = reached.outcome.converged and (here.control < target <= reached.control)
+        crossed = here.control < target <= reached.control or here.control > target >= reached.control
+        passed = reached.outcome.converged and crossed
         if passed:
             reached = run.land(here, reached, target)
-        record = IncrementRecord(
-            target=reached.control, step=rise, converged=reached.outcome.converged, residuals=reached.outcome.residuals
-        )
+        did = reached.outcome
+        record = IncrementRecord(target=reached.control, step=rise, converged=did.converged, residuals=did.residuals)
         history.append(record)
         if on_attempt is not None:
             on_attempt(record)
@@ -132,6 +136,9 @@ def follow_path(
             )
             if passed:
                 return
+            if len(history) >= attempt_limit:
+                told = f"{len(history)} attempts end at control {here.control:.6g}, before the target"
+                raise ConvergenceError(f"{told}; allow more attempts, or longer arcs", history)
             change = np.sqrt(arc.iterations / max(1, here.outcome.iterations))
             length = min(length * min(change, LARGEST_CHANGE), arc.longest * first)
             continue
@@ -172,8 +179,8 @@ class _Reached:
 class _Run:
     """Points of one path."""
 
-    def __init__(self, solver: NewtonSolver) -> None:
-        self._solver, self._problem = solver, solver.problem
+    def __init__(self, solver: NewtonSolver, history: list[IncrementRecord]) -> None:
+        self._solver, self._problem, self._history = solver, solver.problem, history
 
     def begin(self, control: float, *, way: float) -> _Point:
         """The present equilibrium, with the way on along which the control parameter changes as ``way`` does."""
@@ -200,7 +207,7 @@ class _Run:
         size = process_sums.global_norm(by)
         if size == 0.0:
             told = f"the control parameter moves nothing at {control:.6g}: no load, or an obstacle that does not touch"
-            raise ConvergenceError(told, [])
+            raise ConvergenceError(told, self._history)
         rate = np.copysign(1.0 / size, sense(by))
         return _Point(
             control=control,
@@ -267,12 +274,18 @@ class _Run:
         return body, body - force
 
     def land(self, here: _Point, beyond: _Reached, target: float) -> _Reached:
-        """The equilibrium at a control parameter between two points, sought from where the chord passes it."""
+        """The equilibrium at a control parameter between two points, from their chord; none behind or beyond them."""
         problem = self._problem
         share = (target - here.control) / (beyond.control - here.control)
-        problem.u.x.array[:] = here.state.displacement + share * (problem.u.x.array - here.state.displacement)
+        chord = problem.u.x.array - here.state.displacement
+        problem.u.x.array[:] = here.state.displacement + share * chord
         problem.set_control(target)
-        return _Reached(control=target, outcome=self._solver.solve())
+        outcome = self._solver.solve()
+        moved = (problem.u.x.array - here.state.displacement)[: problem.own_dofs]
+        far = process_sums.global_norm(moved) > ROOM * process_sums.global_norm(chord[: problem.own_dofs])
+        if outcome.converged and (far or process_sums.global_dot(moved, here.ahead) <= 0.0):
+            outcome = replace(outcome, converged=False, failure=f"a state of another path at control {target:.6g}")
+        return _Reached(control=target, outcome=outcome)
 
 
 def _message(here: _Point, reached: _Reached, pressed: Array, largest: float) -> str:
@@ -280,5 +293,7 @@ def _message(here: _Point, reached: _Reached, pressed: Array, largest: float) ->
     told = f"no equilibrium found along the path beyond control {here.control:.6g}"
     if largest > 0.0 and np.linalg.norm(pressed) < 1e-3 * largest:
         return f"{told}: there the body leaves the obstacle, which pressed it with up to {largest:.4g} N on this path"
+    if reached.outcome.failure:
+        return f"{told}; the last attempt ends as {reached.outcome.failure}; try a shorter first arc"
     residuals = ", ".join(f"{value:.1e}" for value in reached.outcome.residuals)
     return f"{told}; relative residuals of the last attempt {residuals}; try a shorter first arc, or more iterations"

@@ -46,7 +46,8 @@ def solve_increments(
     the distance to the next target. Where the material yields, an increment begins at the displacement that the last
     one points to: a step from rest would strain it plastically all over. Every attempt is appended to ``history``. With
     a ``checkpoint``, each converged state is kept when the caller asks for the next one, and a run that finds one goes
-    on behind it: on one process with the very numbers of a run that was never stopped.
+    on behind it: on one process with the very numbers of a run that was never stopped. Of states before that one it
+    knows nothing: if its first increments fail, no limit load is told and no path followed until one has converged.
 
     With ``past_limits``, a rising increment that does not converge is not halved: the path is followed by arc length
     (see `follow_path`) from the last converged state until it comes to the target, over limit points on the way. These
@@ -95,8 +96,8 @@ def solve_increments(
                 checkpoint.write(_kept(good, place, history))
             continue
         problem.restore(good)
-        if past_limits and earlier is not None and rise > 0.0 and not (outcome.stalled or outcome.spurious):
-            last_arc = process_sums.global_norm((good.displacement - earlier[1].displacement)[: problem.own_dofs])
+        last_arc = _last_arc(problem, earlier, good) if past_limits else 0.0
+        if last_arc > 0.0 and rise > 0.0 and not (outcome.stalled or outcome.spurious):
             span = {"start": place.reached, "target": place.target, "first_arc": last_arc}
             yield from follow_path(solver, ArcLength(first=rise), history, attempt_limit, on_attempt, **span)
             place, good, earlier = replace(place, reached=place.target, step=abs(rise)), problem.state(), None
@@ -108,6 +109,13 @@ def solve_increments(
                 raise ConvergenceError(told, history)
             limit = limit_point(solver, earlier, (place.reached, good), rise)
             raise ConvergenceError(told if limit is None else _at_limit(problem, limit), history, limit=limit)
+
+
+def _last_arc(problem: StaticProblem, earlier: tuple[float, ProblemState] | None, last: ProblemState) -> float:
+    """How far the last state is from the one before [m]; zero if there is none, or nothing moved."""
+    if earlier is None:
+        return 0.0
+    return process_sums.global_norm((last.displacement - earlier[1].displacement)[: problem.own_dofs])
 
 
 def _in_order(targets: Sequence[float]) -> NextTarget:

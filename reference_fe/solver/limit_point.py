@@ -4,6 +4,9 @@ Along a path that turns at the control parameter c* the eigenvalue mu nearest to
 mode does work on what the control parameter drives; at a branch point it goes as mu = k (c* - c) and does none
 (Wriggers, Wagner & Miehe 1988, from memory). Both are measured at the last two converged states, with the consistent
 tangent there; zero must lie where increments fail, or before that for a branch, over which a run can go.
+
+What depends on the displacement is smooth along the path, so linear in mu: the force of an obstacle or of supports that
+move comes to F* = (F - left F_before) / (1 - left), left = mu / mu_before. What supports carry of dead loads goes as c.
 docs/theory/finite_elements.md, "Past limit points". Verified by tests/verification/test_fe_limit_point.py.
 """
 
@@ -16,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh_tridiagonal
 
 from contracts.errors import LimitLoad
-from reference_fe.problem.control_rate import control_rate
+from reference_fe.problem.control_rate import control_rate, depends_on_the_way
 from reference_fe.problem.problem_state import ProblemState
 from reference_fe.solver import process_sums
 from reference_fe.solver.direct import SingularMatrixError
@@ -59,8 +62,8 @@ def limit_point(
 ) -> LimitLoad | None:
     """What is known of the limit or branch point that ended a run; None if the eigenvalues do not show one.
 
-    None for friction and material with a memory too: their tangent at a state depends on how it was reached. Leaves
-    the problem in the last state.
+    None for friction, multipliers and material with a memory too: their tangent at a state depends on how it was
+    reached; and for an obstacle that does not only rise. Leaves the problem in the last state.
 
     Parameters
     ----------
@@ -68,13 +71,19 @@ def limit_point(
     failed : length of the increment from the last state that did not converge [unit of the control parameter]
     """
     problem = solver.problem
-    if problem.histories.remembered or not problem.surfaces.symmetric:
+    if depends_on_the_way(problem) or (problem.contact is not None and problem.contact.travel is not None):
         return None
     begin = (last[1].displacement - earlier[1].displacement)[: problem.own_dofs]
+    if process_sums.global_norm(np.where(solver.free, begin, 0.0)) == 0.0:  # nothing has moved yet
+        return None
+    found = list[tuple[Mode, Array]]()
     try:
-        before, now = (lowest_mode(solver, *at, begin=begin) for at in (earlier, last))
+        for at in (earlier, last):
+            mode = lowest_mode(solver, *at, begin=begin)
+            found.append((mode, _driving_force(solver)))
     except SingularMatrixError:
         return None
+    (before, force_before), (now, force) = found
     left, branch = now.stiffness / before.stiffness, abs(now.work) < NO_WORK
     if abs(process_sums.global_dot(before.shape, now.shape)) < SAME or left >= 1.0 or (left < 0.0 and not branch):
         return None
@@ -82,11 +91,12 @@ def limit_point(
     way = share / (1.0 - share) * (last[0] - earlier[0])
     if way > max(REACH * failed, CLOSE * (last[0] - earlier[0])):
         return None
+    beyond = share if _dead(solver) else left
     part, place = _moves_most(solver, now.shape)
     return LimitLoad(
         branch=branch,
         control=last[0] + way,
-        load=_driving_load(solver),
+        load=float(np.linalg.norm(force - beyond * force_before) / (1.0 - beyond)),
         left=left,
         part=part,
         place=place,
@@ -138,19 +148,29 @@ def lowest_mode(solver: NewtonSolver, control: float, state: ProblemState, *, be
     return Mode(stiffness=float(1.0 / values[k]), shape=shape, negative=negative, work=work)
 
 
-def _driving_load(solver: NewtonSolver) -> float:
-    """Force of the obstacle, of the supports that move, or of all supports, whichever drives; at the last state [N]."""
+def _driving_force(solver: NewtonSolver) -> Array:
+    """Of the obstacle, of the supports that move, or of all supports, whichever drives; now, (dim,) [N]."""
     problem, dim = solver.problem, solver.problem.domain.dim
     if problem.contact is not None:
-        return float(np.linalg.norm(problem.contact_force()))
+        return problem.contact_force()
     residual = problem.residual()
-    moving = [one.dofs for one in problem.prescribed if one.at_load_factor_1]
+    moving = _moving(solver)
     if not moving:
-        return float(np.linalg.norm(problem.reaction(residual)))
+        return problem.reaction(residual)
     rows = np.unique(np.concatenate(moving))
     rows = rows[rows < problem.own_dofs]
     own = np.array([residual[rows[rows % dim == axis]].sum() for axis in range(dim)])
-    return float(np.linalg.norm(problem.domain.mesh.comm.allreduce(own)))
+    return np.asarray(problem.domain.mesh.comm.allreduce(own))
+
+
+def _moving(solver: NewtonSolver) -> list[NDArray[np.int32]]:
+    """Unknowns of the supports that move."""
+    return [one.dofs for one in solver.problem.prescribed if one.at_load_factor_1]
+
+
+def _dead(solver: NewtonSolver) -> bool:
+    """Whether loads alone drive: dead ones, so that all supports together carry what goes as the control parameter."""
+    return solver.problem.contact is None and not _moving(solver)
 
 
 def _unit(vector: Array) -> Array:

@@ -10,8 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.hub_travel import HubTravel
 from contracts.materials import Material
-from reference_fe.contact.obstacle import ObstacleContact
+from reference_fe.contact.obstacle import ContactMethod, ObstacleContact
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.problem.supports import Middle, Support
@@ -23,8 +24,13 @@ HALF_SPAN, RISE, THICKNESS, WIDTH, PAD_HEIGHT = 50e-3, 4e-3, 0.5e-3, 5e-3, 40e-3
 CELLS, PAD_CELLS = 12, 2
 
 
-def padded_arch(pad_modulus: float = 2e6) -> StaticProblem:
-    """Arch of steel, pad of ``pad_modulus`` [Pa]; the plane's rise is the control parameter, it presses along -z."""
+def padded_arch(
+    pad_modulus: float = 2e6, *, method: ContactMethod = ContactMethod.PENALTY, travel: HubTravel | None = None
+) -> StaticProblem:
+    """Arch of steel, pad of ``pad_modulus`` [Pa]; the plane's rise is the control parameter, it presses along -z.
+
+    ``method`` and ``travel`` are those of its contact.
+    """
     radius = (HALF_SPAN**2 + RISE**2) / (2.0 * RISE)
     angle = np.arcsin(HALF_SPAN / radius)
 
@@ -48,7 +54,12 @@ def padded_arch(pad_modulus: float = 2e6) -> StaticProblem:
             Support(middles=(hinge,), components=(0, 2), name="hinge"),
         ],
         contact=ObstacleContact(
-            faces=("pad_z1",), normal=(0.0, 0.0, -1.0), distance_at_touch=PAD_HEIGHT, stiffness=1e12
+            faces=("pad_z1",),
+            normal=(0.0, 0.0, -1.0),
+            distance_at_touch=PAD_HEIGHT,
+            stiffness=1e12,
+            method=method,
+            travel=travel,
         ),
     )
 
