@@ -81,7 +81,7 @@ def nothing_computes(monkeypatch: pytest.MonkeyPatch) -> None:
 
     for command in ("computing", "calibrate", "calibrate_ancf"):
         monkeypatch.setattr(f"workbench.commands.{command}.run_tasks", reached)
-    for command in ("sweep", "sweep_search", "sample"):
+    for command in ("sweep", "point_batches", "sample"):
         monkeypatch.setattr(f"workbench.commands.{command}.run_all", reached)
     monkeypatch.setattr("workbench.commands.rover.run_scenario", reached)
     monkeypatch.setenv("WORKBENCH_TRACEBACK", "1")

@@ -48,7 +48,7 @@ def test_nothing_is_overwritten_and_nothing_unusable_is_written(tmp_path: Path) 
         (("new", "a.toml"), "is there already"),
         (
             ("new", "b.toml", "--from", "nothing"),
-            "one of amalia, e3, exomars, exomars_hoops, first, honeycomb, leaves, rubber_tread, spiral, spoked, strip",
+            "one of amalia, e3, exomars, exomars_hoops, first, honeycomb, leaf_optimise, leaves, rubber_tread",
         ),
         (("new", "b c.toml"), "name = 'b c': must begin with a letter"),
         (("new", "none/b.toml"), "No such file or directory"),

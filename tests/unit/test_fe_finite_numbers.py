@@ -28,13 +28,13 @@ def test_forces_without_bound_do_not_pass_for_a_small_residual(force: float) -> 
     """Out of balance by 1 N against infinite forces is no relative residual of 0."""
     problem: Any = _Problem(force)
     solver = NewtonSolver(problem, NewtonSettings())
-    assert solver._relative(np.array([0.0, 1.0]), moved=False) == np.inf
+    assert solver.relative(np.array([0.0, 1.0]), moved=False) == np.inf
 
 
 @pytest.mark.parametrize("residual", [[np.inf, 1.0], [np.nan, 1.0], [0.0, np.inf], [1e200, 1.0]])
 def test_residuals_that_are_no_numbers_neither(residual: list[float]) -> None:
     problem: Any = _Problem(1.0)
-    assert NewtonSolver(problem, NewtonSettings())._relative(np.array(residual), moved=False) == np.inf
+    assert NewtonSolver(problem, NewtonSettings()).relative(np.array(residual), moved=False) == np.inf
 
 
 def test_a_displacement_that_is_no_number_never_reaches_the_contact_search(monkeypatch: pytest.MonkeyPatch) -> None:

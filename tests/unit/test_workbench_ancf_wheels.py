@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from contracts.errors import InputError
-from contracts.hub_travel import Way
+from contracts.hub_travel import OVER_GROUND
 from workbench.questions.ancf_wheels.cases import COMMAND, ComparedWheel, compared_wheels, wheel_tasks
 from workbench.questions.ancf_wheels.question import ANCF_WHEELS
 from workbench.questions.ancf_wheels.results import agreement
@@ -101,7 +101,9 @@ def test_every_wheel_is_computed_by_both_models_and_finer(wheel: ComparedWheel) 
 
 def travelled(wheel: ComparedWheel, off: float) -> dict[str, Any]:
     """Plates are ``off`` sideways at the last orientation, else equal."""
-    rows = [{"way": way.value, "orientation_deg": o, "fe": 4e3, "plates": 4e3} for o in wheel.moved for way in Way]
+    rows = [
+        {"way": way.value, "orientation_deg": o, "fe": 4e3, "plates": 4e3} for o in wheel.moved for way in OVER_GROUND
+    ]
     next(row for row in reversed(rows) if row["way"] == "lateral")["plates"] = 4e3 * off
     return found(wheel) | {"travels": rows}
 
