@@ -69,6 +69,12 @@ class Comparison:
     steps: int | None = 4
 
 
+def _on_ground(element_size: float, axial_size: float, element: str = "20 nodes, 18 points") -> Comparison:
+    """The wheel on a plane, its mesh by element sizes [m]."""
+    mesh = ("ground", element_size, axial_size)
+    return Comparison(ours=mesh, element=element, peer=mesh, calculix_element="C3D20R", steps=1)
+
+
 CASES = {
     "half-cylinder-40": Comparison(
         ours=("half_cylinder", 40, 8), element="20 nodes", peer=("half_cylinder", 40, 8), calculix_element="C3D20R"
@@ -95,34 +101,10 @@ CASES = {
         calculix_element="C3D20",
         steps=None,
     ),
-    "ground-20k": Comparison(
-        ours=("ground", 0.008, 0.020),
-        element="20 nodes, 18 points",
-        peer=("ground", 0.008, 0.020),
-        calculix_element="C3D20R",
-        steps=1,
-    ),
-    "ground-60k": Comparison(
-        ours=("ground", 0.0055, 0.015),
-        element="20 nodes, 18 points",
-        peer=("ground", 0.0055, 0.015),
-        calculix_element="C3D20R",
-        steps=1,
-    ),
-    "ground-60k-27-nodes": Comparison(
-        ours=("ground", 0.0055, 0.015),
-        element="27 nodes",
-        peer=("ground", 0.0055, 0.015),
-        calculix_element="C3D20R",
-        steps=1,
-    ),
-    "ground-140k": Comparison(
-        ours=("ground", 0.003, 0.0085),
-        element="20 nodes, 18 points",
-        peer=("ground", 0.003, 0.0085),
-        calculix_element="C3D20R",
-        steps=1,
-    ),
+    "ground-20k": _on_ground(0.008, 0.020),
+    "ground-60k": _on_ground(0.0055, 0.015),
+    "ground-60k-27-nodes": _on_ground(0.0055, 0.015, "27 nodes"),
+    "ground-140k": _on_ground(0.003, 0.0085),
 }
 
 

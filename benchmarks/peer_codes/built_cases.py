@@ -57,17 +57,7 @@ def wheel(element_size: float, axial_size: float, orientation_deg: float = 30.0)
     mesh = _wheel_mesh(element_size, axial_size, orientation_deg)
     foot = 0.5 * exomars_hoops().grousers.thickness
     mesh = _split(mesh, "grouser_outer", lambda x: (x[:, 2] < 0.0) & (np.abs(x[:, 0]) < 1.001 * foot))
-    return LoadCase(
-        mesh=mesh,
-        material=TI_6AL_4V,
-        held_faces=(),
-        held_parts=("outer_hub",),
-        symmetry="symmetry",
-        component=2,
-        travel=0.020,
-        steps=4,
-        force_factor=2.0,
-    )
+    return _pressed(mesh, travel=0.020, steps=4)
 
 
 def ground(element_size: float, axial_size: float, orientation_deg: float = 15.0) -> LoadCase:
@@ -78,6 +68,16 @@ def ground(element_size: float, axial_size: float, orientation_deg: float = 15.0
     mesh = _wheel_mesh(element_size, axial_size, orientation_deg)
     faces = tuple(face for face in CONTACT_FACES if face in mesh.faces)
     points, _ = facet_samples(mesh.points, contact_faces(mesh, faces))
+    return replace(
+        _pressed(mesh, travel=0.005, steps=1),
+        ground_faces=faces,
+        ground_level=float(points[:, 2].min()),
+        ground_stiffness=GROUND_STIFFNESS,
+    )
+
+
+def _pressed(mesh: TaggedMesh, *, travel: float, steps: int) -> LoadCase:
+    """Half the wheel, its hub held, pressed upwards [m]."""
     return LoadCase(
         mesh=mesh,
         material=TI_6AL_4V,
@@ -85,12 +85,9 @@ def ground(element_size: float, axial_size: float, orientation_deg: float = 15.0
         held_parts=("outer_hub",),
         symmetry="symmetry",
         component=2,
-        travel=0.005,
-        steps=1,
+        travel=travel,
+        steps=steps,
         force_factor=2.0,
-        ground_faces=faces,
-        ground_level=float(points[:, 2].min()),
-        ground_stiffness=GROUND_STIFFNESS,
     )
 
 

@@ -13,6 +13,7 @@ import pyarrow.parquet as pq  # type: ignore[import-untyped]
 import pytest
 
 from contracts.curves import StiffnessCurve, read_curve, write_curve
+from contracts.hub_travel import Way
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.execution.store import Entry
 from workbench.execution.task import task_keys
@@ -112,6 +113,21 @@ def test_the_table_has_what_was_varied_and_what_was_found(made: tuple[SweepTable
     failed = dict(zip(table.names, table.rows[3], strict=True))
     assert failed["initial_tangent_N_per_m"] is None
     assert "task p3/section_phi000 failed: why" in str(failed["note"])
+
+
+def test_a_travel_that_failed_leaves_the_curve_it_began_at(tmp_path: Path) -> None:
+    _, graph = _swept(**{"fe.max_load": ["290 N"]})
+    tasks = [task.name for task in graph.tasks if task.name.startswith("p1/section")]
+    run = next(one for one in graph.runs if one.point.number == 1)
+    moved = replace(run, tasks=(*run.tasks, "p1/moved"), travels={Way.LATERAL: {0.0: "p1/moved"}})
+    entries = _results(tmp_path, graph, dict.fromkeys(tasks, 8000.0))
+    (found,) = outcomes(replace(graph, runs=(moved,)), entries, {"p1/moved": "task p1/moved failed: why"})
+    assert found.state == "partial"
+    assert found.note == "task p1/moved failed: why"
+    assert found.curve is not None
+    assert found.curve.initial_tangent(0.005) == pytest.approx(8000.0)
+    (whole,) = outcomes(replace(graph, runs=(run,)), entries, {})
+    assert (whole.state, whole.note) == ("whole", "")
 
 
 def test_a_curve_that_ends_early_says_where_and_why(tmp_path: Path) -> None:

@@ -203,6 +203,7 @@ def test_keys_may_be_written_without_quotes() -> None:
         ({"strip_thickness": [["0.5 mm"]]}, r"sweep.strip_thickness = a list: must hold plain values"),
         ({"strip_thickness": ["1 mm", "0.1 cm"]}, r"mixes units; write all values in one unit"),
         ({"strip_thickness": ["1 mm", "1 mm"]}, r"holds a value twice"),
+        ({"fe.points": [9], "fe.friction = fe.points": [8]}, r"= 8: is varied twice, by 'fe.points' too"),
         ({"strip_thickness": {"low": "0.5 mm", "high": "0.6 mm"}}, r"a range: has no grid"),
         ({"strip_thickness": {"low": "0.5 mm", "high": "1 cm"}}, r"has two units"),
         ({"strip_thickness": {"low": "0.5 mm"}}, r"must have low and high"),

@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
+
 from contracts.errors import InputError
 from contracts.hub_travel import Way
 from contracts.stiffness_matrix import MOTIONS, StiffnessMatrix, stiffness_matrix, write_matrix
@@ -32,6 +34,10 @@ from workbench.report.outputs import publish
 from workbench.study.orientation import degrees, orientation_name
 
 __all__ = ["check_way", "run_matrix", "run_travel"]
+
+_SHORT = {name: name.replace("about_", "turn ") for name in MOTIONS}
+_NOISE = 1e-4
+"""Share of the diagonals' geometric mean below which an entry is not printed [-]."""
 
 
 def check_way(name: str) -> tuple[Way, ...]:
@@ -124,11 +130,17 @@ def _solved(
 
 def _print_matrix(matrix: StiffnessMatrix) -> None:
     at = f"{matrix.orientation_deg:g} deg, {matrix.load:.0f} N at {1e3 * matrix.deflection:.1f} mm"
-    table = empty_table(f"stiffness at {at}", ("hub moves", *MOTIONS), texts=["hub moves"])
-    for name, row in zip(MOTIONS, matrix.values, strict=True):
-        table.add_row(name, *(f"{value:.4g}" for value in row))
+    table = empty_table(f"stiffness at {at}", ("resists", *(_SHORT[name] for name in MOTIONS)), texts=["resists"])
+    least = _NOISE * np.sqrt(np.abs(np.outer(np.diag(matrix.values), np.diag(matrix.values))))
+    for name, row, small in zip(MOTIONS, matrix.values, least, strict=True):
+        shown = (f"{value:.4g}" if abs(value) > one else "." for value, one in zip(row, small, strict=True))
+        table.add_row(_SHORT[name], *shown)
     console.print(table)
-    console.print(f"rows resist columns, in N, N m, m and rad; K differs from its transpose by {matrix.asymmetry:.2%}")
+    console.print(
+        "each column is a motion of the hub by 1 m or 1 rad, each row the force or moment that resists it, N or N m; "
+        f"K differs from its transpose by {matrix.asymmetry:.2%}",
+        soft_wrap=True,
+    )
 
 
 def _published(out: Path, model: str, ways: Sequence[Way], curves: Sequence[TravelCurve]) -> list[str]:

@@ -59,7 +59,8 @@ class StiffnessBand(Section):
         if self.low is None and self.high is None:
             raise in_key("low", "", "or high must be given", 'e.g. { low = "8 N/mm", high = "9 N/mm" }')
         if self.low is not None and self.high is not None and not self.low < self.high:
-            raise in_key("high", f"{self.high:g} N/m", f"must exceed low, {self.low:g} N/m", "exchange them")
+            hint = "widen the band" if self.low == self.high else "exchange them"
+            raise in_key("high", f"{self.high:g} N/m", f"must exceed low, {self.low:g} N/m", hint)
         return self
 
 

@@ -179,6 +179,12 @@ class SweepSection(Section):
             raise in_key(
                 next(iter(found)), "", f"is one of {len(found)} keys, more than {MOST_PARAMETERS}", "vary fewer"
             )
+        varied: dict[str, str] = {}
+        for keys in found:
+            for _, one in tied_keys(keys):
+                if one in varied:
+                    raise in_key(keys, one, f"is varied twice, by {varied[one]!r} too", "leave one of them out")
+                varied[one] = keys
         return {key: _checked_values(key, values) for key, values in found.items()}
 
     @model_validator(mode="after")

@@ -68,8 +68,10 @@ class Outcome:
 
     @property
     def state(self) -> str:
-        """``"whole"``, ``"partial"``: the curve ends before its target, or ``"failed"``."""
-        return "failed" if self.curve is None else "partial" if self.curve.partial else "whole"
+        """``"whole"``, ``"partial"``: the curve ends before its target or a travel is not there, or ``"failed"``."""
+        if self.curve is None:
+            return "failed"
+        return "partial" if self.curve.partial or self.run.travels.keys() - self.travels.keys() else "whole"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,10 +98,11 @@ def outcomes(graph: SweepGraph, entries: Mapping[str, Entry], failures: Mapping[
 
 def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str, str]) -> Outcome:
     missing = [name for name in run.tasks if name not in entries]
+    told = list(dict.fromkeys(failures[name] for name in missing if name in failures))
+    moved = {name for names in run.travels.values() for name in names.values()}
     mesh = next((entries[name].path for name in run.tasks if bare_name(name) == MESH and name in entries), None)
     wheel = wheel_facts(run.point.study, mesh)
-    if missing:
-        told = dict.fromkeys(failures[name] for name in missing if name in failures)
+    if not moved.issuperset(missing):
         return Outcome(run=run, note="; ".join(told), wheel=wheel)
     folders = {name: entries[task].path for name, task in run.curves.items()}
     curves = []
@@ -112,8 +115,8 @@ def _outcome(run: SweepRun, entries: Mapping[str, Entry], failures: Mapping[str,
         run=run,
         by_orientation=tuple(curves),
         curve=curves[0] if len(curves) == 1 else mean_curve(curves, _around(run)),
-        note="; ".join(_reach(curves) + list(early_ends(folders).values())),
-        wall_s=sum(entries[name].wall_s for name in run.tasks),
+        note="; ".join(_reach(curves) + list(early_ends(folders).values()) + told),
+        wall_s=sum(entries[name].wall_s for name in run.tasks if name in entries),
         wheel=wheel,
         travels=_travels(run, entries),
     )
@@ -123,8 +126,8 @@ def _travels(run: SweepRun, entries: Mapping[str, Entry]) -> dict[Way, float]:
     """Stiffness against each way, mean of the orientations by the arcs they stand for; none where one has none."""
     found: dict[Way, float] = {}
     for way, names in run.travels.items():
-        paths = {o: entries[name].path / TRAVEL for o, name in names.items()}
-        if all(path.exists() for path in paths.values()):
+        paths = {o: entries[name].path / TRAVEL for o, name in names.items() if name in entries}
+        if len(paths) == len(names) and all(path.exists() for path in paths.values()):
             each = [read_travel(path, run.model, way, o).stiffness for o, path in paths.items()]
             found[way] = float(np.average(each, weights=around(run.point.study).weights(list(paths))))
     return found
