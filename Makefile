@@ -10,7 +10,7 @@ VENV := .venv
 TOOLS := .venv-tools
 READY := $(VENV)/.ready
 PYTHON := $(VENV)/bin/python
-PACKAGES := contracts geometry reference_fe ancf_reduced rover_dynamics workbench
+PACKAGES := contracts geometry soil reference_fe ancf_reduced rover_dynamics workbench
 STUDY ?=
 OUT ?= build/report
 

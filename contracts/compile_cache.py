@@ -2,7 +2,8 @@
 
 A compiler that caches by the file of a function does not see that another file changed whose function or constant it
 took in; after an update old machine code would then compute on. A folder named by a digest of all sources of the
-package and of ``contracts``, whose constants every package takes in, holds what belongs together.
+package, of ``contracts``, whose constants every package takes in, and of ``soil``, whose laws some compile, holds what
+belongs together.
 """
 
 from __future__ import annotations
@@ -38,9 +39,9 @@ def compile_cache(package: Path) -> Path:
 
 
 def _state(package: Path) -> str:
-    """Digest of the sources of a package and of this one."""
-    digest = hashlib.sha256()
-    for root in (package, Path(__file__).parent):
+    """Digest of the sources of a package, of this one and of the soil's laws."""
+    digest, here = hashlib.sha256(), Path(__file__).parent
+    for root in (package, here, here.parent / "soil"):
         for source in sorted(root.rglob("*.py")):
             digest.update(source.relative_to(root).as_posix().encode())
             digest.update(source.read_bytes())

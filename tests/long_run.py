@@ -25,7 +25,7 @@ ROOT = Path(__file__).parents[1]
 RECORD = Path("docs/test_long.json")
 PAGE = Path("docs/test_long.md")
 MARK = "pytest.mark.long"
-PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench", "studies")
+PACKAGES = ("contracts", "geometry", "soil", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench", "studies")
 COMMAND = (sys.executable, "-m", "pytest", "-m", "long", "-n", "2", "--dist", "worksteal", "--timeout", "7200")
 STATE = "<!-- state -->"
 

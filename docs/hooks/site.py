@@ -21,7 +21,7 @@ from latex_mathml import mathml
 from tests.long_run import STATE, state_of
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
+PACKAGES = ("contracts", "geometry", "soil", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
 UNKNOWN_REFERENCE = re.compile(
     rf'<autoref [^>]*identifier="(?!(?:{"|".join(PACKAGES)})\b)([^"]*)"[^>]*>(.*?)</autoref>', re.S
 )

@@ -17,7 +17,7 @@ from typer.main import get_command
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
+PACKAGES = ("contracts", "geometry", "soil", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
 SOURCES = (*PACKAGES, "studies", "benchmarks", "tests")
 NUMBERED = re.compile(r"\b(\d{1,2}(?:\.\d)?)\b")
 

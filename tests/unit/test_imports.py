@@ -22,10 +22,11 @@ ROOT = Path(__file__).parents[2]
 ARROWS: dict[str, set[str]] = {
     "contracts": set(),
     "geometry": {"contracts"},
-    "reference_fe": {"contracts", "geometry"},
-    "ancf_reduced": {"contracts", "geometry"},
-    "rover_dynamics": {"contracts"},
-    "workbench": {"contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics"},
+    "soil": {"contracts"},
+    "reference_fe": {"contracts", "geometry", "soil"},
+    "ancf_reduced": {"contracts", "geometry", "soil"},
+    "rover_dynamics": {"contracts", "soil"},
+    "workbench": {"contracts", "geometry", "soil", "reference_fe", "ancf_reduced", "rover_dynamics"},
 }
 FENICS = ("dolfinx", "dolfinx_solver", "petsc4py", "mpi4py", "ufl", "basix", "ffcx")
 FRONT = ("pydantic", "pint", "typer", "rich", "jinja2", "plotly", "distributed")

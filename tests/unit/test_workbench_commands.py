@@ -14,7 +14,7 @@ from workbench.execution.doctor import NEEDED
 from workbench.execution.errors import InterruptedRunError, RunError
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
+PACKAGES = ("contracts", "geometry", "soil", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
 
 
 @pytest.mark.parametrize("error", [RunError("task mesh failed"), InputError("load", "1 N", "is low", "raise it")])

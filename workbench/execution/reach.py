@@ -22,7 +22,7 @@ from pathlib import Path
 
 __all__ = ["PACKAGES", "reached", "reached_libraries", "source_hash"]
 
-PACKAGES = ("contracts", "geometry", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
+PACKAGES = ("contracts", "geometry", "soil", "reference_fe", "ancf_reduced", "rover_dynamics", "workbench")
 _PUBLISHED, _TABLES = "contracts.published", "contracts/published/"
 """Its tables are named without their ending."""
 _DISTRIBUTIONS = {

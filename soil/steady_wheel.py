@@ -1,0 +1,371 @@
+"""A wheel that drives steadily on soil: pull, torque and sinkage by the stresses along its contour.
+
+Wong and Reece (1967) have a rigid circle of radius R touch the soil from theta_1 ahead of the lowest point to theta_2
+behind it. From theta_1 to theta_m = (c_1 + c_2 s) theta_1 the pressure is that of the soil's depth; behind, it falls
+off as it rose, over the angles scaled to reach zero at theta_2. Shear follows from how far the rim has slipped.
+
+The same on a rim that gives way by w(theta) to the pressure on it (`soil.carcass`), with H the height of the hub over
+the undisturbed soil:
+
+    x = (R - w) sin(theta),    z = (R - w) cos(theta) - H.
+
+With the arc S and the way X along it from the first contact,
+
+    j = m S - (1 - s) X,    tau = t(p) (1 - exp(-|j| / K)) sign(j),    t(p) of `laws.lug_thrust`,
+    load = b int (p dx - tau dz),    pull = b int (tau dx + p dz),    torque = m R b int tau dS,
+
+m = 1 + h / (2 R) with lugs of the height h, whose faces move faster than the rim, else 1. A rigid rim has dS = R
+d theta, and these are Wong and Reece's integrals. Of an inextensible rim the torque is that of the power: omega T is
+pull times speed and what shear and compaction dissipate. theta_2 is where the soil has come back by its unloading line.
+Slip s = 1 - v / (omega R); negative for a towed wheel.
+
+Verified by tests/unit/test_soil_steady_wheel.py.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from contracts.declared import In, PositiveLength, require_declared
+from contracts.errors import InputError
+from soil.carcass import RIGID, Carcass, RimShape, shape_under
+from soil.laws import lug_thrust, mobilised, rebound, slip_sinkage
+from soil.soil import Soil
+
+__all__ = ["WheelOnSoil", "WheelState", "standing_wheel", "steady_wheel", "towed_wheel"]
+
+FloatArray = NDArray[np.float64]
+_NODES = 40
+"""Gauss points of each of the two regions."""
+_FARTHEST = 1.5
+"""Largest angle of contact [rad]."""
+_RELAXED, _ROUNDS, _SETTLED = 0.5, 400, 1e-10
+"""Share of a new shape that is taken, rounds at most, and how far the shape may move in the last over R."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelOnSoil:
+    """What of a wheel the soil feels.
+
+    Attributes
+    ----------
+    radius, width : R and b of the rim [m]
+    carcass : how the rim gives way
+    lug_height, lugs : of the grousers [m] and their number; 0 for a smooth rim
+
+    Raises
+    ------
+    InputError
+        For a number that is not above zero (lugs: at least zero).
+    """
+
+    radius: PositiveLength
+    width: PositiveLength
+    carcass: Carcass = field(default=RIGID)
+    lug_height: Annotated[float, In("m", least=0.0)] = 0.0
+    lugs: int = 0
+
+    def __post_init__(self) -> None:
+        require_declared(self, "wheel on soil")
+        if self.lugs < 0:
+            raise InputError("lugs", self.lugs, "must be at least 0", "leave them out")
+
+    @property
+    def lug(self) -> tuple[float, float, float]:
+        """Height and pitch [m], and 1 if there are lugs, as `laws.lug_thrust` takes them."""
+        there = self.lugs > 0 and self.lug_height > 0.0
+        return self.lug_height, 2.0 * math.pi * self.radius / max(self.lugs, 1), 1.0 if there else 0.0
+
+    @property
+    def shear_radius(self) -> float:
+        """m R: of the rim, or to the middle of the lugs' faces [m]."""
+        return self.radius + 0.5 * self.lug[0] * self.lug[2]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WheelState:
+    """A wheel that drives, is towed or stands.
+
+    Attributes
+    ----------
+    slip : s [-]
+    load : [N]
+    drawbar_pull : > 0 pulls the vehicle [N]
+    torque : of the drive [N m]
+    sinkage : deepest point of the contour below the surface [m]
+    hub_height : H over the undisturbed surface [m]
+    deflection : how far the rim gives way below the hub, w(0) [m]
+    entry, exit : theta_1 > 0 and theta_2 <= 0 [rad]
+    largest_pressure : [Pa]
+    efficiency : pull times speed over torque times angular speed [-]; 0 for a wheel that pulls nothing
+    """
+
+    slip: float
+    load: float
+    drawbar_pull: float
+    torque: float
+    sinkage: float
+    hub_height: float
+    deflection: float
+    entry: float
+    exit: float
+    largest_pressure: float
+    efficiency: float
+
+
+class _Contour(NamedTuple):
+    """Along the contact, from the first contact backwards.
+
+    ends [rad] and depth of the deepest point [m]; at the points angle, weight of integration [rad], pressure [Pa], and
+    depth and the derivatives of x and depth over the angle [m].
+    """
+
+    ends: tuple[float, float]
+    deepest: float
+    angle: FloatArray
+    weight: FloatArray
+    pressure: FloatArray
+    depth: FloatArray
+    along: FloatArray
+    down: FloatArray
+
+
+class _Law(NamedTuple):
+    """p = modulus z^exponent behind and before ``top`` times theta_1; None of these for a wheel that stands."""
+
+    modulus: float
+    exponent: float
+    top: float | None
+
+
+def _integration() -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Gauss points on (0, 1), weights, and the matrix that integrates from 0 to each of them."""
+    x, w = legendre.leggauss(_NODES)
+    upto = np.empty((_NODES, _NODES))
+    for k in range(_NODES):
+        upto[:, k] = legendre.legval(x, legendre.legint(np.eye(_NODES)[k], lbnd=-1))
+    matrix = 0.5 * upto @ np.linalg.inv(legendre.legvander(x, _NODES - 1))
+    return 0.5 * (x + 1.0), 0.5 * w, matrix
+
+
+_U, _W, _UPTO = _integration()
+
+
+def steady_wheel(wheel: WheelOnSoil, soil: Soil, load: float, slip: float, gravity: float) -> WheelState:
+    """The wheel under a load [N] at a slip, on the weight that a gravity [m/s^2] gives the soil.
+
+    Raises
+    ------
+    InputError
+        For a load that is not above zero or that buries the wheel, and a slip not in [-4, 1).
+    """
+    if not (math.isfinite(slip) and -4.0 <= slip < 1.0):
+        raise InputError("slip", f"{slip:g}", "must lie in [-4, 1)", "0 rolls, 0.2 is usual for a drive", key="slip")
+    sunk = slip_sinkage(slip) ** soil.slip_sinkage
+    top = soil.peak_rolling + soil.peak_slipping * max(slip, 0.0)
+    law = _Law(soil.modulus(wheel.width) / sunk**soil.exponent, soil.exponent, top)
+    return _state(wheel, soil, law, load, (slip, gravity))
+
+
+def standing_wheel(wheel: WheelOnSoil, soil: Soil, load: float) -> WheelState:
+    """The wheel pressed straight down under a load [N], without shear: the pressure that of the depth everywhere."""
+    return _state(wheel, soil, _Law(soil.modulus(wheel.width), soil.exponent, None), load, (0.0, 0.0))
+
+
+def towed_wheel(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> WheelState:
+    """The wheel at the slip at which it takes no torque.
+
+    Raises
+    ------
+    InputError
+        As `steady_wheel`, and where it takes torque even while it skids.
+    """
+    from scipy.optimize import brentq
+
+    def torque(slip: float) -> float:
+        return steady_wheel(wheel, soil, load, slip, gravity).torque
+
+    low = -0.05
+    while torque(low) > 0.0 and low > -2.0:
+        low *= 2.0
+    if torque(low) > 0.0:
+        rule = "takes torque even where it skids"
+        raise InputError("towed wheel", f"{load:g} N on {soil.name}", rule, "give a smaller load", key="load")
+    slip = float(brentq(torque, low, 0.5, xtol=1e-10))
+    return steady_wheel(wheel, soil, load, slip, gravity)
+
+
+def _state(wheel: WheelOnSoil, soil: Soil, law: _Law, load: float, driven: tuple[float, float]) -> WheelState:
+    """Shape and pressure that belong together under a load, and what follows; ``driven`` slip and gravity."""
+    if not (math.isfinite(load) and load > 0.0):
+        raise InputError("load of the wheel", f"{load:g} N", "must be above zero", "give e.g. 200 N", key="load")
+    size = max(len(wheel.carcass.compliance), 1)
+    shape = RimShape(np.zeros(size), np.zeros(size))
+    for _ in range(_ROUNDS):
+        height, contour = _carried(wheel, soil, law, (shape, load), driven)
+        if not wheel.carcass.compliance:
+            return _told(wheel, contour, (height, 0.0), _forces(wheel, soil, contour, driven), driven)
+        force = wheel.width * contour.pressure * np.hypot(contour.along, contour.down) * contour.weight
+        new = shape_under(wheel.carcass, contour.angle, force)
+        moved = RimShape(new.cosines - shape.cosines, new.sines - shape.sines)
+        if np.abs(moved.cosines).sum() + np.abs(moved.sines).sum() < _SETTLED * wheel.radius:
+            break
+        shape = RimShape(shape.cosines + _RELAXED * moved.cosines, shape.sines + _RELAXED * moved.sines)
+    else:
+        rule = "must find a shape of its rim on this soil"
+        raise InputError("flexible wheel", f"{load:g} N on {soil.name}", rule, "give a smaller load", key="load")
+    below = float(shape.at(np.zeros(1))[0][0])
+    return _told(wheel, contour, (height, below), _forces(wheel, soil, contour, driven), driven)
+
+
+def _carried(
+    wheel: WheelOnSoil, soil: Soil, law: _Law, asked: tuple[RimShape, float], driven: tuple[float, float]
+) -> tuple[float, _Contour]:
+    """Height of the hub at which a rim of a shape carries a load, and the contour there."""
+    from scipy.optimize import brentq
+
+    shape, load = asked
+
+    def carried(height: float) -> float:
+        return float(_forces(wheel, soil, _contour(wheel, soil, law, shape, height), driven)[0])
+
+    low, high = _lowest_and_highest(wheel, shape)
+    if (most := carried(low)) < load:
+        rule = f"must be below {most:.3g} N, where the wheel lies in the soil nearly up to its axle"
+        raise InputError("load of the wheel", f"{load:g} N", rule, "give firmer soil or a larger wheel", key="load")
+    height = float(brentq(lambda at: carried(at) - load, low, high, xtol=1e-15, rtol=1e-14))
+    return height, _contour(wheel, soil, law, shape, height)
+
+
+def _lowest_and_highest(wheel: WheelOnSoil, shape: RimShape) -> tuple[float, float]:
+    """Heights of the hub [m] between which it is looked for: in the soil up to the farthest angle, barely touching."""
+    angle = np.linspace(-_FARTHEST, _FARTHEST, 601)
+    rim = (wheel.radius - shape.at(angle)[0]) * np.cos(angle)
+    return float(max(rim[0], rim[-1])) + 1e-9, float(rim.max()) - 1e-9 * wheel.radius
+
+
+def _contour(wheel: WheelOnSoil, soil: Soil, law: _Law, shape: RimShape, height: float) -> _Contour:
+    """Pressure and place along the contact of a rim of a shape whose hub is at a height [m]."""
+    entry = _crossing(wheel, shape, height, 1.0)
+    top = 0.0 if law.top is None else law.top * entry
+    front = entry - (entry - top) * _U**2
+    fore = _rim(wheel, shape, height, front)
+    if law.top is None:
+        behind = -_crossing(wheel, shape, height, -1.0)
+        rear = behind + (top - behind) * (1.0 - _U) ** 2
+        aft = _rim(wheel, shape, height, rear)
+        pressed = aft[0]
+    else:
+        peak = float(_rim(wheel, shape, height, np.array([top]))[0][0])
+        back = rebound(peak, law.modulus, law.exponent, soil.unloading_stiffness, soil.unloading_growth)
+        lowest = _deepest(wheel, shape, height, entry)
+        behind = min(-_crossing(wheel, shape, height + max(lowest - back, 0.0), -1.0), top - 1e-9)
+        rear = behind + (top - behind) * (1.0 - _U) ** 2
+        aft = _rim(wheel, shape, height, rear)
+        pressed = _rim(wheel, shape, height, top + (top - rear) * (entry - top) / (top - behind))[0]
+    depth = np.concatenate([fore[0], pressed])
+    return _Contour(
+        ends=(entry, behind),
+        deepest=_deepest(wheel, shape, height, entry),
+        angle=np.concatenate([front, rear]),
+        weight=np.concatenate([2.0 * (entry - top) * _U * _W, 2.0 * (top - behind) * (1.0 - _U) * _W]),
+        pressure=law.modulus * np.maximum(depth, 0.0) ** law.exponent,
+        depth=np.concatenate([fore[0], aft[0]]),
+        along=np.concatenate([fore[1], aft[1]]),
+        down=np.concatenate([fore[2], aft[2]]),
+    )
+
+
+def _deepest(wheel: WheelOnSoil, shape: RimShape, height: float, entry: float) -> float:
+    """Depth of the rim's lowest point [m], by a parabola through three of its points."""
+    angle = np.linspace(-entry, entry, 121)
+    depth = _rim(wheel, shape, height, angle)[0]
+    k = int(np.clip(np.argmax(depth), 1, len(depth) - 2))
+    before, most, after = depth[k - 1 : k + 2].tolist()
+    bend = before - 2.0 * most + after
+    return float(most - 0.125 * (after - before) ** 2 / bend) if bend < 0.0 else float(most)
+
+
+def _rim(
+    wheel: WheelOnSoil, shape: RimShape, height: float, angle: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Depth of the rim and the derivatives of x and depth over the angle [m]."""
+    w, dw = shape.at(angle)
+    reach, cosine, sine = wheel.radius - w, np.cos(angle), np.sin(angle)
+    return reach * cosine - height, reach * cosine - dw * sine, -reach * sine - dw * cosine
+
+
+def _crossing(wheel: WheelOnSoil, shape: RimShape, height: float, side: float) -> float:
+    """Angle [rad] from below the hub, forwards (side 1) or backwards (-1), up to which the rim lies deeper than H."""
+    from scipy.optimize import brentq
+
+    if not shape.cosines.any() and not shape.sines.any():
+        return math.acos(min(1.0, height / wheel.radius))
+
+    def depth(angle: float) -> float:
+        return float(_rim(wheel, shape, height, np.array([side * angle]))[0][0])
+
+    tried = np.linspace(0.0, _FARTHEST, 301)
+    above = np.flatnonzero(_rim(wheel, shape, height, side * tried)[0] > 0.0)
+    if not above.size:
+        return 1e-9
+    last = int(above[-1])
+    return float(brentq(depth, tried[last], tried[last + 1], xtol=1e-14)) if last < 300 else _FARTHEST
+
+
+def _forces(
+    wheel: WheelOnSoil, soil: Soil, contour: _Contour, driven: tuple[float, float]
+) -> tuple[float, float, float]:
+    """Load [N], pull [N] and torque [N m]; a gravity of 0 is for a wheel that stands and does not shear."""
+    slip, gravity = driven
+    b, p, w = wheel.width, contour.pressure, contour.weight
+    if gravity == 0.0:
+        return b * float((p * contour.along) @ w), 0.0, 0.0
+    arc = np.hypot(contour.along, contour.down)
+    numbers = soil.cohesion, soil.friction_angle, soil.density * gravity, soil.rim_angle
+    strength = np.array([lug_thrust(one, numbers, wheel.lug, b) for one in p.tolist()])
+    sheared = _so_far(contour, wheel.shear_radius / wheel.radius * arc - (1.0 - slip) * contour.along)
+    tau = strength * np.array([mobilised(j, soil.shear_modulus)[0] for j in sheared.tolist()])
+    return (
+        b * float((p * contour.along - tau * contour.down) @ w),
+        b * float((tau * contour.along + p * contour.down) @ w),
+        wheel.shear_radius * b * float((tau * arc) @ w),
+    )
+
+
+def _so_far(contour: _Contour, rate: FloatArray) -> FloatArray:
+    """Integral of a rate over the angle from the first contact on, at each point."""
+    per_node = rate * contour.weight / np.tile(_W, 2)
+    front, rear = per_node[:_NODES], per_node[_NODES:]
+    return np.concatenate([_UPTO @ front, float(front @ _W) + _UPTO @ rear])
+
+
+def _told(
+    wheel: WheelOnSoil,
+    contour: _Contour,
+    hub: tuple[float, float],
+    forces: tuple[float, float, float],
+    driven: tuple[float, float],
+) -> WheelState:
+    """In numbers; ``hub`` is its height and how far the rim gives way below it."""
+    load, pull, torque = forces
+    works = pull > 0.0 and torque > 0.0
+    return WheelState(
+        slip=driven[0],
+        load=load,
+        drawbar_pull=pull,
+        torque=torque,
+        sinkage=contour.deepest,
+        hub_height=hub[0],
+        deflection=hub[1],
+        entry=contour.ends[0],
+        exit=contour.ends[1],
+        largest_pressure=float(contour.pressure.max()),
+        efficiency=pull * (1.0 - driven[0]) * wheel.radius / torque if works else 0.0,
+    )
