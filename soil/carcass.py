@@ -26,8 +26,8 @@ from contracts.errors import InputError
 __all__ = ["HARMONICS", "RIGID", "Carcass", "RimShape", "carcass_from_shapes", "shape_under"]
 
 FloatArray = NDArray[np.float64]
-HARMONICS = 24
-"""Largest m that is taken from shapes: waves of 37 mm on a wheel of 285 mm."""
+HARMONICS = 12
+"""Largest m that is taken from shapes: waves of 75 mm on a wheel of 285 mm; shorter ones bend a rim hardly."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,7 +106,7 @@ def _harmonics(angle: FloatArray, moved: FloatArray) -> FloatArray:
         value = f"{math.degrees(widest):.3g} deg"
         rule = f"must be at most {180.0 / HARMONICS:g} deg"
         raise InputError("gap between points of the rim", value, rule, "give a finer mesh")
-    even = np.linspace(0.0, 2.0 * np.pi, 16 * HARMONICS, endpoint=False)
+    even = np.linspace(0.0, 2.0 * np.pi, 32 * HARMONICS, endpoint=False)
     values = np.interp(even, at, w, period=2.0 * np.pi)
     spectrum = np.fft.rfft(values).real[: HARMONICS + 1] / len(even)
     spectrum[1:] *= 2.0

@@ -25,6 +25,7 @@ Verified by tests/unit/test_soil_steady_wheel.py.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, NamedTuple
 
@@ -45,8 +46,9 @@ _NODES = 40
 """Gauss points of each of the two regions."""
 _FARTHEST = 1.5
 """Largest angle of contact [rad]."""
-_RELAXED, _ROUNDS, _SETTLED = 0.5, 400, 1e-10
-"""Share of a new shape that is taken, rounds at most, and how far the shape may move in the last over R."""
+_RELAXED, _MEMORY, _ROUNDS, _SETTLED = 0.5, 4, 100, 1e-8
+"""Share of a new shape that is taken, rounds that are mixed, rounds at most, and how far the last moves the shape over
+R."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,6 +156,8 @@ def _integration() -> tuple[FloatArray, FloatArray, FloatArray]:
     return 0.5 * (x + 1.0), 0.5 * w, matrix
 
 
+_NEAR = 1e-4
+"""How far a changed shape moves the hub, about [m]."""
 _U, _W, _UPTO = _integration()
 
 
@@ -206,17 +210,17 @@ def _state(wheel: WheelOnSoil, soil: Soil, law: _Law, load: float, driven: tuple
     if not (math.isfinite(load) and load > 0.0):
         raise InputError("load of the wheel", f"{load:g} N", "must be above zero", "give e.g. 200 N", key="load")
     size = max(len(wheel.carcass.compliance), 1)
-    shape = RimShape(np.zeros(size), np.zeros(size))
+    height, shapes, residuals = 0.0, [np.zeros(2 * size)], list[FloatArray]()
     for _ in range(_ROUNDS):
-        height, contour = _carried(wheel, soil, law, (shape, load), driven)
+        shape = RimShape(shapes[-1][:size], shapes[-1][size:])
+        height, contour = _carried(wheel, soil, law, (shape, load), (driven, height))
         if not wheel.carcass.compliance:
-            return _told(wheel, contour, (height, 0.0), _forces(wheel, soil, contour, driven), driven)
-        force = wheel.width * contour.pressure * np.hypot(contour.along, contour.down) * contour.weight
-        new = shape_under(wheel.carcass, contour.angle, force)
-        moved = RimShape(new.cosines - shape.cosines, new.sines - shape.sines)
-        if np.abs(moved.cosines).sum() + np.abs(moved.sines).sum() < _SETTLED * wheel.radius:
             break
-        shape = RimShape(shape.cosines + _RELAXED * moved.cosines, shape.sines + _RELAXED * moved.sines)
+        force = wheel.width * contour.pressure * np.hypot(contour.along, contour.down) * contour.weight
+        residuals.append(np.concatenate(shape_under(wheel.carcass, contour.angle, force)) - shapes[-1])
+        if np.abs(residuals[-1]).sum() < _SETTLED * wheel.radius:
+            break
+        shapes.append(_mixed(shapes, residuals))
     else:
         rule = "must find a shape of its rim on this soil"
         raise InputError("flexible wheel", f"{load:g} N on {soil.name}", rule, "give a smaller load", key="load")
@@ -224,13 +228,31 @@ def _state(wheel: WheelOnSoil, soil: Soil, law: _Law, load: float, driven: tuple
     return _told(wheel, contour, (height, below), _forces(wheel, soil, contour, driven), driven)
 
 
+def _mixed(shapes: Sequence[FloatArray], residuals: Sequence[FloatArray]) -> FloatArray:
+    """The next shape of the fixed-point iteration, by Anderson's mixing of the last ones."""
+    memory = min(_MEMORY, len(residuals) - 1)
+    taken, left = shapes[-1], residuals[-1]
+    if memory:
+        moved = np.column_stack([shapes[-1] - one for one in shapes[-1 - memory : -1]])
+        changed = np.column_stack([residuals[-1] - one for one in residuals[-1 - memory : -1]])
+        weights = np.linalg.lstsq(changed, left, rcond=1e-10)[0]
+        taken, left = taken - moved @ weights, left - changed @ weights
+    return np.asarray(taken + _RELAXED * left)
+
+
 def _carried(
-    wheel: WheelOnSoil, soil: Soil, law: _Law, asked: tuple[RimShape, float], driven: tuple[float, float]
+    wheel: WheelOnSoil,
+    soil: Soil,
+    law: _Law,
+    asked: tuple[RimShape, float],
+    known: tuple[tuple[float, float], float],
 ) -> tuple[float, _Contour]:
-    """Height of the hub at which a rim of a shape carries a load, and the contour there."""
+    """Height of the hub at which a rim of a shape carries a load, and the contour there; ``known`` what drives it and
+    the height found before, 0 if none.
+    """
     from scipy.optimize import brentq
 
-    shape, load = asked
+    (shape, load), (driven, last) = asked, known
 
     def carried(height: float) -> float:
         return float(_forces(wheel, soil, _contour(wheel, soil, law, shape, height), driven)[0])
@@ -239,7 +261,9 @@ def _carried(
     if (most := carried(low)) < load:
         rule = f"must be below {most:.3g} N, where the wheel lies in the soil nearly up to its axle"
         raise InputError("load of the wheel", f"{load:g} N", rule, "give firmer soil or a larger wheel", key="load")
-    height = float(brentq(lambda at: carried(at) - load, low, high, xtol=1e-15, rtol=1e-14))
+    if low + _NEAR < last < high - _NEAR and carried(last - _NEAR) > load > carried(last + _NEAR):
+        low, high = last - _NEAR, last + _NEAR
+    height = float(brentq(lambda at: carried(at) - load, low, high, xtol=1e-12, rtol=1e-12))
     return height, _contour(wheel, soil, law, shape, height)
 
 

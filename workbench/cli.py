@@ -405,6 +405,35 @@ def rover(
 
 
 @app.command()
+def drawbar(
+    study: StudyOrBuiltIn = None,
+    soil: Annotated[
+        str, typer.Option(help="A known soil (ding2011, fjs1, jsc1a, grc1, lunar_nominal) or a soil's file, mine.toml.")
+    ] = "ding2011",
+    load: Annotated[float, typer.Option(help="On the wheel, in N.")] = 200.0,
+    slip: Annotated[
+        str | None,
+        typer.Option(
+            help="A:B:STEP or a number; 0:0.6:0.1 if left out and the wheel is not towed.", show_default=False
+        ),
+    ] = None,
+    tire: Annotated[
+        str, typer.Option(help="rigid, brush, fe (the wheel by its solid model) or ancf_wheel (by plates).")
+    ] = "fe",
+    towed: Annotated[bool, typer.Option("--towed", help="Tow the wheel too, without torque.")] = False,
+    gravity: Annotated[str, typer.Option(help="mars or earth: weight of the soil.")] = "mars",
+    out: Annotated[Path, typer.Option(help="Folder of drawbar.csv and drawbar.png.")] = Path("build/drawbar"),
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+) -> None:
+    """One wheel on soil: drawbar pull, torque, sinkage and efficiency over slip, rigid beside flexible."""
+    from workbench.commands.drawbar import DrawbarChoices, run_drawbar
+
+    choices = DrawbarChoices(soil=soil, load=load, slip=slip, tire=tire, towed=towed, gravity=gravity)
+    raise typer.Exit(run_drawbar(study, choices, out, store, computing(workers, 1, None)))
+
+
+@app.command()
 def compare(
     curve: Annotated[
         Path, typer.Argument(help="CSV such as deflection_m,load_N or deflection_mm,load_kN.", show_default=False)

@@ -1,0 +1,170 @@
+"""``workbench drawbar``: the study's wheel on a single-wheel bench with soil: pull, torque and sinkage over slip.
+
+Verified by tests/end_to_end/test_drawbar.py.
+"""
+
+from __future__ import annotations
+
+import math
+import shlex
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from contracts.errors import InputError
+from rover_dynamics.rover.planets import gravity_named
+from soil.carcass import RIGID, Carcass
+from workbench.commands.computing import computed, console, naming, read_and_warn, tell_kept, warn
+from workbench.execution.result_files import read_result
+from workbench.execution.runner import Computing
+from workbench.execution.terminal import empty_table
+from workbench.questions.kept import keep, kept, require_numbers, require_place
+from workbench.questions.soil.bench import Bench, bench_csv, run_bench, wheel_on_soil
+from workbench.questions.soil.graph import CARCASS_MODELS, carcass_name, carcass_tasks
+from workbench.questions.soil.picture import bench_png
+from workbench.report.folders import check_folder, check_targets
+from workbench.report.placing import put_files
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study
+from workbench.study.soil_file import soil_of
+from workbench.study.wheel_design import wheel_design
+
+__all__ = ["DrawbarChoices", "run_drawbar", "slips_of"]
+
+_TIRES = ("rigid", "brush", *CARCASS_MODELS)
+_SLIPS = "0:0.6:0.1"
+_MOST = 1000
+_FILES = ("drawbar.csv", "drawbar.png")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawbarChoices:
+    """What a user may choose.
+
+    Attributes
+    ----------
+    soil : name, or a soil's file
+    load : on the wheel [N]
+    slip : ``A:B:STEP`` or a number; None for 0 to 0.6 by 0.1, or for none where the wheel is towed
+    tire : rigid, brush, fe or ancf_wheel
+    towed : whether the wheel is towed too
+    gravity : mars or earth
+    """
+
+    soil: str
+    load: float
+    slip: str | None = None
+    tire: str = "fe"
+    towed: bool = False
+    gravity: str = "mars"
+
+
+def run_drawbar(study_path: Path | None, choices: DrawbarChoices, out: Path, store: Path, computing: Computing) -> int:
+    """Drive, print, write CSV and picture; 0."""
+    if choices.tire not in _TIRES:
+        raise InputError("tire", repr(choices.tire), "is not known", f"give {', '.join(_TIRES)}")
+    soil, gravity = soil_of(choices.soil), gravity_named(choices.gravity)
+    load = choices.load
+    slips = slips_of(choices.slip if choices.slip is not None or choices.towed is False else "")
+    path = study_path or built_in_study()
+    study = read_and_warn(path)
+    check_folder(out)
+    check_targets(out, _FILES)
+    with naming(path):
+        design = wheel_design(study)
+        carcass = _carcass(study, path, choices.tire, (store, computing))
+        bench = run_bench(wheel_on_soil(design, carcass), soil, load, slips, gravity, towed=choices.towed)
+    _print(bench, choices.tire)
+    title = f"{study.name} on {soil.name} under {load:g} N, g = {gravity:g} m/s²"
+    files = {_FILES[0]: bench_csv(bench).encode(), _FILES[1]: bench_png(bench, title)}
+    tell_kept(put_files(out, files, "drawbar"))
+    console.print(f"soil: {soil.source}", soft_wrap=True)
+    console.print(f"bench: {out / _FILES[0]}, {out / _FILES[1]}", soft_wrap=True)
+    return 0
+
+
+def slips_of(text: str | None) -> tuple[float, ...]:
+    """Slips of ``A:B:STEP``, ends included where the step meets them; of one number; none of an empty text.
+
+    Raises
+    ------
+    InputError
+        For another form, and slips out of [-1, 1).
+    """
+    if text == "":
+        return ()
+    given = _SLIPS if text is None else text
+    parts = given.split(":")
+    try:
+        numbers = [float(one) for one in parts]
+    except ValueError:
+        numbers = []
+    if len(numbers) not in (1, 3) or not all(math.isfinite(one) for one in numbers):
+        raise InputError("slip", repr(given), "must be A:B:STEP or a number", f"{_SLIPS} is usual")
+    first, last, step = (numbers * 3)[:3] if len(numbers) == 1 else numbers
+    if len(numbers) == 3 and not (step > 0.0 and last >= first and (last - first) / step < _MOST):
+        raise InputError("slip", repr(given), f"must rise by a step > 0, {_MOST} at most", f"{_SLIPS} is usual")
+    found = [first] if len(numbers) == 1 else np.arange(first, last + 0.5 * step, step).round(12).tolist()
+    if found[0] < -1.0 or found[-1] >= 1.0:
+        raise InputError("slip", repr(given), "must lie in [-1, 1)", "0 rolls, 1 spins on the spot")
+    return tuple(found)
+
+
+def _carcass(study: Study, path: Path, tire: str, where: tuple[Path, Computing]) -> Carcass:
+    """How the rim of the study's wheel gives way by a model: kept beside the study, else found and kept."""
+    if tire not in CARCASS_MODELS:
+        return RIGID
+    tasks, name = carcass_tasks(study, tire), carcass_name(tire)
+    record = kept(study, name, _read)
+    state = "stale" if record is None else record.state(tasks)
+    if record is not None and state != "stale":
+        if state == "older sources":
+            console.print(f"rim: kept record of {record.date[:10]}, by older sources of ours", soft_wrap=True)
+        return _read(record.found)
+    begun = time.monotonic()
+    entries = computed(path, tasks, *where)
+    found = read_result(entries[name].path)
+    try:
+        require_place(study, name)
+    except InputError as error:
+        warn(path, [f"the rim's compliance is not kept beside it: {error}"])
+    else:
+        again = f"workbench drawbar {shlex.quote(str(path))} --tire {tire} --soil ding2011 --load 200"
+        keep(study, name, again, tasks, time.monotonic() - begun, found)
+    return _read(found)
+
+
+def _read(found: object) -> Carcass:
+    assert isinstance(found, dict)
+    require_numbers([*found["compliance"], found["load_N"]])
+    return Carcass(compliance=tuple(found["compliance"]), load=found["load_N"], source=str(found["source"]))
+
+
+def _print(bench: Bench, tire: str) -> None:
+    words = {"rigid": "rigid wheel", "brush": "brush tire, whose rim is rigid in itself"}
+    console.print(f"{words.get(tire, bench.carcass)}; on {bench.soil}, {bench.load:g} N", soft_wrap=True)
+    columns = ("slip", "pull N", "torque N m", "sinkage mm", "efficiency", "hub mm", "rigid N", "rigid mm")
+    shown = columns if bench.carcass != "rigid" else columns[:5]
+    table = empty_table("", shown, texts=[])
+    for row in bench.rows:
+        a, b = row.wheel, row.rigid
+        cells = (
+            f"{a.slip:.3g}",
+            f"{a.drawbar_pull:.1f}",
+            f"{a.torque + 0.0:.2f}",
+            f"{1e3 * a.sinkage:.1f}",
+            f"{a.efficiency:.2f}",
+            f"{1e3 * a.deflection:.1f}",
+            f"{b.drawbar_pull:.1f}",
+            f"{1e3 * b.sinkage:.1f}",
+        )
+        table.add_row(*cells[: len(shown)])
+    console.print(table)
+    if any(row.high > row.low for row in bench.rows):
+        widest = max(bench.rows, key=lambda row: row.high - row.low)
+        told = f"{widest.low:.1f} to {widest.high:.1f} N at slip {widest.wheel.slip:.2g}"
+        console.print(f"what the soil's ranges leave open of the pull: up to {told}")
+    if bench.carcass != "rigid":
+        console.print(f"largest pull of the flexible wheel less that of the rigid one: {bench.gain:+.1f} N")
