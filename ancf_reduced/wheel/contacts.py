@@ -115,12 +115,12 @@ class Points:
         near: tuple[Index, Index],
         gaps: Array,
         surface: tuple[Array, Array],
-        held: tuple[float, Array, Array],
+        held: tuple[float | Array, Array, Array],
     ) -> Near:
         """Contacts with a rigid surface.
 
-        near : points and numbers of the contacts; surface : normals and bends; held : penalty [N/m^3], forces of all
-        contacts, blocks of plates
+        near : points and numbers of the contacts; surface : normals and bends; held : penalty of all or each [N/m^3],
+        forces of all contacts, blocks of plates
         """
         (points, numbers), (penalty, forces, blocks) = near, held
         slopes = np.empty((len(points), 16, 3))

@@ -35,6 +35,8 @@ _REACH = 10e-3
 _SKIN = 4e-3
 """Movement of wheel and ground together for which a search of what is near looks ahead [m]."""
 _HALVINGS = 60
+_SHALLOWEST = 1e-5
+"""Depth up to which soil presses in proportion to it [m]."""
 _PLANE, _FIELD = int(PieceKind.PLANE), int(PieceKind.HEIGHT_FIELD)
 
 
@@ -58,6 +60,8 @@ class GroundContact:
     frame : rows (3, 3) forward, left, normal of the ground, from `ground_frame`
     penalty : [N/m^3]
     travel : what follows the rise, or None
+    soil : modulus k [N/m^(n+2)] and exponent n of soil in place of rigid ground, or None. What lies z deep is pressed
+        by k z^n on its level area: a penalty at each contact, the secant k z^(n-1) times how level its face is
 
     Raises
     ------
@@ -67,8 +71,18 @@ class GroundContact:
     """
 
     def __init__(
-        self, wheel: AncfWheel, terrain: Terrain, frame: Array, penalty: float, travel: HubTravel | None = None
+        self,
+        wheel: AncfWheel,
+        terrain: Terrain,
+        frame: Array,
+        penalty: float,
+        travel: HubTravel | None = None,
+        soil: tuple[float, float] | None = None,
     ) -> None:
+        self._soil = soil
+        if soil is not None and (travel is not None or not isinstance(terrain, Plane)):
+            rule = "presses as a plane, by its depth alone"
+            raise InputError("soil", "with an obstacle or a travel", rule, "leave them out")
         self._points, self._frame, self._penalty = Points(wheel, wheel.ground), frame, penalty
         self._travel = travel
         if travel is not None and not isinstance(terrain, Plane):
@@ -116,8 +130,16 @@ class GroundContact:
         near, piece = np.divmod(numbers, len(self._rows))
         which = self._close[near]
         contacts = which * len(self._rows) + piece
-        found = self._points.rigid(q, (which, contacts), gaps, (normals, bends), (self._penalty, forces, blocks))
+        penalty = self._penalty if self._soil is None else self._secant(q, which, gaps, normals)
+        found = self._points.rigid(q, (which, contacts), gaps, (normals, bends), (penalty, forces, blocks))
         return replace(found, surface=Surface(normals=normals, bends=bends, places=places[near]))
+
+    def _secant(self, q: Array, which: Index, gaps: Array, normals: Array) -> Array:
+        """Penalty of soil at each contact [N/m^3]."""
+        assert self._soil is not None
+        modulus, exponent = self._soil
+        level = np.abs((self._points.at(q, which)[1] * normals).sum(axis=1))
+        return np.asarray(modulus * np.maximum(-gaps, _SHALLOWEST) ** (exponent - 1.0) * level)
 
     def places(self, q: Array, contacts: Index) -> Array:
         """Places of contacts' points (n, 3) [m]."""

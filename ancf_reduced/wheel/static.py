@@ -109,6 +109,7 @@ class WheelOnGround:
     camber : of the ground about its forward direction; positive lifts its left side [rad]
     friction : Coulomb coefficient on the ground [-]
     travel : how the hub is moved over the ground behind a deflection; `press` then takes its controls behind it
+    soil : modulus [N/m^(n+2)] and exponent of soil in place of rigid ground, without friction
     """
 
     def __init__(
@@ -122,7 +123,10 @@ class WheelOnGround:
         camber: float = 0.0,
         friction: float = 0.0,
         travel: HubTravel | None = None,
+        soil: tuple[float, float] | None = None,
     ) -> None:
+        if soil is not None and friction > 0.0:
+            raise InputError("soil", "with friction", "presses by its depth alone", "leave the friction out")
         if not np.isfinite(orientation):
             raise InputError("orientation", f"{orientation} rad", "must be finite", "give an angle such as 0.785 rad")
         if not abs(camber) < 0.5 * np.pi:
@@ -142,7 +146,7 @@ class WheelOnGround:
         self.wheel, self.orientation, self.camber, self.friction = wheel, orientation, camber, friction
         plates = wheel.plates
         frame = ground_frame(orientation, camber)
-        self.ground = GroundContact(wheel, terrain or Plane(), frame, contact_stiffness, travel)
+        self.ground = GroundContact(wheel, terrain or Plane(), frame, contact_stiffness, travel, soil)
         self._inner = InnerContacts(wheel, inner_contact_stiffness) if inner_contact_stiffness > 0.0 else None
         self.counts = [self.ground.count, *(self._inner.counts if self._inner else [])]
         self._ties = Ties(plates, wheel.ties)

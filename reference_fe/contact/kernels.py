@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe.compiled import compiled
-from reference_fe.contact.law import friction_traction, ramped_pressure
+from reference_fe.contact.law import friction_traction, ramped_pressure, soil_pressure
 from reference_fe.contact.obstacles import piece_gap
 
 __all__ = ["ContactHistory", "PointForces", "Surface", "facet_blocks", "facet_forces", "point_forces"]
@@ -27,6 +27,8 @@ class Surface(NamedTuple):
     ramp : see `contact.law.ramped_pressure` [m]
     friction : mu [-]
     stick : (m,) stiffness of sticking [N/m^3]
+    soil : modulus [N/m^(n+2)] and exponent of soil that the obstacle is of; zeros for a rigid one
+    level_share : (m, q) level area of each point over its undeformed one [-], on soil; else without numbers
     """
 
     normal: NDArray[np.float64]
@@ -38,6 +40,8 @@ class Surface(NamedTuple):
     ramp: float
     friction: float
     stick: NDArray[np.float64]
+    soil: tuple[float, float]
+    level_share: NDArray[np.float64]
 
 
 class ContactHistory(NamedTuple):
@@ -86,7 +90,7 @@ def point_forces(
     traction t, the force per area is p n + t and its stiffness k_n n n^T - p H + K_t. Friction starts from the trial
     traction t_a - k_t P slip with P = I - n n^T and slip counted from the last accepted state; sticking K_t = k_t P,
     sliding along d: K_t = mu k_n d n^T + k_t mu p / |t_trial| (P - d d^T), not symmetric. The turn of n with the slip
-    is left out of K_t (exact on flat pieces).
+    is left out of K_t (exact on flat pieces). Soil presses upwards, by its depth on the level area of each point.
 
     Parameters
     ----------
@@ -96,6 +100,7 @@ def point_forces(
     dim = x.shape[2]
     n, t, trial, d = np.zeros(dim), np.zeros(dim), np.zeros(dim), np.zeros(dim)
     force, stiffness = np.zeros(dim), np.zeros((dim, dim))
+    modulus, exponent = surface.soil
     for m in range(x.shape[0]):
         penalty, k_t = surface.stiffness[m], surface.stick[m]
         for q in range(x.shape[1]):
@@ -106,7 +111,11 @@ def point_forces(
             force[:], stiffness[:] = 0.0, 0.0
             for c in range(len(surface.pieces)):
                 gap, n_s, n_z, curvature = piece_gap(surface.pieces[c], s, z)
-                pressure, slope = ramped_pressure(gap, penalty, surface.ramp, history.multiplier[m, q, c])
+                if modulus > 0.0:
+                    pressure, slope = soil_pressure(-gap, modulus, exponent)
+                    pressure, slope = pressure * surface.level_share[m, q], slope * surface.level_share[m, q]
+                else:
+                    pressure, slope = ramped_pressure(gap, penalty, surface.ramp, history.multiplier[m, q, c])
                 out.gap[m, q, c], out.pressure[m, q, c] = gap, pressure
                 if surface.friction > 0.0:
                     out.traction[m, q, c] = 0.0

@@ -1,4 +1,4 @@
-"""Laws of contact at a point: penalty with a short quadratic ramp around touch, and Coulomb friction with stick."""
+"""Laws of contact at a point: penalty with a short quadratic ramp at touch, soil, and Coulomb friction with stick."""
 
 from __future__ import annotations
 
@@ -8,8 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reference_fe.compiled import compiled
+from soil.laws import pressure_and_stiffness
 
-__all__ = ["friction_traction", "ramped_pressure"]
+__all__ = ["friction_traction", "ramped_pressure", "soil_pressure"]
+
+soil_pressure = compiled(inline="always")(pressure_and_stiffness)
+"""Bekker's pressure and stiffness of soil at a depth, as `soil.laws.pressure_and_stiffness`."""
 
 
 @compiled(inline="always")

@@ -59,6 +59,7 @@ class WheelLoadCase:
     camber_deg : angle by which the obstacle is turned about the forward direction [deg]; positive lifts its left side
     contact_method : penalty or augmented Lagrangian, see `contact.obstacle.ContactMethod`
     contact_stiffness : penalty stiffness per undeformed area [N/m^3]; None is `contact.facets.local_stiffness`
+    soil : modulus [N/m^(n+2)] and exponent of soil in place of rigid ground, or None
     friction : Coulomb coefficient on the obstacle [-]
     unload : whether the ground then goes back, through the same deflections until it leaves the wheel
     travel : what follows the last deflection, if anything does; it needs friction, and the whole width but fore and aft
@@ -83,6 +84,7 @@ class WheelLoadCase:
     camber_deg: float = 0.0
     contact_method: ContactMethod = ContactMethod.PENALTY
     contact_stiffness: float | None = 1e11
+    soil: tuple[float, float] | None = None
     friction: float = 0.0
     unload: bool = False
     travel: HubTravel | None = None

@@ -121,6 +121,7 @@ def ground_contact(shape: TaggedMesh, load_case: WheelLoadCase) -> ObstacleConta
         stiffness=load_case.contact_stiffness,
         ramp=load_case.contact_ramp,
         method=load_case.contact_method,
+        soil=load_case.soil,
         friction=load_case.friction,
         travel=load_case.travel,
     )

@@ -14,7 +14,6 @@ tests/unit/test_workbench_soil.py.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -24,7 +23,7 @@ from pydantic_core import PydanticCustomError
 
 from contracts.declared import In, declared_types
 from contracts.errors import InputError
-from contracts.input_file import input_text
+from contracts.input_file import input_table
 from soil.soil import Soil, known_soils, soil_named, usual_numbers
 from workbench.study.quantities import to_si
 
@@ -47,11 +46,7 @@ def soil_of(name: str, folder: Path = Path()) -> Soil:
 
 
 def _from_file(path: Path) -> Soil:
-    text = input_text(path, "soil file")
-    try:
-        given = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError("soil file", path, f"is no TOML: {error}", "see docs/how_to/soil.md") from error
+    given = input_table(path, "soil file", "docs/how_to/soil.md")
     rules = {name: rule for name, one in declared_types(Soil).items() if (rule := _rule(one)) is not None}
     if unknown := sorted(set(given) - set(rules) - {"source"}):
         raise InputError(f"soil file {path}", unknown[0], "is not known", f"give {', '.join(rules)}, source")

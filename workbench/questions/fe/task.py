@@ -112,6 +112,7 @@ def load_case(inputs: Mapping[str, Any]) -> WheelLoadCase:
         obstacle=obstacle_of(inputs["obstacle"]),
         camber_deg=inputs["camber_deg"],
         contact_method=ContactMethod(inputs["contact_method"]),
+        soil=tuple(inputs["soil"]) if "soil" in inputs else None,
         friction=inputs["friction"],
         unload=inputs.get("unload", False),
         inner_contact=inputs["inner_contact"],

@@ -1,0 +1,78 @@
+"""Ground of soil that presses by its depth, as Bekker's plate has it: on the level area of what lies in it.
+
+A point z deep feels k z^n dA_l upwards, dA_l the level part of its present area. That part follows from the places of
+the facet's own points and is put right between solves until it no longer moves the pressure by more than 1e-4, so that
+each solve has a symmetric tangent. Verified by tests/verification/test_fe_soil.py.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reference_fe import dolfinx_api as api
+from reference_fe.contact.facets import gauss_line
+from reference_fe.contact.obstacle import ObstacleContact, ObstacleTerm
+from reference_fe.contact.surface_term import TermState
+from reference_fe.problem.domain import Domain
+
+__all__ = ["SoilTerm"]
+
+FloatArray = NDArray[np.float64]
+_SETTLED = 1e-4
+"""Change of the level share below which it is left [-]."""
+
+
+class SoilTerm(ObstacleTerm):
+    """Surface term of an `ObstacleContact` with soil."""
+
+    def __init__(self, contact: ObstacleContact, domain: Domain, V: api.Expr, young_modulus: FloatArray | None) -> None:
+        super().__init__(contact, domain, V, young_modulus)
+        self._slopes = _slopes(gauss_line(contact.gauss_points)[0])
+        self._undeformed = np.linalg.norm(self._areas(self._facets.positions), axis=-1)
+        self._level_share = self._share(self._facets.positions)
+
+    def augment(self) -> bool:
+        """Put the level shares right; whether that changes what the soil does."""
+        share = self._share(self._last_x)
+        pressed = self._out.pressure.sum(axis=-1) > 0.0
+        moved = float(np.abs(share - self._level_share)[pressed].max(initial=0.0))
+        if self._comm.allreduce(moved, op=api.MPI.MAX) <= _SETTLED:
+            return False
+        self._level_share = share
+        return True
+
+    def state(self) -> TermState:
+        """Beside the obstacle's the level shares."""
+        return {**super().state(), "level_share": self._level_share.copy()}
+
+    def restore(self, state: TermState) -> None:
+        """Go back to committed values."""
+        super().restore(state)
+        self._level_share = np.array(state["level_share"])
+
+    def _share(self, x: FloatArray) -> FloatArray:
+        """Level area over undeformed area at points (m, q, dim)."""
+        return np.asarray(np.abs(self._areas(x) @ self._normal) / self._undeformed)
+
+    def _areas(self, x: FloatArray) -> FloatArray:
+        """Area vectors (m, q, dim) per unit of the facet's own coordinates: its points lie on a grid of Gauss points,
+        through which it is a polynomial.
+        """
+        n, dim = len(self._slopes), x.shape[2]
+        if dim == 2:
+            along = np.einsum("pq,mqi->mpi", self._slopes, x)
+            return np.stack([-along[..., 1], along[..., 0]], axis=-1)
+        grid = x.reshape(len(x), n, n, dim)
+        first = np.einsum("pq,mqri->mpri", self._slopes, grid)
+        second = np.einsum("pr,mqri->mqpi", self._slopes, grid)
+        return np.cross(first, second).reshape(x.shape)
+
+
+def _slopes(points: FloatArray) -> FloatArray:
+    """Matrix (n, n) that takes values at points to the derivatives of the polynomial through them there."""
+    vandermonde = np.vander(points, increasing=True)
+    powers = np.arange(len(points))
+    derivative = np.zeros_like(vandermonde)
+    derivative[:, 1:] = powers[1:] * vandermonde[:, :-1]
+    return np.asarray(derivative @ np.linalg.inv(vandermonde))
