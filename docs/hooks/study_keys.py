@@ -44,6 +44,7 @@ GROUPS = {
     "mesh": ("mesh", "mesh_*"),
     "FE": ("fe_phi*", "fe_x*", "footprint_*", "pictures", "parts_overlap"),
     "hub study": ("fe_hub*", "mesh_hub"),
+    "soil": ("carcass_*", "soil_*", "mesh_soil"),
     "penalty study": ("fe_penalty*", "mesh_penalty"),
     "temperature": ("environment_*",),
     "section model": ("section_*", "crosscheck_*", "words_twin_*", "words_hoops_*"),

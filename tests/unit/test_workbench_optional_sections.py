@@ -35,6 +35,7 @@ ADDED = {
     "brush": set(),
     "mesh_study": {"mesh_study"},
     "hub_study": {"hub"},
+    "soil": {"soil"},
     "ancf_wheel": {"ancf_wheel"},
     "penalty_study": {"contact"},
     "input_uncertainty": {"input_uncertainty"},

@@ -26,6 +26,7 @@ from workbench.questions.rover_closer.question import ROVER_CLOSER
 from workbench.questions.rover_crosscheck.question import ROVER_CROSSCHECK
 from workbench.questions.rover_mission.question import ROVER_MISSION
 from workbench.questions.section.question import SECTION
+from workbench.questions.soil.question import SOIL
 from workbench.questions.speed.question import SPEED
 from workbench.questions.strength.question import STRENGTH
 from workbench.questions.traverse.question import TRAVERSE
@@ -59,6 +60,7 @@ QUESTIONS: tuple[Question, ...] = (
     ROVER,
     ROVER_MISSION,
     TRAVERSE,
+    SOIL,
     ROVER_ANCF,
     ROVER_CROSSCHECK,
     ROVER_CLOSER,

@@ -48,6 +48,7 @@ GATES = _OF_THE_THESIS | {
     **{"ancf_preset": 1.0, "flexible_mass": 1.0, "mesh_mass": 1.0, "min_scaled_jacobian": -1.0},
     **{"fe_energy": 1.0, "mesh_uncertainty": 1.0, "surface_distance": 1.0},
     **{"ancf_wheel_largest": 1.0, "ancf_wheel_mean": 1.0, "ancf_wheel_stress": 1.0, "ancf_wheel_shape": 1.0},
+    "soil_models": 1.0,
 }
 """Tolerances of gates, and of what the wheel is asked for -> 1 where a larger number is easier to meet, else -1."""
 
@@ -57,6 +58,8 @@ _NEEDED = {
         "mesh_uncertainty": "mesh_study",
         "stress_uncertainty": "mesh_study",
         "hub_compliance": "hub_study",
+        "soil_models": "soil and ancf_wheel",
+        "soil_bench": "soil",
         "ancf_fit": "ancf_fit",
         "ancf_wheel_largest": "ancf_wheel",
         "ancf_wheel_mean": "ancf_wheel",

@@ -32,6 +32,7 @@ from workbench.study.sections import (
     ToleranceSection,
     VerificationSection,
 )
+from workbench.study.soil_section import SoilSection
 from workbench.study.sweep import SweepSection
 from workbench.study.wheel import WheelStudy
 
@@ -68,6 +69,7 @@ class Study(WheelStudy):
     full : what `workbench report --full` takes instead of the study's orientations and mesh
     rover : what the rover does
     ground : friction under the rover
+    soil : soils that the wheel drives on, one at a time
     hub_study : where the compliance of hubs, cone and impact springs is measured
     penalty_study : where the load is held against other contact penalties
     verification : whether the benchmarks of finite elements and plates are part of the report
@@ -88,6 +90,7 @@ class Study(WheelStudy):
     fe: FeSection
     mesh_study: MeshStudySection | None = None
     hub_study: HubStudySection | None = None
+    soil: SoilSection | None = None
     penalty_study: PenaltyStudySection | None = None
     verification: VerificationSection | None = None
     full: FullSection = FullSection()

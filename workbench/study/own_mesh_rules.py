@@ -27,6 +27,7 @@ __all__ = ["NEEDS_WHEEL", "broken_own_mesh", "misplaced"]
 NEEDS_WHEEL = {
     "wheel": "describes a wheel of our own beside mesh.file, which is one already",
     "hub_study": "meshes the wheel's hubs, which a mesh from a file does not tell apart",
+    "soil": "needs the rim's radius, width and grousers of [wheel]",
     "penalty_study": "meshes the wheel with other sizes, which a mesh from a file does not have",
     "ancf_fit": "is not offered for a wheel whose mesh comes from a file",
     "ancf_wheel": "makes plates of the strips of [wheel], which a mesh from a file does not have",

@@ -206,6 +206,10 @@ class ToleranceSection(Section):
     """Grid convergence index of the stress that decides first yield [-]."""
     hub_compliance: Annotated[Number, Positive] = 0.01
     """What elastic hubs change of the load, relative [-]."""
+    soil_models: Annotated[Number, Positive] = 0.02
+    """ANCF wheel against the solid model at rest on soil: load at the same way of the hub [-]."""
+    soil_bench: Annotated[Number, Positive] = 0.1
+    """The bench's wheel against the solid model at rest on soil: way of the hub and sinkage [-]."""
     surface_distance: Annotated[Length, Positive] = 1e-12
     """STEP surfaces of the ANCF tire against its plates [m]."""
     section_agreement: Annotated[Number, Positive] = 0.05

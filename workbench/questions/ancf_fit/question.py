@@ -75,5 +75,5 @@ ANCF_FIT = Question(
     figures=fit_figures,
     curves=_curves,
     applies=lambda study: study.ancf_fit is not None,
-    budget=1080,
+    budget=990,
 )

@@ -46,6 +46,7 @@ def solve_orientation(inputs: Mapping[str, Any], needs: Mapping[str, Path], out:
         terrain=terrain_of(inputs["obstacle"]),
         camber=math.radians(inputs["camber_deg"]),
         friction=inputs["friction"],
+        soil=tuple(inputs["soil"]) if "soil" in inputs else None,
     )
     start, failure = time.perf_counter(), None
     states, history = [problem.unloaded()], list[IncrementRecord]()

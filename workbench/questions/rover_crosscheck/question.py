@@ -172,5 +172,5 @@ ROVER_CROSSCHECK = Question(
     checks=_checks,
     figures=crosscheck_figures,
     applies=_applies,
-    budget=1080,
+    budget=1030,
 )

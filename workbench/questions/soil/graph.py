@@ -1,31 +1,109 @@
-"""Tasks of a wheel on soil: how its rim gives way, by the curves of one of its models.
+"""Tasks of a wheel on soil: how its rim gives way, the bench, and the wheel at rest by its two models.
 
 Verified by tests/unit/test_workbench_soil.py.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
 
 from contracts.errors import InputError
+from rover_dynamics.rover.planets import gravity_named
+from soil.soil import Soil
 from workbench.execution.task import Task
+from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks
 from workbench.questions.curve_graph import stiffness_tasks
+from workbench.questions.fe.graph import fe_inputs, fe_task, without_end, without_fields
 from workbench.questions.travels import WORKING_LOAD
-from workbench.questions.wheel.graph import MESH, wheel_inputs
+from workbench.questions.wheel.graph import MESH, coarse_across, mesh_task, wheel_inputs
 from workbench.study.full import require_level
 from workbench.study.laws import require_elastic
-from workbench.study.model import Study
+from workbench.study.model import Study, stated
 from workbench.study.own_mesh import own_mesh
+from workbench.study.soil_file import soil_of
+from workbench.study.wheel_design import wheel_design
 
-__all__ = ["CARCASS_MODELS", "carcass_name", "carcass_tasks"]
+__all__ = [
+    "AT_REST",
+    "BENCH",
+    "CARCASS_MODELS",
+    "MEASURED",
+    "SLIPS",
+    "at_rest_orientation",
+    "carcass_name",
+    "carcass_tasks",
+    "soil_tasks",
+    "soils_of",
+]
 
 CARCASS_MODELS = ("fe", "ancf_wheel")
+BENCH, MEASURED, MESH_SOIL = "soil_bench", "soil_measured", "mesh_soil"
+AT_REST = {"fe": "soil_fe", "ancf_wheel": "soil_ancf_wheel"}
+SLIPS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
+_STEPS = 4
+"""Points of the wheel at rest, the last at its largest deflection."""
 
 
 def carcass_name(model: str) -> str:
     """Of the task that finds how the rim gives way."""
     return f"carcass_{model}"
+
+
+def soils_of(study: Study) -> tuple[Soil, ...]:
+    """The soils of [soil]; files lie beside the study's."""
+    folder = Path() if study.kept is None else study.kept.parent
+    return tuple(soil_of(name, folder) for name in stated(study.soil, "soil").soils)
+
+
+def soil_tasks(study: Study) -> list[Task]:
+    """What the report asks of a study with [soil]."""
+    section, soils = stated(study.soil, "soil"), soils_of(study)
+    bench = Task(
+        name=BENCH,
+        function="workbench.questions.soil.bench_task:drive",
+        inputs={
+            "wheel": wheel_inputs(study),
+            "soils": [asdict(one) for one in soils],
+            "load": section.load,
+            "slips": list(SLIPS),
+            "gravity": gravity_named("mars"),
+            "carcass": carcass_name("fe"),
+        },
+        needs=(carcass_name("fe"),),
+        cost=15.0,
+    )
+    held = Task(name=MEASURED, function="workbench.questions.soil.bench_task:hold", inputs={}, cost=2.0)
+    return [carcass_tasks(study, "fe")[-1], bench, held, *_at_rest(study, soils[0])]
+
+
+def at_rest_orientation(study: Study) -> float:
+    """What faces the ground of the wheel at rest [deg]: half way between two grousers, where it has any."""
+    lugs = wheel_design(study).grousers
+    return 0.0 if lugs is None else round(math.degrees(lugs.phase) % 360.0 + 180.0 / lugs.count, 6)
+
+
+def _at_rest(study: Study, soil: Soil) -> list[Task]:
+    """The wheel pressed into a soil by the solid model, and by plates where the study has them."""
+    section, orientation = stated(study.soil, "soil"), at_rest_orientation(study)
+    law = [soil.modulus(wheel_design(study).tire.width), soil.exponent]
+    deepest = study.fe.max_deflection
+    changed: dict[str, Any] = {
+        "soil": law,
+        "deflections": [round(deepest * (k + 1) / _STEPS, 12) for k in range(_STEPS)],
+        "max_load": section.load,
+    }
+    inputs = without_fields(without_end(fe_inputs(study, orientation, changed["deflections"]))) | changed
+    mesh = mesh_task(study, MESH_SOIL, coarse_across(study))
+    found = [mesh, fe_task(AT_REST["fe"], inputs, MESH_SOIL)]
+    if study.ancf_wheel is not None:
+        (plates,) = ancf_wheel_curve_tasks(study, [orientation])
+        asked = {**plates.inputs, **changed, "keep_points": False}
+        found.append(replace(plates, name=AT_REST["ancf_wheel"], inputs=asked))
+    return found
 
 
 def carcass_tasks(study: Study, model: str) -> tuple[Task, ...]:
@@ -49,7 +127,7 @@ def carcass_tasks(study: Study, model: str) -> tuple[Task, ...]:
             "model": model,
             "load": load,
             "wheel": wheel_inputs(study),
-            "curves": solved,
+            "curves": [list(one) for one in solved],
             **({} if model == "fe" else {"options": curves[0].inputs["options"]}),
         },
         needs=(*((MESH,) if model == "fe" else ()), *(name for _, name in solved)),
