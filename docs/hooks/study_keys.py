@@ -95,7 +95,7 @@ def others(value: Any, annotation: Any) -> Iterator[Any]:
     elif isinstance(value, float):
         yield from (1.01 * value, 0.99 * value, 2.0 * value) if value else (0.01,)
     else:
-        yield from (other for other in ("AISI 301", "Ti-6Al-4V", "other") if other != value)
+        yield from (other for other in ("AISI 301", "Ti-6Al-4V", "jsc1a", "other") if other != value)
 
 
 def _choices(annotation: Any) -> Iterator[Any]:

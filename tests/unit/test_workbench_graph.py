@@ -100,6 +100,7 @@ def test_a_change_recomputes_only_what_it_decides(study: Study) -> None:
     verified = {task.name for question in closed for task in question.tasks(study)}
     kept = {"ancf_phi000", "ancf_phi045", "brush", "ancf_surfaces"} | refined | verified
     kept |= {task.name for task in [*reading_tasks(study), *hoops_tasks(), *ancf_wheel_tasks(study)]}
+    kept |= {"soil_measured", "soil_ancf_wheel"}
     kept -= {"ancf_wheel_shape"}  # it reads the solid's fields
     assert kept == set(task_keys(before)) - _new_keys(before, mesh)
 

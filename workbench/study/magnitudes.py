@@ -24,6 +24,7 @@ from workbench.study.model import DATA, Study
 from workbench.study.own_mesh import material_names
 from workbench.study.quantities import to_si
 from workbench.study.sections import ToleranceSection
+from workbench.study.soil_section import without_soil
 
 __all__ = [
     "GATES",
@@ -142,6 +143,8 @@ def _idle(study: Study) -> Iterator[str]:
             yield f"tolerances.{key} has no effect: its check needs {_NEEDED[key]}"
     if study.ancf_wheel is not None and (lacking := without_ancf_wheel(study)) is not None:
         yield f"[ancf_wheel] has no effect: its model does not have {lacking}; remove it, or the other"
+    if study.soil is not None and (odd := without_soil(study)) is not None:
+        yield f"[soil] has no effect: {odd[0]} {odd[2]}; {odd[3]}"
     if study.input_uncertainty is not None and (other := other_law(study)) is not None:
         yield f"[input_uncertainty] has no effect: the section model that samples it does not have {' = '.join(other)}"
     tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None

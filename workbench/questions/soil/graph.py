@@ -16,15 +16,13 @@ from rover_dynamics.rover.planets import gravity_named
 from soil.soil import Soil
 from workbench.execution.task import Task
 from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks
-from workbench.questions.curve_graph import stiffness_tasks
-from workbench.questions.fe.graph import fe_inputs, fe_task, without_end, without_fields
+from workbench.questions.fe.foresight import foreseen
+from workbench.questions.fe.graph import fe_curve_tasks, fe_inputs, fe_task, without_end, without_fields
 from workbench.questions.travels import WORKING_LOAD
-from workbench.questions.wheel.graph import MESH, coarse_across, mesh_task, wheel_inputs
-from workbench.study.full import require_level
-from workbench.study.laws import require_elastic
+from workbench.questions.wheel.graph import MESH, coarse_across, mesh_task, wheel_inputs, wheel_meshes
 from workbench.study.model import Study, stated
-from workbench.study.own_mesh import own_mesh
 from workbench.study.soil_file import soil_of
+from workbench.study.soil_section import without_soil
 from workbench.study.wheel_design import wheel_design
 
 __all__ = [
@@ -77,7 +75,7 @@ def soil_tasks(study: Study) -> list[Task]:
         cost=15.0,
     )
     held = Task(name=MEASURED, function="workbench.questions.soil.bench_task:hold", inputs={}, cost=2.0)
-    return [carcass_tasks(study, "fe")[-1], bench, held, *_at_rest(study, soils[0])]
+    return [_carcass(study, "fe", *_shown(study, "fe")), bench, held, *_at_rest(study, soils[0])]
 
 
 def at_rest_orientation(study: Study) -> float:
@@ -93,6 +91,7 @@ def _at_rest(study: Study, soil: Soil) -> list[Task]:
     deepest = study.fe.max_deflection
     changed: dict[str, Any] = {
         "soil": law,
+        "contact_method": "penalty",
         "deflections": [round(deepest * (k + 1) / _STEPS, 12) for k in range(_STEPS)],
         "max_load": section.load,
     }
@@ -101,7 +100,8 @@ def _at_rest(study: Study, soil: Soil) -> list[Task]:
     found = [mesh, fe_task(AT_REST["fe"], inputs, MESH_SOIL)]
     if study.ancf_wheel is not None:
         (plates,) = ancf_wheel_curve_tasks(study, [orientation])
-        asked = {**plates.inputs, **changed, "keep_points": False}
+        asked = plates.inputs | {name: changed[name] for name in ("soil", "deflections", "max_load")}
+        asked["keep_points"] = False
         found.append(replace(plates, name=AT_REST["ancf_wheel"], inputs=asked))
     return found
 
@@ -114,13 +114,16 @@ def carcass_tasks(study: Study, model: str) -> tuple[Task, ...]:
     InputError
         For a study whose wheel is a mesh from a file, does not stand on level ground, or can yield for good.
     """
-    if own_mesh(study) is not None:
-        raise InputError("mesh.file", "", "has no rim of known radius and lugs", "describe the wheel by its parts")
-    require_level(study)
-    require_elastic(study, "a wheel on soil, whose rim springs back")
+    if (lacking := without_soil(study)) is not None:
+        raise InputError(*lacking)
     load, curves = _shown(study, model)
-    solved = [(one.inputs["orientation_deg"], one.name) for one in curves if "orientation_deg" in one.inputs]
-    find = Task(
+    given = (wheel_meshes(study)[0],) if model == "fe" else ()
+    return (*foreseen((*given, *curves)), _carcass(study, model, load, curves))
+
+
+def _carcass(study: Study, model: str, load: float, curves: Sequence[Task]) -> Task:
+    solved = [(one.inputs["orientation_deg"], one.name) for one in curves]
+    return Task(
         name=carcass_name(model),
         function="workbench.questions.soil.carcass_task:find",
         inputs={
@@ -133,18 +136,17 @@ def carcass_tasks(study: Study, model: str) -> tuple[Task, ...]:
         needs=(*((MESH,) if model == "fe" else ()), *(name for _, name in solved)),
         cost=2.0,
     )
-    return (*curves, find)
 
 
 def _shown(study: Study, model: str) -> tuple[float, Sequence[Task]]:
     """The load at which shapes are kept [N], and the curves' tasks that keep them: the report's own where they do."""
-    tasks = stiffness_tasks(study, model, ())
     if model == "ancf_wheel":
-        kept = [one if one.inputs["keep_points"] else _with(one, keep_points=True) for one in tasks]
-        return WORKING_LOAD, kept
+        plates = ancf_wheel_curve_tasks(study)
+        return WORKING_LOAD, [one if one.inputs["keep_points"] else _with(one, keep_points=True) for one in plates]
     loads = study.fe.snapshot_loads
     load = min(loads, key=lambda one: abs(one - WORKING_LOAD)) if loads else min(WORKING_LOAD, study.fe.max_load)
-    return load, [one if loads or one.name == MESH else _with(one, snapshot_loads=[load]) for one in tasks]
+    solid = fe_curve_tasks(study)
+    return load, solid if loads else [_with(one, snapshot_loads=[load]) for one in solid]
 
 
 def _with(task: Task, **inputs: object) -> Task:

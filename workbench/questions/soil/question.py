@@ -15,6 +15,7 @@ from workbench.questions.soil.graph import soil_tasks
 from workbench.questions.soil.measured import QUANTITIES
 from workbench.questions.soil.results import REQUIRED_SLOPE, OnSoil, read_on_soil
 from workbench.study.model import Study
+from workbench.study.soil_section import without_soil
 from workbench.verdict.rules import Claim, at_least, at_most
 
 __all__ = ["SOIL"]
@@ -87,11 +88,11 @@ def _climbs(results: OnSoil, number: int) -> Check:
 SOIL = Question(
     name="soil",
     title="On soil",
-    group="Rover",
+    group="Wheel",
     tasks=soil_tasks,
     read=read_on_soil,
     checks=_checks,
     figures=lambda study, results: soil_figures(results.benches, results.held),
-    applies=lambda study: study.soil is not None,
-    budget=640,
+    applies=lambda study: study.soil is not None and without_soil(study) is None,
+    budget=600,
 )
