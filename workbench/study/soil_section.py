@@ -27,7 +27,7 @@ class SoilSection(Section):
 
 
 def without_soil(study: Study) -> tuple[str, str, str, str] | None:
-    """What keeps a study's wheel from being driven on soil: what, value, rule and hint of a message; None if nothing."""
+    """What keeps a study's wheel off soil: what, value, rule and hint of a message; None if nothing does."""
     from workbench.study.laws import plastic_parts
     from workbench.study.own_mesh import own_mesh
 

@@ -20,6 +20,7 @@ from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import fe_curve_tasks, fe_inputs, fe_task, without_end, without_fields
 from workbench.questions.travels import WORKING_LOAD
 from workbench.questions.wheel.graph import MESH, coarse_across, mesh_task, wheel_inputs, wheel_meshes
+from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.model import Study, stated
 from workbench.study.soil_file import soil_of
 from workbench.study.soil_section import without_soil
@@ -98,10 +99,10 @@ def _at_rest(study: Study, soil: Soil) -> list[Task]:
     inputs = without_fields(without_end(fe_inputs(study, orientation, changed["deflections"]))) | changed
     mesh = mesh_task(study, MESH_SOIL, coarse_across(study))
     found = [mesh, fe_task(AT_REST["fe"], inputs, MESH_SOIL)]
-    if study.ancf_wheel is not None:
+    if study.ancf_wheel is not None and without_ancf_wheel(study) is None:
         (plates,) = ancf_wheel_curve_tasks(study, [orientation])
-        asked = plates.inputs | {name: changed[name] for name in ("soil", "deflections", "max_load")}
-        asked["keep_points"] = False
+        level = {name: changed[name] for name in ("soil", "deflections", "max_load")}
+        asked = {**plates.inputs, **level, "keep_points": False}
         found.append(replace(plates, name=AT_REST["ancf_wheel"], inputs=asked))
     return found
 
