@@ -137,6 +137,22 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         caption(page, "30° down")
         turned = until_changed(page, shown)
 
+        page.locator("#parts label", has_text="tire").click()
+        hidden = until_changed(page, turned)
+        page.select_option("#cut-axis", "y")
+        page.locator("#cut-text", has_text="y = 0.0 mm").wait_for()
+        cut = until_changed(page, hidden)
+        page.locator("#cut-step").fill("100")  # nothing is left before the eye
+        page.locator("#cut-text", has_text="y = 50.0 mm").wait_for()
+        until_changed(page, cut)
+        page.select_option("#cut-axis", "")
+        page.click("#all-parts")
+        page.wait_for_selector("#all-parts", state="detached")
+        end = time.monotonic() + PATIENCE / 1000
+        while pixels(page) != turned:
+            assert time.monotonic() < end, "the whole wheel does not come back"
+            page.wait_for_timeout(100)
+
         box = page.locator(".stage canvas").first.bounding_box()
         assert box is not None
         x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]

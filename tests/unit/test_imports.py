@@ -52,8 +52,8 @@ ONE_MODULE = (
     "trame",
 )
 """Libraries imported by at most one module of a package."""
-SECOND = {"pyvista": {"workbench/viewer/scene.py", "workbench/viewer/wheel_surface.py"}}
-"""More modules that may: the viewer's scene, and its surface, live as long as the page; stills are drawn and gone."""
+SECOND = {"pyvista": {"workbench/viewer/scene.py"}}
+"""More modules that may: the viewer's scene lives as long as the page; stills are drawn and gone."""
 NEVER_ON_HELP = {
     *("gmsh", "petsc4py", "dolfinx", "mpi4py", "vtk", "vtkmodules"),
     *("pyvista", "matplotlib", "numba", "distributed", "rasterio", "pyarrow", "pandas", "trame", "aiohttp"),

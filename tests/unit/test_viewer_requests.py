@@ -17,6 +17,10 @@ OFFERED = {
     "orientation": [0, 30.0],
     "load": [0, 2],
     "quantity": ["stress", "displacement", "pressure"],
+    "visible": [[], [2, 1]],
+    "cut_axis": ["", "x", "y", "z"],
+    "cut_step": [0, 100],
+    "cut_other_side": [True, False],
     "scenario": ["straight"],
     "tire": ["brush"],
     "series": ["load_N"],
@@ -25,13 +29,17 @@ OFFERED = {
     "playing": [True, False],
     "speed": [0.1, 10],
 }
-NOT = ("", "x", None, -1, 11, 10**30, math.nan, math.inf, 0.7, {}, ["x"], ["fe_average"] * 2, [[]], b"fe", 1 + 0j)
+NOT = (None, -1, 101, 10**30, math.nan, math.inf, 0.7, {}, ["x"], ["fe_average"] * 2, [1, 1], [[]], b"fe", 1 + 0j, "w")
+SOME_OFFER = {"cut_axis": ("", "x"), "cut_step": (11,)}
+"""What only these choices offer, to be refused to the others."""
 
 
 def page() -> Any:
     """A session whose wheel has three loads and whose player ten frames."""
     state = SimpleNamespace(
         models=[{"value": "fe"}],
+        quantities=[{"value": name} for name in ("stress", "displacement", "pressure")],
+        parts=[{"value": 1}, {"value": 2}],
         orientations=[0.0, 30.0],
         loads=[0.0, 100.0, 200.0],
         scenarios=["straight"],
@@ -39,22 +47,22 @@ def page() -> Any:
         series_choices={"load_N": "wheel load"},
         last_frame=9,
     )
-    known = {"wheel_models": lambda: ["fe"], "quantities": lambda: ["stress", "displacement", "pressure"]}
-    return SimpleNamespace(state=state, curves={"fe_average": None}, **known)
+    return SimpleNamespace(state=state, curves={"fe_average": None})
 
 
 @pytest.mark.parametrize("name", CHOICES)
 def test_what_is_offered_passes_and_nothing_else(name: str) -> None:
     for value in OFFERED[name]:
         assert allowed_change(page(), {"key": name, "value": value}) == (name, value)
-    for value in (*NOT, *([] if name == "playing" else [True])):
+    others = [value for one, values in SOME_OFFER.items() if one != name for value in values]
+    for value in (*NOT, *others, *([] if name in ("playing", "cut_other_side") else [True])):
         with pytest.raises(Refused):
             assert allowed_change(page(), {"key": name, "value": value}) is None, value
 
 
 def test_a_pressure_that_is_not_known_is_not_offered() -> None:
     session = page()
-    session.quantities = lambda: ["stress", "displacement"]
+    session.state.quantities = [{"value": name} for name in ("stress", "displacement")]
     with pytest.raises(Refused):
         allowed_change(session, {"key": "quantity", "value": "pressure"})
 

@@ -14,10 +14,10 @@ from workbench.viewer.scene import read_fields
 
 def test_fields_come_back(tmp_path: Path) -> None:
     write_small_report(tmp_path)
-    surface, field = read_fields(tmp_path / "fields" / "fe_phi000_200N.vtu")
+    body, field = read_fields(tmp_path / "fields" / "fe_phi000_200N.vtu")
     mesh = ring_mesh()
-    half = len(surface.nodes) // 2
-    np.testing.assert_allclose(surface.places[:half], mesh.points[surface.nodes[:half]])
+    np.testing.assert_allclose(body.places * [[1.0, y, 1.0] for y in body.mirror], mesh.points[body.nodes])
+    assert len(body.parts) == 2 * len(mesh.cells)
     share = np.clip(-mesh.points[:, 2] / 0.14, 0.0, 1.0)
     np.testing.assert_allclose(field.von_mises, 4e8 * share)
     np.testing.assert_allclose(field.displacement[:, 2], 0.02 * share, atol=1e-12)

@@ -13,6 +13,7 @@ from workbench.questions.fe.field_file import write_pressures
 from workbench.viewer.folder import read_folder
 from workbench.viewer.scene import Scene
 from workbench.viewer.stages import RoverStage, wheel_stage
+from workbench.viewer.wheel_body import Cut
 
 
 def test_a_wheel_is_shown_unloaded_and_at_the_loads_that_are_there(tmp_path: Path) -> None:
@@ -26,9 +27,9 @@ def test_a_wheel_is_shown_unloaded_and_at_the_loads_that_are_there(tmp_path: Pat
     np.testing.assert_allclose(stage.values(2, "stress"), 4e8 * share, rtol=1e-6)
     np.testing.assert_allclose(stage.down, [0.5, 0.0, -np.sqrt(0.75)])
     assert stage.bar("stress").end == pytest.approx(4e8)
-    places = stage.places(2)
-    corners, _ = stage._ground(places)
-    moved = stage.surface.places + stage.surface.displacement(stage.fields[2])
+    places = stage.places(2, stage.body)
+    corners, _ = stage.ground(2)
+    moved = stage.body.places + stage.body.displacement(stage.fields[2])
     np.testing.assert_allclose(-places[:, 2], moved @ stage.down, atol=1e-12)
     np.testing.assert_allclose(np.linalg.norm(places, axis=1), np.linalg.norm(moved, axis=1))
     np.testing.assert_allclose(corners[:, 2], places[:, 2].min(), atol=1e-3)
@@ -42,7 +43,7 @@ def test_a_wheel_is_shown_at_every_point_of_its_curve(tmp_path: Path) -> None:
     assert stage.loads == (0.0, *POINTS)
     np.testing.assert_allclose(stage.values(8, "stress"), 8.0 * stage.values(1, "stress"), rtol=1e-6)
     whole = wheel_stage(0.0, files)
-    np.testing.assert_allclose(stage.places(8), whole.places(2), atol=1e-8)
+    np.testing.assert_allclose(stage.places(8, stage.body), whole.places(2, whole.body), atol=1e-8)
     np.savez(path, allow_pickle=False, load=[1.0], displacement=np.zeros((1, 8, 3)), von_mises=np.zeros((1, 8)))
     with pytest.raises(InputError, match=r"must hold the \d+ nodes of the mesh"):
         wheel_stage(0.0, files, path)
@@ -58,7 +59,7 @@ def test_contact_pressure_is_offered_where_every_load_has_one(tmp_path: Path) ->
     stage, scene = wheel_stage(30.0, files, pressures=path), Scene()
     grounds = []
     for quantity in ("stress", "pressure", "displacement"):
-        stage.show(scene, 2, quantity)
+        stage.show(scene, stage.body.surface(), 2, quantity)
         grounds.append(bool(scene._now.below.visibility))
     scene.close()
     assert grounds == [True, False, True], "the ground would hide what presses on it"
@@ -72,6 +73,26 @@ def test_contact_pressure_is_offered_where_every_load_has_one(tmp_path: Path) ->
     np.savez(path, load=[100.0])
     with pytest.raises(InputError, match="lacks numbers of load, contact_pressure"):
         wheel_stage(30.0, files, pressures=path)
+
+
+def test_what_is_drawn_is_what_is_left_by_a_cut(tmp_path: Path) -> None:
+    write_small_report(tmp_path)
+    files = [(one.load, one.path) for one in read_folder(tmp_path).fields if one.orientation == 30.0]
+    stage, scene = wheel_stage(30.0, files), Scene()
+    for cut in (Cut(), Cut(axis="y"), Cut(hidden=frozenset({1, 2})), Cut(hidden=frozenset({1}))):
+        surface = stage.body.surface(cut)
+        for number in (1, 2):
+            stage.show(scene, surface, number, "stress")
+            (drawn,), actor = scene._now.shapes, scene._now.actors[0]
+            assert bool(actor.visibility) == (len(surface.quads) > 0)
+            if not actor.visibility:
+                continue
+            assert (drawn.n_cells, drawn.n_points) == (len(surface.quads), len(surface.places)), cut
+            np.testing.assert_allclose(drawn.points, stage.places(number, surface), atol=1e-7)
+            expected = stage.bar("stress").colours(stage.values(number, "stress")[surface.nodes])
+            np.testing.assert_array_equal(drawn.point_data["colour"], expected)
+            assert drawn.active_scalars_name == "colour"
+    scene.close()
 
 
 def test_scene_and_motion_move_what_is_drawn(tmp_path: Path) -> None:
@@ -97,8 +118,9 @@ def test_the_address_of_an_object_in_the_scene_never_stands_for_another(tmp_path
     named: dict[str, object] = {}
     renderer = scene._plotter.renderer
     for number in range(12):
-        wheels[number % 2].show(scene, number % 3, "stress")
-        scene.mark(wheels[0].places(0)[number], 0.01)
+        wheel, cut = wheels[number % 2], Cut(hidden=frozenset({number % 3}), axis="xyz"[number % 3])
+        wheel.show(scene, wheel.body.surface(cut), number % 3, "stress")
+        scene.mark(wheel.body.places[number], 0.01)
         rover.show(scene, number)
         for actor in renderer.GetActors():
             for thing in (actor, actor.GetProperty(), actor.GetMapper(), actor.GetMapper().GetInput()):

@@ -9,6 +9,7 @@ from typing import Any
 
 from workbench.viewer.folder import ReportFolder, spoken
 from workbench.viewer.names import plain
+from workbench.viewer.wheel_body import STEPS
 
 __all__ = ["first_state"]
 
@@ -31,6 +32,12 @@ def first_state(folder: ReportFolder) -> dict[str, Any]:
         "load": 0,
         "quantities": [],
         "quantity": "stress",
+        "parts": [],
+        "visible": [],
+        "cut_axis": "",
+        "cut_step": STEPS // 2,
+        "cut_other_side": False,
+        "cut_text": "",
         "scenarios": scenarios,
         "scenario": first,
         "tires": [],

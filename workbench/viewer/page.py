@@ -76,6 +76,7 @@ def _connect(server: Any, page: Window) -> None:
         (("tab",), session.open),
         (("model", "orientation"), session.open_wheel),
         (("load", "quantity"), session.show_load),
+        (("visible", "cut_axis", "cut_step", "cut_other_side"), session.cut),
         (("scenario", "tire"), session.open_rover),
         (("frame",), session.show_frame),
         (("chosen", "series"), session.draw_curves),

@@ -12,7 +12,9 @@ from typing import Any, TypeGuard
 
 import msgpack  # type: ignore[import-untyped]
 
-from workbench.viewer.session import SPEEDS, Session
+from workbench.viewer.rover_tab import SPEEDS
+from workbench.viewer.session import Session
+from workbench.viewer.wheel_body import AXES, STEPS
 
 __all__ = ["CHOICES", "LONGEST", "Refused", "Request", "allowed_change", "allowed_trigger", "read_request"]
 
@@ -91,16 +93,31 @@ def _curves(session: Session, value: object) -> bool:
     return len(set(value)) == len(value)
 
 
+def _offered(choices: list[dict[str, Any]], value: object) -> bool:
+    """Whether this is the value of one of the page's choices; True is no 1."""
+    return not isinstance(value, bool) and value in [one["value"] for one in choices]
+
+
+def _parts(session: Session, value: object) -> bool:
+    if not isinstance(value, list) or not all(_offered(session.state.parts, tag) for tag in value):
+        return False
+    return len(set(value)) == len(value)
+
+
 def _tab(session: Session, value: object) -> bool:
     return (value == "wheel" and bool(session.state.models)) or (value == "rover" and bool(session.state.scenarios))
 
 
 CHOICES: Mapping[str, Callable[[Session, Any], bool]] = {
     "tab": _tab,
-    "model": lambda session, value: isinstance(value, str) and value in session.wheel_models(),
+    "model": lambda session, value: _offered(session.state.models, value),
     "orientation": lambda session, value: _is_number(value) and value in session.state.orientations,
     "load": lambda session, value: _counted(value, len(session.state.loads)),
-    "quantity": lambda session, value: isinstance(value, str) and value in session.quantities(),
+    "quantity": lambda session, value: _offered(session.state.quantities, value),
+    "visible": _parts,
+    "cut_axis": lambda session, value: isinstance(value, str) and value in ("", *AXES),
+    "cut_step": lambda session, value: _counted(value, STEPS + 1),
+    "cut_other_side": lambda session, value: isinstance(value, bool),
     "scenario": lambda session, value: isinstance(value, str) and value in session.state.scenarios,
     "tire": lambda session, value: isinstance(value, str) and value in session.state.tires,
     "series": lambda session, value: isinstance(value, str) and value in session.state.series_choices,

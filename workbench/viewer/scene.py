@@ -1,4 +1,4 @@
-"""What stands in the page's 3D view. Only `workbench.charts.stills` and `wheel_surface` import PyVista besides.
+"""What stands in the page's 3D view. Only `workbench.charts.stills` imports PyVista besides.
 
 Stills are drawn and gone; this scene lives as long as the page, whose browser draws it (vtk.js).
 
@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from workbench.charts.solids import WORLD, Quads, Solid
 from workbench.viewer.field_arrays import field_arrays
-from workbench.viewer.wheel_surface import WheelField, WheelSurface, wheel_surface
+from workbench.viewer.wheel_body import WheelBody, wheel_body
+from workbench.viewer.wheel_surface import WheelField
 
 __all__ = ["Camera", "Scene", "read_fields"]
 
@@ -49,8 +50,8 @@ class Camera:
     half_height: float
 
 
-def read_fields(path: Path) -> tuple[WheelSurface, WheelField]:
-    """The outside of the wheel and its fields from a file that ``workbench report`` wrote.
+def read_fields(path: Path) -> tuple[WheelBody, WheelField]:
+    """The cells of the wheel and its fields from a file that ``workbench report`` wrote.
 
     Raises
     ------
@@ -77,16 +78,20 @@ def read_fields(path: Path) -> tuple[WheelSurface, WheelField]:
     fits = points.shape == moved.shape == (len(stress), 3) and stress.ndim == 1 and part.shape == (len(cells),)
     if not fits or cells.min() < 0 or cells.max() >= len(points):
         raise InputError("field file", path, "must hold cells of its own points, and a field at each", hint)
-    return wheel_surface(points, cells, part, moved), WheelField(displacement=moved, von_mises=stress)
+    return wheel_body(points, cells, part, moved), WheelField(displacement=moved, von_mises=stress)
 
 
 @dataclass(slots=True)
 class _Drawn:
-    """What one stage has put into the scene: everything, what moves with a body, what changes its shape."""
+    """What one stage has put into the scene: everything, what moves with a body, what changes its shape, the ground.
+
+    ``quads`` are those that the changing surface of a wheel has now.
+    """
 
     actors: list[Any] = field(default_factory=list)
     moving: list[tuple[Any, int]] = field(default_factory=list)
     shapes: list[pv.PolyData] = field(default_factory=list)
+    quads: IntArray | None = None
     ground: pv.PolyData | None = None
     below: Any = None
 
@@ -126,23 +131,29 @@ class Scene:
             self._now = drawn
         return known
 
-    def add_shape(self, quads: Quads, colours: Colours, ground: Quads | None) -> None:
-        """One surface, coloured at its points (n, 3) uint8, on a piece of ground."""
-        drawn = _surface(*quads)
-        drawn.point_data["colour"] = colours
+    def add_shape(self, ground: Quads) -> None:
+        """A surface that is still to be shown, and a piece of ground."""
+        drawn = _surface(*ground)  # as VTK adds nothing that is empty
+        drawn.point_data["colour"] = np.zeros((len(ground[0]), 3), dtype=np.uint8)
         self._add(drawn, pickable=True, scalars="colour", rgb=True)
         self._now.shapes.append(drawn)
-        if ground is not None:
-            self._now.ground = _surface(*ground)
-            self._now.below = self._add(self._now.ground, color=_GROUND)
+        self._now.ground = _surface(*ground)
+        self._now.below = self._add(self._now.ground, color=_GROUND)
 
-    def move_shape(self, points: FloatArray, colours: Colours, ground: Quads | None) -> None:
-        """Other places (n, 3) [m] and colours of the surface that is shown, and other places of its ground."""
-        (drawn,) = self._now.shapes
-        drawn.points = points
-        drawn.point_data["colour"] = colours
-        if ground is not None and self._now.ground is not None:
+    def show_shape(self, quads: Quads, colours: Colours, ground: Quads) -> None:
+        """The surface, maybe of nothing, coloured at its points (n, 3) uint8, and its piece of ground."""
+        (drawn,), (points, corners) = self._now.shapes, quads
+        if self._now.ground is not None:
             self._now.ground.points = ground[0]
+        self._now.actors[0].visibility = len(corners) > 0
+        if not len(corners):
+            return
+        if self._now.quads is not corners:
+            drawn.clear_data()
+            drawn.faces = _faces(corners)
+            self._now.quads = corners
+        drawn.points = points.astype(np.float32)
+        drawn.point_data["colour"] = colours
 
     def show_ground(self, *, shown: bool) -> None:
         """Show or hide what the wheel stands on, which is there at other times."""
@@ -212,4 +223,9 @@ def _quiet() -> Iterator[None]:
 
 def _surface(points: FloatArray, quads: IntArray) -> pv.PolyData:
     """Quadrangles in single precision, which is what the browser draws."""
-    return pv.PolyData(points.astype(np.float32), faces=np.column_stack([np.full(len(quads), 4), quads]).ravel())
+    return pv.PolyData(points.astype(np.float32), faces=_faces(quads))
+
+
+def _faces(quads: IntArray) -> IntArray:
+    """As VTK has them: the number of corners before each."""
+    return np.column_stack([np.full(len(quads), 4), quads]).ravel()

@@ -24,7 +24,8 @@ from workbench.study.ancf_tire import drawn_tire
 from workbench.viewer.colours import ColourBar, colour_bar
 from workbench.viewer.folder import ReportFolder
 from workbench.viewer.scene import Camera, Scene, read_fields
-from workbench.viewer.wheel_surface import WheelField, WheelSurface
+from workbench.viewer.wheel_body import WheelBody
+from workbench.viewer.wheel_surface import WheelField, WheelPoints, WheelSurface
 
 __all__ = ["QUANTITIES", "Results", "RoverStage", "WheelStage", "wheel_stage"]
 
@@ -47,13 +48,13 @@ class WheelStage:
 
     Attributes
     ----------
-    surface : the same at all loads
+    body : the same at all loads
     loads : (n,) [N], the first one 0
     fields : (n,)
     down : unit vector from the hub to the ground, wheel frame
     """
 
-    surface: WheelSurface
+    body: WheelBody
     loads: tuple[float, ...]
     fields: tuple[WheelField, ...]
     down: FloatArray
@@ -77,30 +78,29 @@ class WheelStage:
         title, unit, factor = QUANTITIES[quantity]
         return colour_bar(title, unit, factor, [self.values(k, quantity) for k in range(len(self.loads))])
 
-    def places(self, number: int) -> FloatArray:
-        """Of the surface's points (n, 3) [m], in true scale, the ground below."""
+    def places(self, number: int, points: WheelPoints) -> FloatArray:
+        """Of points of the wheel (n, 3) [m], in true scale, the ground below."""
         x, z = self.down[0], self.down[2]
         upright = np.array([[-z, 0.0, x], [0.0, 1.0, 0.0], [-x, 0.0, -z]])
-        places: FloatArray = (self.surface.places + self.surface.displacement(self.fields[number])) @ upright.T
+        places: FloatArray = (points.places + points.displacement(self.fields[number])) @ upright.T
         return places
 
-    def show(self, scene: Scene, number: int, quantity: str) -> None:
-        """Put it into the scene, or only move what stands there."""
-        places = self.places(number)
-        colours = self.bar(quantity).colours(self.values(number, quantity)[self.surface.nodes])
-        if scene.turn_to(self):
-            scene.move_shape(places, colours, self._ground(places))
-        else:
-            scene.add_shape((places, self.surface.quads), colours, self._ground(places))
+    def show(self, scene: Scene, surface: WheelSurface, number: int, quantity: str) -> None:
+        """Put what is left of it into the scene, or only move what stands there."""
+        if not scene.turn_to(self):
+            scene.add_shape(self.ground(number))
+        colours = self.bar(quantity).colours(self.values(number, quantity)[surface.nodes])
+        scene.show_shape((self.places(number, surface), surface.quads), colours, self.ground(number))
         scene.show_ground(shown=quantity != "pressure")  # which lies under it
 
     def camera(self) -> Camera:
         """From the side and a little above, with the ground below."""
-        reach = float(np.abs(self.surface.places).max())
+        reach = float(np.abs(self.body.places).max())
         return Camera(eye=_unit(_WHEEL_EYE), up=(0.0, 0.0, 1.0), centre=(0.0, 0.0, 0.0), half_height=1.35 * reach)
 
-    def _ground(self, places: FloatArray) -> Quads:
-        """A square under the lowest point of the wheel."""
+    def ground(self, number: int) -> Quads:
+        """A square under the lowest point of the whole wheel."""
+        places = self.places(number, self.body)
         below, half = float(places[:, 2].min()) - 3e-4, 0.85 * float(np.abs(places).max())
         corners = [(a * half, b * half, below) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         return np.array(corners), np.array([[0, 1, 2, 3]])
@@ -127,7 +127,7 @@ def wheel_stage(
         For a file that cannot be used.
     """
     read = [(load, *read_fields(path)) for load, path in files]
-    _, surface, first = read[0]
+    _, body, first = read[0]
     nothing = 0.0 * first.von_mises
     still = WheelField(displacement=0.0 * first.displacement, von_mises=nothing, pressure=nothing)
     shown = [(load, field) for load, _, field in read]
@@ -140,7 +140,7 @@ def wheel_stage(
         shown = _with_pressures(shown, pressures)
     phi = np.radians(orientation)
     return WheelStage(
-        surface=surface,
+        body=body,
         loads=(0.0, *(load for load, _ in shown)),
         fields=(still, *(field for _, field in shown)),
         down=np.array([np.sin(phi), 0.0, -np.cos(phi)]),

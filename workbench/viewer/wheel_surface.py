@@ -1,4 +1,4 @@
-"""The outside of a wheel's hexahedra: flat quadrangles with the part behind each, and what a ray meets first.
+"""What of a wheel's hexahedra is seen: flat quadrangles with the part behind each, and what a ray meets first.
 
 Verified by tests/unit/test_viewer_wheel_surface.py.
 """
@@ -8,23 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import pyvista as pv
 from numpy.typing import NDArray
 
-from geometry.hexahedra import VTK_FROM_GMSH, reference_nodes
-
-__all__ = ["Probe", "WheelField", "WheelSurface", "wheel_surface"]
+__all__ = ["Probe", "WheelField", "WheelPoints", "WheelSurface"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 _TRIANGLES = np.array([(0, 1, 2), (0, 2, 3)])
-_LATTICE = np.lexsort(reference_nodes(27)[list(VTK_FROM_GMSH)].T).reshape(3, 3, 3)
-_EIGHTHS = np.array(
-    [_LATTICE[k : k + 2, j : j + 2, i : i + 2].ravel()[[0, 1, 3, 2, 4, 5, 7, 6]] for k, j, i in np.ndindex(2, 2, 2)]
-)
-"""Nodes of the eight hexahedra that VTK's triquadratic one is made of."""
-_PLANE = 1e-9
-"""Distance from y = 0 within which a face lies on the cut of half a wheel [m]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -39,29 +29,46 @@ class WheelField:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WheelSurface:
-    """Both halves of a wheel.
+class WheelPoints:
+    """Points of a wheel, both halves of it.
 
     Attributes
     ----------
-    places : (n, 3) float [m], undeformed, of the points that are drawn; the mirror image comes second
+    places : (n, 3) float [m], undeformed
     nodes : (n,) int, node of the mesh at each point
     mirror : (n,) float, +1, or -1 for the image at -y
-    quads : (m, 4) int, corners among the points
-    parts : (m,) int, tag of the part behind each quadrangle
     """
 
     places: FloatArray
     nodes: IntArray
     mirror: FloatArray
-    quads: IntArray
-    parts: IntArray
 
     def displacement(self, field: WheelField) -> FloatArray:
         """Of each point (n, 3) [m]."""
         moved = field.displacement[self.nodes].copy()
         moved[:, 1] *= self.mirror
         return moved
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WheelSurface(WheelPoints):
+    """The boundary of those cells that are drawn.
+
+    Attributes
+    ----------
+    numbers : (n,) int, increasing, of the points in the whole body
+    quads : (m, 4) int, corners among the points
+    parts : (m,) int, tag of the part behind each quadrangle
+    """
+
+    numbers: IntArray
+    quads: IntArray
+    parts: IntArray
+
+    def index(self, number: int) -> int | None:
+        """Where among the points that of this number in the body is; None if it is not drawn."""
+        place = int(np.searchsorted(self.numbers, number))
+        return place if place < len(self.numbers) and self.numbers[place] == number else None
 
     def probe(self, places: FloatArray, ray: FloatArray) -> Probe | None:
         """The point nearest to where a ray (2, 3) from its first to its second end meets the surface first, or None.
@@ -75,51 +82,15 @@ class WheelSurface:
         number, place = met
         corners = self.quads[number // 2]
         nearest = int(corners[np.argmin(np.linalg.norm(places[corners] - place, axis=1))])
-        return Probe(point=nearest, node=int(self.nodes[nearest]), part=int(self.parts[number // 2]))
+        return Probe(point=int(self.numbers[nearest]), part=int(self.parts[number // 2]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Probe:
-    """A point of the surface: its number, the node of the mesh there, the tag of the part that was met."""
+    """A point of the surface: its number in the body, the tag of the part that was met."""
 
     point: int
-    node: int
     part: int
-
-
-def wheel_surface(points: FloatArray, cells: IntArray, tags: IntArray, moved: FloatArray | None = None) -> WheelSurface:
-    """Boundary of hexahedra in VTK's node order, points (n, 3) [m], cells (m, 8 or 27), tags of parts (m,).
-
-    A mesh that ends at y = 0 is half a wheel if no node there is moved (n, 3) across that plane, or nothing is said of
-    it: its cut is left out, its mirror image added.
-    """
-    facets, parts = _outside(points, cells, tags)
-    low, high = float(points[:, 1].min()), float(points[:, 1].max())
-    across = np.abs(points[:, 1]) <= _PLANE
-    whole = min(abs(low), abs(high)) > _PLANE or (moved is not None and bool(moved[across, 1].any()))
-    if not whole:
-        inside = np.abs(points[facets, 1]).max(axis=1) > _PLANE
-        facets, parts = facets[inside], parts[inside]
-    nodes, quads = np.unique(facets, return_inverse=True)
-    quads, places, n = quads.reshape(-1, 4), points[nodes], len(nodes)
-    if whole:
-        return WheelSurface(places=places, nodes=nodes, mirror=np.ones(n), quads=quads, parts=parts)
-    return WheelSurface(
-        places=np.concatenate([places, places * (1.0, -1.0, 1.0)]),
-        nodes=np.tile(nodes, 2),
-        mirror=np.repeat([1.0, -1.0], n),
-        quads=np.concatenate([quads, quads[:, ::-1] + n]),
-        parts=np.tile(parts, 2),
-    )
-
-
-def _outside(points: FloatArray, cells: IntArray, tags: IntArray) -> tuple[IntArray, IntArray]:
-    """Nodes (k, 4) of the quadrangles outside, turned outwards, and tags (k,); a cell of 27 nodes counts as eight."""
-    if cells.shape[1] == 27:
-        cells, tags = cells[:, _EIGHTHS].reshape(-1, 8), np.repeat(tags, 8)
-    found = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: cells}, points).extract_surface(algorithm="geometry")
-    corners = np.asarray(found.point_data["vtkOriginalPointIds"], dtype=np.int64)[found.regular_faces]
-    return corners, tags[found.cell_data["vtkOriginalCellIds"]]
 
 
 def _first_hit(corners: FloatArray, ray: FloatArray) -> tuple[int, FloatArray] | None:
