@@ -25,6 +25,8 @@ LOADS = (100.0, 200.0)
 POINTS = (25.0, 50.0, 75.0, 100.0, 125.0, 150.0, 175.0, 200.0)
 """Loads of the curve at 0 degrees, whose fields are kept."""
 ORIENTATIONS = (0, 30)
+PRINCIPAL = np.array([0.5, 0.0, -1.5])
+"""Principal stresses over half the von Mises stress, which is made up as well."""
 
 
 def ring_mesh(sides: int = 48) -> TaggedMesh:
@@ -98,13 +100,15 @@ def write_small_report(folder: Path) -> None:
                 deflection=newtons / 8000.0,
                 displacement=-1e-4 * newtons * share[:, None] * ground,
                 von_mises=2e6 * newtons * share,
+                principal_stress=1e6 * newtons * share[:, None] * PRINCIPAL,
             )
             for newtons in {*LOADS, *POINTS}
         }
         stem = f"fe_phi{orientation:03d}"
         for newtons in LOADS:
             one = fields[newtons]
-            write_fields(mesh, one.displacement, one.von_mises, folder / "fields" / f"{stem}_{newtons:.0f}N.vtu")
+            path = folder / "fields" / f"{stem}_{newtons:.0f}N.vtu"
+            write_fields(mesh, one.displacement, one.von_mises, path, one.principal_stress)
         if orientation == 0:
             write_points([fields[newtons] for newtons in POINTS], folder / "fields" / f"{stem}_points.npz")
     average = StiffnessCurve(

@@ -29,7 +29,6 @@ __all__ = [
     "stored_energy_density",
     "stress_increment",
     "thermal_moduli",
-    "von_mises_cauchy",
 ]
 
 
@@ -119,14 +118,6 @@ def cauchy_stress(
         F = _with_third(F, ufl.sqrt(stretch**2 + 2.0 * transverse * trace))
         S = _with_third(S, (lame[0] + 2.0 * lame[1] * transverse) * trace / stretch)
     return F * S * F.T / ufl.det(F)
-
-
-def von_mises_cauchy(
-    law: MaterialLaw, u: Expr, lame: tuple[Expr, Expr], stretch: Expr = 1.0, transverse: Expr = None
-) -> Expr:
-    """Von Mises equivalent of the Cauchy stress [Pa], see `cauchy_stress`."""
-    deviator = ufl.dev(cauchy_stress(law, u, lame, stretch, transverse))
-    return ufl.sqrt(1.5 * ufl.inner(deviator, deviator))
 
 
 def _unit(u: Expr) -> Expr:

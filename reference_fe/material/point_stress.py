@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from reference_fe.cells import general_kernels
 from reference_fe.cells.choice import form_laws
 from reference_fe.cells.general_cells import PointSet
-from reference_fe.material.hyperelastic import cauchy_stress, von_mises_cauchy
+from reference_fe.material.hyperelastic import cauchy_stress
 from reference_fe.material.point_evaluation import PointEvaluation
 from reference_fe.problem.static_problem import StaticProblem
 
@@ -31,25 +31,23 @@ class PointStress:
     ----------
     problem : before its first increment, if a part yields
     points : (m, dim) of the reference cell
-    equivalent : von Mises stress instead of the tensor
     """
 
-    def __init__(self, problem: StaticProblem, points: Array, *, equivalent: bool = False) -> None:
-        self._problem, self._equivalent = problem, equivalent
+    def __init__(self, problem: StaticProblem, points: Array) -> None:
+        self._problem = problem
         self._mesh = problem.domain.mesh
         general = problem.general
         others = {} if general is None else problem.general_laws
-        expression = von_mises_cauchy if equivalent else cauchy_stress
         fields = (problem.u, problem.lame, problem.stretch, problem.transverse_strain)
         laws = form_laws({part: law for part, law in problem.laws.items() if part not in others})
         self._forms = [
             (
                 problem.domain.cells_of([p for p in laws if laws[p] is law]),
-                PointEvaluation(expression(law, *fields), points),
+                PointEvaluation(cauchy_stress(law, *fields), points),
             )
             for law in sorted(set(laws.values()))
         ]
-        self._shape = (len(points),) if equivalent else (len(points), 3, 3)
+        self._count = len(points)
         self._points = None
         if general is not None:
             weights = np.zeros(len(points))
@@ -57,17 +55,16 @@ class PointStress:
             problem.histories.follow(self._points)
 
     def __call__(self) -> Array:
-        """Stress of the step to the present displacement, (n_own_cells, m, 3, 3) or (n_own_cells, m) [Pa].
+        """Stress of the step to the present displacement, (n_own_cells, m, 3, 3) [Pa].
 
         Zero in rigid parts.
         """
         own = self._mesh.topology.index_map(self._mesh.topology.dim).size_local
-        values = np.zeros((own, *self._shape))
+        values = np.zeros((own, self._count, 3, 3))
         for cells, evaluation in self._forms:
             values[cells] = evaluation(self._mesh, cells)
         if self._points is not None:
-            stress = self._general_stress(self._points)
-            values[self._points.cells] = von_mises(stress) if self._equivalent else stress
+            values[self._points.cells] = self._general_stress(self._points)
         return values
 
     def _general_stress(self, points: PointSet) -> Array:
@@ -79,7 +76,7 @@ class PointStress:
     def plastic_strain(self) -> Array:
         """Committed equivalent plastic strain, (n_own_cells, m) [-]; zero where nothing yields."""
         own = self._mesh.topology.index_map(self._mesh.topology.dim).size_local
-        values = np.zeros((own, self._shape[0]))
+        values = np.zeros((own, self._count))
         if self._points is not None:
             values[self._points.cells] = self._points.past[:, :, 6]
         return values

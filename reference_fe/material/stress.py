@@ -1,4 +1,4 @@
-"""Cauchy von Mises stress from a solved static problem."""
+"""Cauchy stress from a solved static problem: von Mises and principal."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from contracts.material_laws import J2Plasticity
 from reference_fe import dolfinx_api as api
 from reference_fe.cells import reference_cell
-from reference_fe.material.point_stress import PointStress
+from reference_fe.material.point_stress import PointStress, von_mises
 from reference_fe.problem.static_problem import StaticProblem
 from reference_fe.solver import process_sums
 
@@ -18,7 +18,7 @@ __all__ = ["StressRecovery"]
 
 
 class StressRecovery:
-    """Von Mises stress on the surfaces of strips, where bending is largest, at their Gauss stations.
+    """Cauchy stress on the surfaces of strips, where bending is largest, at their Gauss stations.
 
     Along a cell's first axis (the curved one) the strain is good at the Gauss points only: between them it carries the
     parasitic membrane part that the reduced rule ignores (Stolarski & Belytschko 1983). So stress is evaluated at the
@@ -34,12 +34,12 @@ class StressRecovery:
         domain = problem.domain
         self._cells = domain.cells_of(problem.materials)
         points, self._to_nodes = _stations(domain.tagged.order, domain.dim, problem.discretisation.gauss_points[0])
-        self._at_stations = PointStress(problem, points, equivalent=True)
+        self._at_stations = PointStress(problem, points)
         self._rows = {part: np.searchsorted(self._cells, domain.cells_of([part])) for part in problem.materials}
 
     def cell_stations(self) -> NDArray[np.float64]:
         """Von Mises stress at the stations of each deformable cell, (n_cells, n_stations) [Pa]."""
-        return self._at_stations()[self._cells]
+        return von_mises(self._at_stations()[self._cells])
 
     def largest_by_part(self) -> dict[str, float]:
         """Largest von Mises stress of each deformable part at the stations [Pa]."""
@@ -58,10 +58,24 @@ class StressRecovery:
 
     def nodal_von_mises(self) -> NDArray[np.float64]:
         """Stress extrapolated to and averaged at each node of the tagged mesh, (n_points,) [Pa]; 0 on rigid parts."""
+        return self._averaged(np.maximum(self.cell_stations() @ self._to_nodes.T, 0.0))
+
+    def nodal_principal_stress(self) -> NDArray[np.float64]:
+        """Principal values, descending, of the tensor extrapolated to and averaged at each node, (n_points, 3) [Pa].
+
+        0 on rigid parts. Averaged over all cells of a node, as `nodal_von_mises` is.
+        """
+        stations = self._at_stations()[self._cells]
+        averaged = np.zeros((len(self.problem.domain.tagged.points), 3, 3))
+        for i, j in zip(*np.tril_indices(3), strict=True):  # all that eigvalsh looks at
+            averaged[:, i, j] = self._averaged(stations[:, :, i, j] @ self._to_nodes.T)
+        return np.linalg.eigvalsh(averaged)[:, ::-1]
+
+    def _averaged(self, at_nodes: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Mean at each node of the tagged mesh (n_points,) of values at the nodes of deformable cells (n_cells, k)."""
         mesh = self.problem.domain.mesh
         nodes = mesh.geometry.input_global_indices[api.cell_nodes(mesh)[self._cells]].ravel()
         count = np.bincount(nodes, minlength=len(self.problem.domain.tagged.points))
-        at_nodes = np.maximum(self.cell_stations() @ self._to_nodes.T, 0.0)
         total = np.bincount(nodes, weights=at_nodes.ravel(), minlength=len(count))
         comm = mesh.comm
         return np.asarray(comm.allreduce(total) / np.maximum(comm.allreduce(count), 1))

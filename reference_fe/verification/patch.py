@@ -48,6 +48,7 @@ class UniaxialTension:
     traction : force over undeformed area [Pa]
     stretch, lateral : deformed over undeformed length, along and across [-]
     true_stress : (n,) float, von Mises stress at every stress point and node [Pa]
+    principal_stress : (n_points, 3) float, at every node, descending [Pa]
     iterations : linear solves
     """
 
@@ -55,6 +56,7 @@ class UniaxialTension:
     stretch: float
     lateral: float
     true_stress: NDArray[np.float64]
+    principal_stress: NDArray[np.float64]
     iterations: int
 
     @property
@@ -90,6 +92,7 @@ def uniaxial_tension(law: MaterialLaw = MaterialLaw.ST_VENANT_KIRCHHOFF, order: 
         stretch=1.0 + float(u[:, 0].max()),
         lateral=1.0 + float(u[:, 1].min()),
         true_stress=np.append(recovery.cell_stations().ravel(), recovery.nodal_von_mises()),
+        principal_stress=recovery.nodal_principal_stress(),
         iterations=iterations,
     )
 

@@ -122,12 +122,14 @@ class FieldSnapshot:
     deflection : rise of the plane from first touch [m]
     displacement : (n_points, dim) at the mesh's nodes [m], wheel frame
     von_mises : (n_points,) Cauchy von Mises stress averaged at the nodes [Pa]; 0 on rigid parts
+    principal_stress : (n_points, 3) Cauchy principal stresses at the nodes [Pa], descending; None where not kept
     """
 
     load: float
     deflection: float
     displacement: NDArray[np.float64]
     von_mises: NDArray[np.float64]
+    principal_stress: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,7 +144,8 @@ class WheelResult:
     travelled : rows behind it, if the load case has a travel: ``travel`` [m; rad of a turn] and the curve's columns
     increments : every attempted increment, in order
     snapshots : fields at the chosen loads that were reached
-    points : fields at the points of the curve behind first touch, if the load case keeps them
+    points : fields at the points of the curve behind first touch, without principal stresses, if the load case keeps
+        them
     dofs : number of displacement unknowns
     distance_at_touch : distance of hub and plane at first touch [m]
     wall_s : wall time of the solve [s]

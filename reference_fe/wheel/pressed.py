@@ -240,7 +240,9 @@ class _WheelRun:
         }
         for kind, kept in self.fields.items():
             for i, one in enumerate(kept):
-                arrays |= {f"{kind}{i}/{name}": np.asarray(value) for name, value in asdict(one).items()}
+                arrays |= {
+                    f"{kind}{i}/{name}": np.asarray(value) for name, value in asdict(one).items() if value is not None
+                }
         return arrays
 
     def resume(self, arrays: Arrays) -> None:
@@ -250,9 +252,8 @@ class _WheelRun:
         self.started -= float(arrays["wall_s"])
         for kind, kept in self.fields.items():
             while part := below(f"{kind}{len(kept)}", arrays):
-                load, deflection = float(part["load"]), float(part["deflection"])
-                fields = {name: part[name] for name in ("displacement", "von_mises")}
-                kept.append(FieldSnapshot(load=load, deflection=deflection, **fields))
+                load, deflection = float(part.pop("load")), float(part.pop("deflection"))
+                kept.append(FieldSnapshot(load=load, deflection=deflection, **part))
 
     def _load(self, control: float, contact_force: NDArray[np.float64]) -> float:
         return float(self.wheel.sides * contact_force @ self.wheel.contact.path().axes(control)[0])
@@ -296,5 +297,6 @@ class _WheelRun:
                 deflection=deflection,
                 displacement=self.problem.nodal_displacement(),
                 von_mises=self.stress.nodal_von_mises(),
+                principal_stress=self.stress.nodal_principal_stress() if kind == "snapshot" else None,
             )
         )

@@ -24,7 +24,7 @@ READ_FIELDS = """
 from pathlib import Path
 from workbench.execution.standard_streams import quieten
 quieten()
-from workbench.viewer.scene import read_fields
+from workbench.viewer.wheel_file import read_fields
 try:
     read_fields(Path("bad.vtu"))
 except ValueError as error:

@@ -133,6 +133,15 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         caption(page, "FE, 0° down, 200 N")
         shown = until_changed(page, lighter)
 
+        page.select_option("#quantity", "smallest_principal")  # kept at two of the loads
+        page.locator("#bar", has_text="smallest principal stress [MPa]").wait_for()
+        assert page.locator("#bar .ticks span").all_inner_texts() == ["300", "150", "0", "-150", "-300"]
+        assert page.locator("#loads button").all_inner_texts() == ["0 N", "100 N", "200 N"]
+        signed = until_changed(page, shown)
+        page.select_option("#quantity", "stress")
+        page.locator("#bar", has_text="von Mises stress [MPa]").wait_for()
+        shown = until_changed(page, signed)
+
         page.click("#orientations button:has-text('30°')")
         caption(page, "30° down")
         turned = until_changed(page, shown)

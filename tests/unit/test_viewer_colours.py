@@ -29,3 +29,22 @@ def test_colours_run_from_the_first_to_the_last_and_stay_there() -> None:
     assert colours[0].tolist() == [255, 255, 217]
     assert colours[1].tolist() == [65, 182, 196]
     assert colours[2].tolist() == colours[3].tolist() == [8, 29, 88]
+
+
+def test_values_with_a_sign_have_colours_on_both_sides_of_zero() -> None:
+    field = np.concatenate([np.full(10, -300e6), np.full(10, 120e6)])
+    bar = colour_bar("principal stress", "MPa", 1e-6, [field])
+    assert (bar.begin, bar.end) == pytest.approx((-300e6, 300e6))
+    below, zero, above = bar.colours(np.array([-150e6, 0.0, 150e6])).astype(int)
+    assert zero.tolist() == [247, 247, 247]
+    assert below[2] > below[0]
+    assert above[0] > above[2]
+    shown = bar.shown(120e6, -300e6)
+    assert shown["ticks"] == ["300", "150", "0", "-150", "-300"]
+    assert shown["above"] == "from -300 MPa to 120 MPa"
+
+
+def test_round_off_below_zero_is_no_sign() -> None:
+    bar = colour_bar("principal stress", "MPa", 1e-6, [np.array([-1e-3, 120e6])])
+    assert bar.begin == 0.0
+    np.testing.assert_array_equal(bar.colours(np.array([-1e-3])), bar.colours(np.array([0.0])))

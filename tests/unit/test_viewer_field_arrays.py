@@ -15,7 +15,7 @@ import pytest
 from contracts.errors import InputError
 from tests.small_report_folder import write_small_report
 from workbench.viewer.field_arrays import field_arrays
-from workbench.viewer.scene import read_fields
+from workbench.viewer.wheel_file import read_fields
 
 
 def packed(data: bytes, claimed: int | None = None, blocks: int = 1) -> str:
@@ -53,6 +53,8 @@ CASES: dict[str, Callable[[str], str]] = {
     "claims 4 GB": put("von_mises_Pa", packed(b"0" * 80, 4_000_000_000)),
     "claims less than it holds": put("von_mises_Pa", packed(b"0" * 80_000, 8)),
     "claims more blocks than there are": put("von_mises_Pa", packed(b"0" * 80, blocks=2_000_000_000)),
+    "principal stresses of fewer nodes": put("principal_stress_Pa", packed(np.zeros(6, "<f4").tobytes())),
+    "principal stresses that are no numbers": put("principal_stress_Pa", packed(np.full(864, np.nan, "<f4").tobytes())),
     "no header": put("von_mises_Pa", ""),
     "no base64": put("von_mises_Pa", "%%%%%%%%%%%%%%%%"),
     "a piece of a number": put("von_mises_Pa", packed(b"0" * 81)),

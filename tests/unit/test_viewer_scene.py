@@ -9,7 +9,7 @@ import pytest
 
 from contracts.errors import InputError
 from tests.small_report_folder import ring_mesh, write_small_report
-from workbench.viewer.scene import read_fields
+from workbench.viewer.wheel_file import read_fields
 
 
 def test_fields_come_back(tmp_path: Path) -> None:

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from contracts.errors import InputError
-from tests.small_report_folder import POINTS, ring_mesh, write_small_report
-from workbench.questions.fe.field_file import write_pressures
+from tests.small_report_folder import LOADS, POINTS, PRINCIPAL, ring_mesh, write_small_report
+from workbench.questions.fe.field_file import write_fields, write_pressures
 from workbench.viewer.folder import read_folder
 from workbench.viewer.scene import Scene
-from workbench.viewer.stages import RoverStage, wheel_stage
+from workbench.viewer.stages import QUANTITIES, RoverStage, wheel_stage
 from workbench.viewer.wheel_body import Cut
+from workbench.viewer.wheel_file import read_fields
 
 
 def test_a_wheel_is_shown_unloaded_and_at_the_loads_that_are_there(tmp_path: Path) -> None:
@@ -49,7 +50,7 @@ def test_a_wheel_is_shown_at_every_point_of_its_curve(tmp_path: Path) -> None:
         wheel_stage(0.0, files, path)
 
 
-def test_contact_pressure_is_offered_where_every_load_has_one(tmp_path: Path) -> None:
+def test_contact_pressure_is_offered_at_the_loads_that_have_one(tmp_path: Path) -> None:
     write_small_report(tmp_path)
     files = [(one.load, one.path) for one in read_folder(tmp_path).fields if one.orientation == 30.0]
     nodes = len(ring_mesh().points)
@@ -63,16 +64,37 @@ def test_contact_pressure_is_offered_where_every_load_has_one(tmp_path: Path) ->
         grounds.append(bool(scene._now.below.visibility))
     scene.close()
     assert grounds == [True, False, True], "the ground would hide what presses on it"
-    assert stage.quantities == ("stress", "displacement", "pressure")
+    assert set(stage.quantities) == set(QUANTITIES)
     assert [float(stage.values(k, "pressure").max()) for k in range(3)] == pytest.approx([0.0, 1e5, 2e5])
     write_pressures([(100.0, np.full(nodes, 1e5))], path)
-    assert wheel_stage(30.0, files, pressures=path).quantities == ("stress", "displacement")
+    assert wheel_stage(30.0, files, pressures=path).numbers("pressure") == (0, 1)
+    write_pressures([], path)
+    assert set(QUANTITIES) - set(wheel_stage(30.0, files, pressures=path).quantities) == {"pressure"}
     write_pressures([(100.0, np.ones(8)), (200.0, np.ones(8))], path)
     with pytest.raises(InputError, match=r"must hold the \d+ nodes of the mesh"):
         wheel_stage(30.0, files, pressures=path)
     np.savez(path, load=[100.0])
     with pytest.raises(InputError, match="lacks numbers of load, contact_pressure"):
         wheel_stage(30.0, files, pressures=path)
+
+
+def test_principal_stresses_are_offered_at_the_loads_that_have_them(tmp_path: Path) -> None:
+    """Along a curve there are none; a folder from before them has none at all."""
+    write_small_report(tmp_path)
+    found = read_folder(tmp_path)
+    files = [(one.load, one.path) for one in found.fields if one.orientation == 0.0]
+    stage = wheel_stage(0.0, files, found.points["fe", 0.0])
+    assert [stage.loads[k] for k in stage.numbers("largest_principal")] == [0.0, *LOADS]
+    share = np.clip(-ring_mesh().points[:, 2] / 0.14, 0.0, 1.0)
+    number = stage.loads.index(200.0)
+    for name, part in (("largest_principal", 0), ("smallest_principal", 2)):
+        np.testing.assert_allclose(stage.values(number, name), 2e8 * share * PRINCIPAL[part], rtol=1e-6)
+    assert stage.bar("largest_principal").begin == 0.0
+    assert stage.bar("smallest_principal").begin == -stage.bar("smallest_principal").end
+    for load, path in files:
+        field = read_fields(path)[1]
+        write_fields(ring_mesh(), field.displacement, field.von_mises, path)
+        assert wheel_stage(0.0, [(load, path)]).quantities == ("stress", "displacement")
 
 
 def test_what_is_drawn_is_what_is_left_by_a_cut(tmp_path: Path) -> None:

@@ -104,6 +104,12 @@ def test_fields_open_in_other_programs(tmp_path: Path) -> None:
     assert np.array_equal(found.point_data["displacement_m"], displacement)
     assert np.array_equal(found.point_data["von_mises_Pa"].ravel(), stress)
     assert [(block.type, len(block.data)) for block in found.cells] == [("hexahedron", 1)]
+    assert "principal_stress_Pa" not in found.point_data
+    principal = np.stack([stress, -stress, -2.0 * stress], axis=1)
+    write_fields(mesh, displacement, stress, tmp_path / "fields.vtu", principal)
+    kept = meshio.read(tmp_path / "fields.vtu").point_data["principal_stress_Pa"]
+    assert kept.dtype == np.float32
+    np.testing.assert_array_equal(kept, principal)
 
 
 def test_fields_along_a_curve_survive_the_file(tmp_path: Path) -> None:

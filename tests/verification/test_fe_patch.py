@@ -31,6 +31,8 @@ def test_uniaxial_tension_gives_the_uniform_stress(law: MaterialLaw, order: int)
     """A dead traction of 0.1 % of E on a distorted mesh: uniform true stress, force over deformed area."""
     found = uniaxial_tension(law, order)
     assert found.error < 1e-7
+    principal = found.principal_stress * found.lateral**2 / found.traction
+    np.testing.assert_allclose(principal, np.tile([1.0, 0.0, 0.0], (len(principal), 1)), atol=1e-7)
     if law is MaterialLaw.ST_VENANT_KIRCHHOFF:  # P = F S, S = E (F^2 - 1)/2: a cubic for the stretch
         stress = STEEL.young_modulus * found.stretch * (found.stretch**2 - 1.0) / 2.0
         assert stress == pytest.approx(found.traction, rel=1e-9)

@@ -88,3 +88,10 @@ def test_stress_is_that_of_bending() -> None:
     points, stress = problem.domain.tagged.points, recovery.nodal_von_mises()
     at_ends = [stress[np.abs(points[:, axis]) < 1e-9].max() for axis in (0, 2)]  # contact, and a quarter turn on
     np.testing.assert_allclose(at_ends, fibre_stress, rtol=0.03)
+    principal, radius = recovery.nodal_principal_stress(), np.hypot(points[:, 0], points[:, 2])
+    for axis, expected, flattened in zip((0, 2), fibre_stress, (True, False), strict=True):
+        end = np.flatnonzero(np.abs(points[:, axis]) < 1e-9)
+        pulled, pressed = end[principal[end, 0].argmax()], end[principal[end, 2].argmin()]
+        stresses = principal[pulled, 0], -principal[pressed, 2]
+        np.testing.assert_allclose(stresses, expected, rtol=0.03)
+        assert bool(radius[pulled] < radius[pressed]) == flattened  # where it becomes straighter, the inside is pulled

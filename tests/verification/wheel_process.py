@@ -31,7 +31,9 @@ def solve(checkpoint: Path, factor: float) -> dict[str, np.ndarray]:
     (fields,) = result.snapshots
     table = {"deflection_m": result.curve.deflection, "load_N": result.curve.load, **result.curve.columns}
     points = np.array([one.displacement for one in result.points])
-    return table | {"displacement_m": fields.displacement, "von_mises_Pa": fields.von_mises, "points_m": points}
+    assert fields.principal_stress is not None
+    kept = {"displacement_m": fields.displacement, "von_mises_Pa": fields.von_mises, "points_m": points}
+    return table | kept | {"principal_Pa": fields.principal_stress}
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ __all__ = [
     "MODEL_COLOURS",
     "ORIENTATION_COLOURS",
     "PART_COLOURS",
+    "SIGNED_COLOURS",
     "STRAIN_COLOURS",
     "STRESS_COLOURS",
 ]
@@ -23,3 +24,5 @@ STRAIN_COLOURS = ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde72
 """Ends and equal steps of viridis, from unstrained to most strained."""
 STRESS_COLOURS = ("#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58")
 """YlGnBu (Brewer, 2003), from unstressed to most stressed; light where little is to be seen."""
+SIGNED_COLOURS = ("#053061", "#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b", "#67001f")
+"""Equal steps of RdBu (Brewer, 2003), turned round: blue below zero, red above."""

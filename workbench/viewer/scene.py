@@ -2,31 +2,24 @@
 
 Stills are drawn and gone; this scene lives as long as the page, whose browser draws it (vtk.js).
 
-Verified by tests/unit/test_viewer_scene.py and tests/end_to_end/test_view.py.
+Verified by tests/unit/test_viewer_stages.py and tests/end_to_end/test_view.py.
 """
 
 from __future__ import annotations
 
 import warnings
-import zlib
 from collections.abc import Hashable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
 
 import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 
-from contracts.errors import InputError
 from workbench.charts.solids import WORLD, Quads, Solid
-from workbench.viewer.field_arrays import field_arrays
-from workbench.viewer.wheel_body import WheelBody, wheel_body
-from workbench.viewer.wheel_surface import WheelField
 
-__all__ = ["Camera", "Scene", "read_fields"]
+__all__ = ["Camera", "Scene"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -36,8 +29,6 @@ _GROUND = "#d9d4ca"
 _MARK = "#d81b60"
 _ANGLE = 30.0
 """Of the view from bottom to top [degrees], that of vtk.js."""
-_HEXAHEDRA = {12: 8, 29: 27}
-"""VTK's cell types with their nodes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,37 +39,6 @@ class Camera:
     up: tuple[float, float, float]
     centre: tuple[float, float, float]
     half_height: float
-
-
-def read_fields(path: Path) -> tuple[WheelBody, WheelField]:
-    """The cells of the wheel and its fields from a file that ``workbench report`` wrote.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or lacks hexahedra, parts, displacement or stress.
-    """
-    hint = "run the report again, or take the file out of the folder"
-    try:
-        found = field_arrays(path)
-        points = np.asarray(found["Points"], dtype=np.float64)
-        (kind,) = np.unique(found["types"]).tolist()
-        cells = np.asarray(found["connectivity"], dtype=np.int64).reshape(len(found["types"]), -1)
-        part = np.asarray(found["part"], dtype=np.int64)
-        moved = np.asarray(found["displacement_m"], dtype=np.float64)
-        stress = np.asarray(found["von_mises_Pa"], dtype=np.float64)
-    except InputError:
-        raise
-    except (ValueError, KeyError, TypeError, zlib.error, ElementTree.ParseError) as error:
-        lines = str(error).strip().splitlines()
-        reason = f"{type(error).__name__}: {lines[0][:120]}" if lines else type(error).__name__
-        raise InputError("field file", path, f"cannot be read ({reason})", hint) from error
-    if _HEXAHEDRA.get(kind) != cells.shape[1] or not all(np.isfinite(each).all() for each in (points, moved, stress)):
-        raise InputError("field file", path, "must hold hexahedra with finite fields", hint)
-    fits = points.shape == moved.shape == (len(stress), 3) and stress.ndim == 1 and part.shape == (len(cells),)
-    if not fits or cells.min() < 0 or cells.max() >= len(points):
-        raise InputError("field file", path, "must hold cells of its own points, and a field at each", hint)
-    return wheel_body(points, cells, part, moved), WheelField(displacement=moved, von_mises=stress)
 
 
 @dataclass(slots=True)

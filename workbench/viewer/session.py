@@ -130,7 +130,7 @@ class Session:
         chosen = {name: self.curves[name] for name in state.chosen if name in self.curves}
         shown, name = None, f"{state.model}_phi{float(state.orientation):03g}"
         if self.wheel.stage is not None and name in self.curves:
-            curve, load = self.curves[name], self.wheel.stage.loads[int(state.load)]
+            curve, load = self.curves[name], self.wheel.load
             chosen.setdefault(name, curve)
             shown = (f"{load:.4g} N", float(np.interp(load, curve.load, curve.deflection)), load)
         state.figure = curves_chart(chosen, self.own, shown)

@@ -6,8 +6,8 @@ tests/end_to_end/test_view.py.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -23,8 +23,9 @@ from workbench.questions.rover.motion_file import RecordedMotion, read_motion
 from workbench.study.ancf_tire import drawn_tire
 from workbench.viewer.colours import ColourBar, colour_bar
 from workbench.viewer.folder import ReportFolder
-from workbench.viewer.scene import Camera, Scene, read_fields
+from workbench.viewer.scene import Camera, Scene
 from workbench.viewer.wheel_body import WheelBody
+from workbench.viewer.wheel_file import read_fields
 from workbench.viewer.wheel_surface import WheelField, WheelPoints, WheelSurface
 
 __all__ = ["QUANTITIES", "Results", "RoverStage", "WheelStage", "wheel_stage"]
@@ -32,6 +33,8 @@ __all__ = ["QUANTITIES", "Results", "RoverStage", "WheelStage", "wheel_stage"]
 FloatArray = NDArray[np.float64]
 QUANTITIES = {
     "stress": ("von Mises stress", "MPa", 1e-6),
+    "largest_principal": ("largest principal stress", "MPa", 1e-6),
+    "smallest_principal": ("smallest principal stress", "MPa", 1e-6),
     "displacement": ("displacement", "mm", 1e3),
     "pressure": ("contact pressure", "MPa", 1e-6),
 }
@@ -40,7 +43,7 @@ _WHEEL_EYE = (0.42, -0.86, 0.29)
 _ROVER_EYE = (-0.55, -1.0, 0.45)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class WheelStage:
     """A wheel at one orientation on the ground: unloaded, and at the loads at which fields were kept.
 
@@ -58,25 +61,40 @@ class WheelStage:
     loads: tuple[float, ...]
     fields: tuple[WheelField, ...]
     down: FloatArray
+    _bars: dict[str, ColourBar] = field(default_factory=dict)
 
     def values(self, number: int, quantity: str) -> FloatArray:
-        """Of one load at the mesh's nodes [SI]."""
-        field = self.fields[number]
-        if quantity == "pressure":
-            assert field.pressure is not None
-            return field.pressure
-        return field.von_mises if quantity == "stress" else np.linalg.norm(field.displacement, axis=1)
+        """Of one load at the mesh's nodes [SI], where it is one of `numbers`."""
+        values = self._known(number, quantity)
+        assert values is not None
+        return values
 
-    @property
+    def _known(self, number: int, quantity: str) -> FloatArray | None:
+        now = self.fields[number]
+        principal = now.principal_stress
+        if quantity == "largest_principal":
+            return None if principal is None else principal[:, 0]
+        if quantity == "smallest_principal":
+            return None if principal is None else principal[:, 2]
+        if quantity == "pressure":
+            return now.pressure
+        return now.von_mises if quantity == "stress" else np.linalg.norm(now.displacement, axis=1)
+
+    def numbers(self, quantity: str) -> tuple[int, ...]:
+        """Loads at which it is known; the first is that of the unloaded wheel, 0."""
+        return tuple(k for k in range(len(self.loads)) if self._known(k, quantity) is not None)
+
+    @cached_property
     def quantities(self) -> tuple[str, ...]:
-        """Those of `QUANTITIES` that are known at every load."""
-        known = all(field.pressure is not None for field in self.fields)
-        return tuple(name for name in QUANTITIES if name != "pressure" or known)
+        """Those of `QUANTITIES` that are known at some load."""
+        return tuple(name for name in QUANTITIES if len(self.numbers(name)) > 1)
 
     def bar(self, quantity: str) -> ColourBar:
         """One for all loads, so that they can be compared."""
-        title, unit, factor = QUANTITIES[quantity]
-        return colour_bar(title, unit, factor, [self.values(k, quantity) for k in range(len(self.loads))])
+        if quantity not in self._bars:
+            fields = [self.values(k, quantity) for k in self.numbers(quantity)]
+            self._bars[quantity] = colour_bar(*QUANTITIES[quantity], fields)
+        return self._bars[quantity]
 
     def places(self, number: int, points: WheelPoints) -> FloatArray:
         """Of points of the wheel (n, 3) [m], in true scale, the ground below."""
@@ -118,8 +136,8 @@ def wheel_stage(
     ----------
     orientation : what faces the ground [deg]
     files : loads [N] with their files, one at least; the first gives the mesh
-    points : fields at the points of the curve, which are then shown instead
-    pressures : contact pressures at loads, those shown and maybe others
+    points : fields at the points of the curve, which are shown with them
+    pressures : contact pressures at loads
 
     Raises
     ------
@@ -129,20 +147,27 @@ def wheel_stage(
     read = [(load, *read_fields(path)) for load, path in files]
     _, body, first = read[0]
     nothing = 0.0 * first.von_mises
-    still = WheelField(displacement=0.0 * first.displacement, von_mises=nothing, pressure=nothing)
-    shown = [(load, field) for load, _, field in read]
+    still = WheelField(
+        displacement=0.0 * first.displacement,
+        von_mises=nothing,
+        principal_stress=0.0 * first.displacement,
+        pressure=nothing,
+    )
+    shown = {load: field for load, _, field in read}
     if points is not None:
-        shown = [(load, WheelField(displacement=u, von_mises=s)) for load, u, s in read_points(points)]
-        if any(len(field.von_mises) != len(still.von_mises) for _, field in shown):
+        along = {load: WheelField(displacement=u, von_mises=s) for load, u, s in read_points(points)}
+        if any(len(field.von_mises) != len(still.von_mises) for field in along.values()):
             rule = f"must hold the {len(still.von_mises)} nodes of the mesh"
             raise InputError("field file", points, rule, "run the report again, or take the file out of the folder")
+        shown = along | shown
     if pressures is not None:
         shown = _with_pressures(shown, pressures)
+    loads = sorted(shown)
     phi = np.radians(orientation)
     return WheelStage(
         body=body,
-        loads=(0.0, *(load for load, _ in shown)),
-        fields=(still, *(field for _, field in shown)),
+        loads=(0.0, *loads),
+        fields=(still, *(shown[load] for load in loads)),
         down=np.array([np.sin(phi), 0.0, -np.cos(phi)]),
     )
 
@@ -200,15 +225,14 @@ class RoverStage:
         return Camera(eye=_three(eye), up=_three(up), centre=_three(0.5 * (low + high)), half_height=float(half))
 
 
-def _with_pressures(shown: list[tuple[float, WheelField]], path: Path) -> list[tuple[float, WheelField]]:
-    """Fields with the contact pressures of their loads; as they are where one of them has none."""
+def _with_pressures(shown: Mapping[float, WheelField], path: Path) -> dict[float, WheelField]:
+    """Fields by load [N] with the contact pressures at those loads that have one."""
     found = read_pressures(path)
-    if any(load not in found for load, _ in shown):
-        return shown
-    if any(found[load].shape != field.von_mises.shape for load, field in shown):
-        rule = f"must hold the {len(shown[0][1].von_mises)} nodes of the mesh"
-        raise InputError("pressure file", path, rule, "run the report again, or take the file out of the folder")
-    return [(load, replace(field, pressure=found[load])) for load, field in shown]
+    for load, known in shown.items():
+        if load in found and found[load].shape != known.von_mises.shape:
+            rule = f"must hold the {len(known.von_mises)} nodes of the mesh"
+            raise InputError("pressure file", path, rule, "run the report again, or take the file out of the folder")
+    return {load: replace(known, pressure=found.get(load)) for load, known in shown.items()}
 
 
 class Results:

@@ -19,12 +19,19 @@ _TRIANGLES = np.array([(0, 1, 2), (0, 2, 3)])
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class WheelField:
-    """Fields at the mesh's nodes: displacement (n, 3) [m], von Mises stress (n,) [Pa], and if it is known contact
-    pressure (n,) [Pa].
+    """Fields at the mesh's nodes.
+
+    Attributes
+    ----------
+    displacement : (n, 3) float [m]
+    von_mises : (n,) float [Pa]
+    principal_stress : (n, 3) float [Pa], descending, if it is known
+    pressure : (n,) float [Pa], of the ground, if it is known
     """
 
     displacement: FloatArray
     von_mises: FloatArray
+    principal_stress: FloatArray | None = None
     pressure: FloatArray | None = None
 
 

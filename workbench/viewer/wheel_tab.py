@@ -32,6 +32,29 @@ class WheelTab:
         self.folder = results.folder
         self.stage: WheelStage | None = None
         self._surface: WheelSurface | None = None
+        self._numbers: tuple[int, ...] = ()
+
+    @property
+    def load(self) -> float:
+        """On the wheel that is shown [N]."""
+        assert self.stage is not None
+        return self.stage.loads[self._number]
+
+    @property
+    def _number(self) -> int:
+        """Of the load among those of the stage; the page counts those at which the quantity is known."""
+        return self._numbers[int(self.state.load)]
+
+    def _offer_loads(self, load: float) -> None:
+        """Those at which the quantity is known; the nearest to ``load`` [N] where they change."""
+        assert self.stage is not None
+        state, numbers = self.state, self.stage.numbers(self.state.quantity)
+        if numbers == self._numbers:
+            return
+        loads = np.array([self.stage.loads[k] for k in numbers])
+        self._numbers, state.last_frame = numbers, len(numbers) - 1
+        state.loads = [float(f"{one:.4g}") for one in loads]
+        state.load = state.frame = int(np.argmin(np.abs(loads - load)))
 
     @property
     def models(self) -> list[str]:
@@ -45,11 +68,11 @@ class WheelTab:
         if state.orientation not in state.orientations:
             state.orientation = state.orientations[0]
         self.stage = self.results.wheels[state.model, float(state.orientation)]
-        state.loads = [float(f"{load:.4g}") for load in self.stage.loads]
-        state.load = state.frame = state.last_frame = len(state.loads) - 1
         state.quantities = [{"value": name, "text": QUANTITIES[name][0]} for name in self.stage.quantities]
         if state.quantity not in self.stage.quantities:
             state.quantity = "stress"
+        self._numbers = ()
+        self._offer_loads(self.stage.loads[-1])
         parts = [{"value": tag, "text": self._part(tag)} for tag in np.unique(self.stage.body.parts).tolist()]
         if parts != state.parts:
             state.parts, state.visible = parts, [one["value"] for one in parts]
@@ -71,10 +94,12 @@ class WheelTab:
         """Another load or colour on the wheel that stands there; a probed point keeps its node."""
         if self.stage is None or self._surface is None:
             return
-        state, number = self.state, int(self.state.load)
+        state = self.state
+        self._offer_loads(self.load)
+        number = self._number
         self.stage.show(self.scene, self._surface, number, state.quantity)
         values = self.stage.values(number, state.quantity)
-        state.bar = self.stage.bar(state.quantity).shown(float(values.max()))
+        state.bar = self.stage.bar(state.quantity).shown(float(values.max()), float(values.min()))
         state.moment = f"{self.stage.loads[number]:.4g} N"
         state.caption = f"{spoken(state.model)}, {state.orientation:g}° down, {state.moment}"
         if number == 0:
@@ -87,7 +112,7 @@ class WheelTab:
         """Say what the wheel has where a ray (2, 3) [m] meets it; beside it, nothing."""
         if self.stage is None or self._surface is None:
             return
-        places = self.stage.places(int(self.state.load), self._surface)
+        places = self.stage.places(self._number, self._surface)
         found = self._surface.probe(places, np.array(ray, dtype=np.float64))
         if found is not None:
             self._tell(found.point, found.part)
@@ -96,7 +121,7 @@ class WheelTab:
     def _tell(self, point: int, tag: int) -> None:
         assert self.stage is not None
         assert self._surface is not None
-        state, surface, number = self.state, self._surface, int(self.state.load)
+        state, surface, number = self.state, self._surface, self._number
         index = surface.index(point)
         if index is None:
             self._forget_probe()

@@ -54,9 +54,13 @@ class Fields(Protocol):
 
 
 def write_fields(
-    mesh: TaggedMesh, displacement: NDArray[np.float64], von_mises: NDArray[np.float64], path: Path
+    mesh: TaggedMesh,
+    displacement: NDArray[np.float64],
+    von_mises: NDArray[np.float64],
+    path: Path,
+    principal_stress: NDArray[np.float64] | None = None,
 ) -> None:
-    """Write mesh, parts, displacement and stress; warp by ``displacement_m`` to see the deformed shape.
+    """Write mesh, parts, displacement and stresses; warp by ``displacement_m`` to see the deformed shape.
 
     Parameters
     ----------
@@ -64,15 +68,19 @@ def write_fields(
     displacement : (n_points, 3) float [m]
     von_mises : (n_points,) float [Pa]
     path : ``.vtu`` file to write
+    principal_stress : (n_points, 3) float [Pa], descending; single precision in the file
     """
     import meshio  # type: ignore[import-untyped]
 
+    data = {"displacement_m": displacement, "von_mises_Pa": von_mises}
+    if principal_stress is not None:
+        data["principal_stress_Pa"] = principal_stress.astype(np.float32)
     kind, order = ("hexahedron", range(8)) if mesh.order == 1 else ("hexahedron27", VTK_FROM_GMSH)
     meshio.write_points_cells(
         str(path),
         mesh.points,
         [(kind, mesh.cells[:, list(order)])],
-        point_data={"displacement_m": displacement, "von_mises_Pa": von_mises},
+        point_data=data,
         cell_data={"part": [mesh.cell_tags]},
     )
 

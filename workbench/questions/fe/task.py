@@ -134,4 +134,4 @@ def _write_fields(mesh: TaggedMesh, snapshot: FieldSnapshot, stem: Path) -> None
     """Fields at one load: an archive for our own pictures and a VTU for other programs."""
     archive, vtu = stem.with_suffix(".npz"), stem.with_suffix(".vtu")
     np.savez_compressed(archive, displacement=snapshot.displacement, von_mises=snapshot.von_mises)
-    write_fields(mesh, snapshot.displacement, snapshot.von_mises, vtu)
+    write_fields(mesh, snapshot.displacement, snapshot.von_mises, vtu, snapshot.principal_stress)
