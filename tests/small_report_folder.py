@@ -19,6 +19,7 @@ from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
 from rover_dynamics.vehicle.vehicle import VehicleMotion
 from workbench.questions.fe.field_file import write_fields, write_points
+from workbench.questions.fe.parts_file import PARTS_FILE, parts_text
 from workbench.questions.rover.motion_file import write_motion
 
 LOADS = (100.0, 200.0)
@@ -27,6 +28,10 @@ POINTS = (25.0, 50.0, 75.0, 100.0, 125.0, 150.0, 175.0, 200.0)
 ORIENTATIONS = (0, 30)
 PRINCIPAL = np.array([0.5, 0.0, -1.5])
 """Principal stresses over half the von Mises stress, which is made up as well."""
+
+
+STRENGTHS = {"hub": 250e6, "tire": 355e6}
+"""Yield strength of the parts [Pa]."""
 
 
 def ring_mesh(sides: int = 48) -> TaggedMesh:
@@ -111,6 +116,7 @@ def write_small_report(folder: Path) -> None:
             write_fields(mesh, one.displacement, one.von_mises, path, one.principal_stress)
         if orientation == 0:
             write_points([fields[newtons] for newtons in POINTS], folder / "fields" / f"{stem}_points.npz")
+    (folder / "fields" / PARTS_FILE).write_text(parts_text(STRENGTHS), encoding="utf-8")
     average = StiffnessCurve(
         model="fe", orientation_deg=None, deflection=deflection, load=8300.0 * deflection, columns={}
     )

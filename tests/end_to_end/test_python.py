@@ -87,7 +87,7 @@ def test_python_and_command_compute_the_same(
 def test_the_command_alone_writes_fields_and_stress(folder: Path, by_command: str) -> None:
     """At 20 N, which the curve reaches, and not at 10 kN."""
     out = folder / "out"
-    fields = {"fe_phi000_20N.vtu", "fe_phi000_points.npz", "fe_phi000_pressure.npz"}
+    fields = {"fe_phi000_20N.vtu", "fe_phi000_points.npz", "fe_phi000_pressure.npz", "parts.json"}
     assert {p.name for p in (out / "fields").iterdir()} == fields
     stress = meshio.read(out / "fields" / "fe_phi000_20N.vtu").point_data["von_mises_Pa"]
     header, *rows = [line.split(",") for line in (out / "fe_peak_stress.csv").read_text(encoding="utf-8").splitlines()]

@@ -97,7 +97,7 @@ def test_curves_are_csv_with_the_agreed_names_and_columns(first_report: Finished
         assert next(line for line in lines if not line.startswith("#")).startswith("deflection_m,load_N")
         assert np.all(np.diff(read_curve(path).deflection) > 0.0)
     fields = {p.name for p in (workspace / "report" / "fields").iterdir()}
-    assert fields == {"fe_phi000_20N.vtu", "fe_phi000_points.npz", "fe_phi000_pressure.npz"}
+    assert fields == {"fe_phi000_20N.vtu", "fe_phi000_points.npz", "fe_phi000_pressure.npz", "parts.json"}
     fe = read_curve(folder / "fe_phi000.csv")
     assert fe.load[-1] > 10.0
     assert fe.deflection[-1] == pytest.approx(0.006)

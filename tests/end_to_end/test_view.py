@@ -142,6 +142,13 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         page.locator("#bar", has_text="von Mises stress [MPa]").wait_for()
         shown = until_changed(page, signed)
 
+        page.locator("#mark-yield").check()
+        page.locator("#legend", has_text="above yield strength: 250 MPa hub, 355 MPa tire (").wait_for()
+        marked = until_changed(page, shown)
+        page.locator("#mark-yield").uncheck()
+        page.wait_for_selector("#legend", state="detached")
+        until_changed(page, marked)
+
         page.click("#orientations button:has-text('30°')")
         caption(page, "30° down")
         turned = until_changed(page, shown)

@@ -41,11 +41,14 @@ NONSENSE: tuple[Any, ...] = (
     *(-1, 10**6, 2**63, 1.5, math.nan, math.inf, True, {"value": 1}),
 )
 KEYS = (
-    *("tab", "model", "orientation", "load", "quantity", "visible", "cut_axis", "cut_step", "cut_other_side"),
-    *("scenario", "tire", "series", "chosen", "frame", "playing"),
+    *("tab", "model", "orientation", "load", "quantity", "mark_yield", "visible", "cut_axis", "cut_step"),
+    *("cut_other_side", "scenario", "tire", "series", "chosen", "frame", "playing"),
 )
 FOREIGN = ("speed", "figure", "study", "models", "last_frame", "scene_view", "trame__title", "trame__scripts", "nope")
-SENSIBLE = [("chosen", []), ("playing", True), ("visible", []), ("cut_axis", ""), ("cut_other_side", True)]
+SENSIBLE = [
+    *(("chosen", []), ("playing", True), ("visible", []), ("mark_yield", True), ("cut_axis", "")),
+    ("cut_other_side", True),
+]
 TRIGGERS: tuple[tuple[Any, ...], ...] = (
     *((), (None,), (3,), ("nope", [], {}), ("__init__", [], {}), ("look", [1], {}), ("look", 3, {}), ("drawn", ["x"])),
     *(("probe", [one], {}) for one in (1, "x", {}, {"ray": 1}, {"ray": [[1, 2, 3]]}, {"ray": [["a", 0, 0]] * 2})),

@@ -17,6 +17,7 @@ OFFERED = {
     "orientation": [0, 30.0],
     "load": [0, 2],
     "quantity": ["stress", "displacement", "pressure"],
+    "mark_yield": [True, False],
     "visible": [[], [2, 1]],
     "cut_axis": ["", "x", "y", "z"],
     "cut_step": [0, 100],
@@ -39,6 +40,7 @@ def page() -> Any:
     state = SimpleNamespace(
         models=[{"value": "fe"}],
         quantities=[{"value": name} for name in ("stress", "displacement", "pressure")],
+        yields=True,
         parts=[{"value": 1}, {"value": 2}],
         orientations=[0.0, 30.0],
         loads=[0.0, 100.0, 200.0],
@@ -55,7 +57,7 @@ def test_what_is_offered_passes_and_nothing_else(name: str) -> None:
     for value in OFFERED[name]:
         assert allowed_change(page(), {"key": name, "value": value}) == (name, value)
     others = [value for one, values in SOME_OFFER.items() if one != name for value in values]
-    for value in (*NOT, *others, *([] if name in ("playing", "cut_other_side") else [True])):
+    for value in (*NOT, *others, *([] if name in ("playing", "cut_other_side", "mark_yield") else [True])):
         with pytest.raises(Refused):
             assert allowed_change(page(), {"key": name, "value": value}) is None, value
 
@@ -65,6 +67,14 @@ def test_a_pressure_that_is_not_known_is_not_offered() -> None:
     session.state.quantities = [{"value": name} for name in ("stress", "displacement")]
     with pytest.raises(Refused):
         allowed_change(session, {"key": "quantity", "value": "pressure"})
+
+
+def test_yield_is_marked_where_strengths_are_known_alone() -> None:
+    session = page()
+    session.state.yields = False
+    assert allowed_change(session, {"key": "mark_yield", "value": False}) == ("mark_yield", False)
+    with pytest.raises(Refused):
+        allowed_change(session, {"key": "mark_yield", "value": True})
 
 
 def test_a_rover_without_motions_is_not_offered() -> None:

@@ -9,6 +9,7 @@ __all__ = [
     "MODEL_COLOURS",
     "ORIENTATION_COLOURS",
     "PART_COLOURS",
+    "SIGNED_ABOVE_YIELD",
     "SIGNED_COLOURS",
     "STRAIN_COLOURS",
     "STRESS_COLOURS",
@@ -20,6 +21,8 @@ MODEL_COLOURS = {"fe": "#1a1a1a", "section": "#009e73", "ancf": "#0072b2", "brus
 BAND = "rgba(0, 158, 115, 0.18)"
 INK = "#1a1a1a"
 ABOVE_YIELD = "#d55e00"
+SIGNED_ABOVE_YIELD = "#f0e442"
+"""On `SIGNED_COLOURS`, which have a red of their own."""
 STRAIN_COLOURS = ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")
 """Ends and equal steps of viridis, from unstrained to most strained."""
 STRESS_COLOURS = ("#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58")

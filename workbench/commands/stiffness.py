@@ -29,7 +29,7 @@ from workbench.questions.fe.unloading import Unloading, unloadings
 from workbench.questions.models.curves import stiffness_curves
 from workbench.questions.strength.yielding import PeakStress, peak_stresses
 from workbench.report.folders import check_folder, check_targets
-from workbench.report.outputs import field_files, publish
+from workbench.report.outputs import field_files, parts_file, publish
 from workbench.study.model import Study
 from workbench.study.strengths import yield_strengths
 
@@ -63,14 +63,15 @@ def run_stiffness(
         ways = {c.orientation_deg: c for c in curves if model == "fe" and c.orientation_deg is not None}
         back = unloadings(ways, folders)
     peaks, fields = tuple(_peaks(study, curves)), field_files(entries)
-    texts = {f"{model}_peak_stress.csv": _peaks_csv(peaks)} if peaks else {}
+    table = {f"{model}_peak_stress.csv": _peaks_csv(peaks)} if peaks else {}
+    texts = parts_file(study, fields) | table
     every = [*curves, *(one.curve for one in back.values())]
     tell_kept(publish(out, f"stiffness {model}", texts, every, copies=fields))
     _print(model, curves, peaks)
     _print_back(back.values())
     for what in (*(["curves"] if curves else []), *sorted({name.split("/")[0] for name in fields})):
         console.print(f"{what}: {out / what}", soft_wrap=True)
-    for name in texts:
+    for name in table:
         console.print(f"peak stresses of every part: {out / name}", soft_wrap=True)
     warn(study_path, [f"{task}: {told}" for task, told in losses_of_stability(folders).items()])
     complain_of_early_ends(study_path, early_ends(folders))

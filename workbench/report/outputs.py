@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -20,13 +20,16 @@ from contracts.series import TimeSeries, write_series
 from contracts.text import for_json, one_line
 from workbench.execution.store import Entry
 from workbench.questions.fe.field_file import POINTS_FILE, PRESSURE_FILE
+from workbench.questions.fe.parts_file import PARTS_FILE, parts_text
 from workbench.report.evidence import Evidence
 from workbench.report.placing import new_files
 from workbench.report.series import SERIES_FOLDER, series_files
+from workbench.study.model import Study
+from workbench.study.strengths import yield_strengths
 from workbench.verdict.baseline import Change
 from workbench.verdict.status import overall_status
 
-__all__ = ["curve_file", "curve_links", "field_files", "junit", "publish", "summary", "to_json"]
+__all__ = ["curve_file", "curve_links", "field_files", "junit", "parts_file", "publish", "summary", "to_json"]
 
 
 def curve_file(curve: StiffnessCurve) -> str:
@@ -64,6 +67,13 @@ def field_files(entries: Mapping[str, Entry]) -> dict[str, Path]:
             for path in sorted(entry.path.glob(pattern)):
                 found[f"{folder}/{model}_{path.name.removeprefix(begin)}"] = path
     return found
+
+
+def parts_file(study: Study, files: Iterable[str]) -> dict[str, str]:
+    """``fields/parts.json`` -> its text, if there are fields among these files and parts that can yield."""
+    strengths = yield_strengths(study)
+    told = bool(strengths) and any(name.startswith("fields/") for name in files)
+    return {f"fields/{PARTS_FILE}": parts_text(strengths)} if told else {}
 
 
 def publish(

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.charts.palette import SIGNED_COLOURS, STRESS_COLOURS
+from workbench.charts.palette import ABOVE_YIELD, SIGNED_ABOVE_YIELD, SIGNED_COLOURS, STRESS_COLOURS
 
-__all__ = ["ColourBar", "colour_bar"]
+__all__ = ["ColourBar", "colour_bar", "rgb"]
 
 FloatArray = NDArray[np.float64]
 _SHARE = 99.8
@@ -45,10 +45,15 @@ class ColourBar:
 
     def colours(self, values: FloatArray) -> NDArray[np.uint8]:
         """Of values (...) [SI], shape (..., 3)."""
-        stops = np.array([[int(c[i : i + 2], 16) for i in (1, 3, 5)] for c in self.stops], dtype=np.float64)
+        stops = np.array([rgb(colour) for colour in self.stops], dtype=np.float64)
         share, places = (values - self.begin) / (self.end - self.begin), np.linspace(0.0, 1.0, len(stops))
         mixed = np.stack([np.interp(share, places, stops[:, i]) for i in range(3)], axis=-1)
         return mixed.round().astype(np.uint8)
+
+    @property
+    def warning(self) -> str:
+        """A colour that is none of the bar's."""
+        return SIGNED_ABOVE_YIELD if self.begin < 0.0 else ABOVE_YIELD
 
     def text(self, value: float) -> str:
         """A value [SI] with its unit."""
@@ -75,6 +80,11 @@ class ColourBar:
         """So that the steps of the bar can be told apart."""
         step = self.factor * (self.end - self.begin) / self._steps
         return int(np.clip(1 - np.floor(np.log10(step)), 0, 4))
+
+
+def rgb(colour: str) -> list[int]:
+    """Of ``"#rrggbb"``, 0 to 255 each."""
+    return [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
 
 
 def colour_bar(title: str, unit: str, factor: float, fields: Sequence[FloatArray]) -> ColourBar:

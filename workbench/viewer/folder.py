@@ -14,6 +14,7 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.foreign_folder import read_json
 from contracts.series import TimeSeries, read_series
+from workbench.questions.fe.parts_file import PARTS_FILE, read_parts
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours
 from workbench.viewer.names import named_apart, plain
 
@@ -47,6 +48,7 @@ class ReportFolder:
     fields : in the order of model, orientation and load
     points : fields at the points of a curve, by (model, orientation)
     pressures : contact pressures at the nodes, by the same
+    yield_strengths : of parts by name [Pa]; empty where nothing is told of them
     curves : by file name without its ending, such as ``fe_phi015``
     series : time series by (scenario, tire)
     motions : files of recorded motions by (scenario, tire)
@@ -61,10 +63,16 @@ class ReportFolder:
     fields: tuple[FieldFile, ...]
     points: Mapping[tuple[str, float], Path]
     pressures: Mapping[tuple[str, float], Path]
+    yield_strengths: Mapping[str, float]
     curves: Mapping[str, StiffnessCurve]
     series: Mapping[tuple[str, str], TimeSeries]
     motions: Mapping[tuple[str, str], Path]
     left_out: tuple[str, ...] = ()
+
+    def strengths_of(self, model: str, orientation: float) -> dict[int, float]:
+        """Yield strengths [Pa] by the tags of the parts."""
+        names = enumerate(self.parts_of(model, orientation), start=1)
+        return {tag: self.yield_strengths[name] for tag, name in names if name in self.yield_strengths}
 
     def parts_of(self, model: str, orientation: float) -> tuple[str, ...]:
         """Names of the parts with a stress in the curve beside the fields, in the order of their tags 1, 2, ..."""
@@ -90,6 +98,7 @@ def read_folder(path: Path) -> ReportFolder:
     study, status = _summary(summary) if next(inside.files("", summary.name), None) else ("", "")
     motions = {_named(one): one for one in inside.files(MOTIONS_FOLDER, "*_*.npz")}
     series = {_named(one): one for one in inside.files(SERIES_FOLDER, "*.csv") if is_ours(one.name)}
+    parts = next(inside.files("fields", PARTS_FILE), None)
     found = ReportFolder(
         path=path,
         study=study,
@@ -97,6 +106,7 @@ def read_folder(path: Path) -> ReportFolder:
         fields=_field_files(inside.matches("fields", _FIELDS, ".vtu")),
         points=_by_orientation(inside.matches("fields", _POINTS, "_points.npz")),
         pressures=_by_orientation(inside.matches("fields", _PRESSURES, "_pressure.npz")),
+        yield_strengths={} if parts is None else read_parts(parts),
         curves={name: read_curve(one) for name, one in named_apart(inside.files("curves", "*.csv")).items()},
         series={names: read_series(one, *names) for names, one in series.items()},
         motions=motions,

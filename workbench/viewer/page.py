@@ -75,7 +75,7 @@ def _connect(server: Any, page: Window) -> None:
     for keys, action in (
         (("tab",), session.open),
         (("model", "orientation"), session.open_wheel),
-        (("load", "quantity"), session.show_load),
+        (("load", "quantity", "mark_yield"), session.show_load),
         (("visible", "cut_axis", "cut_step", "cut_other_side"), session.cut),
         (("scenario", "tire"), session.open_rover),
         (("frame",), session.show_frame),

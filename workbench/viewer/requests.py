@@ -114,6 +114,7 @@ CHOICES: Mapping[str, Callable[[Session, Any], bool]] = {
     "orientation": lambda session, value: _is_number(value) and value in session.state.orientations,
     "load": lambda session, value: _counted(value, len(session.state.loads)),
     "quantity": lambda session, value: _offered(session.state.quantities, value),
+    "mark_yield": lambda session, value: isinstance(value, bool) and (session.state.yields or not value),
     "visible": _parts,
     "cut_axis": lambda session, value: isinstance(value, str) and value in ("", *AXES),
     "cut_step": lambda session, value: _counted(value, STEPS + 1),

@@ -88,7 +88,7 @@ class Session:
             self.wheel.cut()
 
     def show_load(self) -> None:
-        """Another load or colour on the wheel."""
+        """Another load or colour on the wheel, or a mark."""
         if self.state.tab == "wheel":
             self.wheel.show()
             self.draw_curves()
@@ -96,6 +96,7 @@ class Session:
     def open_rover(self) -> None:
         """Another scenario or kind of tires. Nothing while something else is looked at."""
         if self.state.tab == "rover" and self.folder.motions:
+            self.state.legend = None
             self.rover.open()
             self.draw_curves()
 

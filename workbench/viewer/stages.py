@@ -21,7 +21,7 @@ from workbench.charts.tire_animation import StrainedTires, strained_tires
 from workbench.questions.fe.field_file import read_points, read_pressures
 from workbench.questions.rover.motion_file import RecordedMotion, read_motion
 from workbench.study.ancf_tire import drawn_tire
-from workbench.viewer.colours import ColourBar, colour_bar
+from workbench.viewer.colours import ColourBar, colour_bar, rgb
 from workbench.viewer.folder import ReportFolder
 from workbench.viewer.scene import Camera, Scene
 from workbench.viewer.wheel_body import WheelBody
@@ -103,11 +103,21 @@ class WheelStage:
         places: FloatArray = (points.places + points.displacement(self.fields[number])) @ upright.T
         return places
 
-    def show(self, scene: Scene, surface: WheelSurface, number: int, quantity: str) -> None:
-        """Put what is left of it into the scene, or only move what stands there."""
+    def show(
+        self,
+        scene: Scene,
+        surface: WheelSurface,
+        number: int,
+        quantity: str,
+        marked: NDArray[np.bool_] | None = None,
+    ) -> None:
+        """Put what is left of it into the scene, or only move what stands there; marked points (n,) as a warning."""
         if not scene.turn_to(self):
             scene.add_shape(self.ground(number))
-        colours = self.bar(quantity).colours(self.values(number, quantity)[surface.nodes])
+        bar = self.bar(quantity)
+        colours = bar.colours(self.values(number, quantity)[surface.nodes])
+        if marked is not None:
+            colours[marked] = rgb(bar.warning)
         scene.show_shape((self.places(number, surface), surface.quads), colours, self.ground(number))
         scene.show_ground(shown=quantity != "pressure")  # which lies under it
 

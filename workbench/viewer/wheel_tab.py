@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from workbench.viewer.folder import spoken
 from workbench.viewer.names import plain
@@ -15,6 +16,7 @@ from workbench.viewer.scene import Scene
 from workbench.viewer.stages import QUANTITIES, Results, WheelStage
 from workbench.viewer.wheel_body import Cut
 from workbench.viewer.wheel_surface import WheelSurface
+from workbench.viewer.yielding import above_yield, legend, marked_share
 
 __all__ = ["WheelTab"]
 
@@ -76,6 +78,7 @@ class WheelTab:
         parts = [{"value": tag, "text": self._part(tag)} for tag in np.unique(self.stage.body.parts).tolist()]
         if parts != state.parts:
             state.parts, state.visible = parts, [one["value"] for one in parts]
+        state.yields = bool(self.folder.strengths_of(state.model, float(state.orientation)))
         self._forget_probe()
         self.cut()
 
@@ -96,8 +99,10 @@ class WheelTab:
             return
         state = self.state
         self._offer_loads(self.load)
+        state.legend = None
         number = self._number
-        self.stage.show(self.scene, self._surface, number, state.quantity)
+        marked = self._marked() if state.mark_yield else None
+        self.stage.show(self.scene, self._surface, number, state.quantity, marked)
         values = self.stage.values(number, state.quantity)
         state.bar = self.stage.bar(state.quantity).shown(float(values.max()), float(values.min()))
         state.moment = f"{self.stage.loads[number]:.4g} N"
@@ -107,6 +112,20 @@ class WheelTab:
         if state.probe:
             self._tell(state.probe["point"], state.probe["tag"])
         self.view.update()
+
+    def _marked(self) -> NDArray[np.bool_] | None:
+        """Points of the surface above yield, with their legend; None where no strength is known."""
+        assert self.stage is not None
+        assert self._surface is not None
+        state, names = self.state, {one["value"]: one["text"] for one in self.state.parts}
+        strengths = self.folder.strengths_of(state.model, float(state.orientation))
+        seen = {tag: strengths[tag] for tag in state.visible if tag in strengths}
+        if not seen:
+            return None
+        marked = above_yield(self._surface, self.stage.fields[self._number].von_mises, seen)
+        text = legend({names[tag]: value for tag, value in seen.items()}, marked_share(self._surface, marked))
+        state.legend = {"colour": self.stage.bar(state.quantity).warning, "text": text}
+        return marked
 
     def probe(self, ray: Any) -> None:
         """Say what the wheel has where a ray (2, 3) [m] meets it; beside it, nothing."""
