@@ -1,11 +1,12 @@
 """``workbench view`` as a user runs it: the command, its page in headless Chromium, Ctrl-C.
 
-Claim: the page shows results, turns, plays, probes and overlays; it asks nothing of any other machine; bad input is one
-message and exit status 2. Pixels of the 3D view must change where the view does.
+Claim: the page shows results, turns, plays, probes and overlays; it saves pictures and asks nothing of any other
+machine; bad input is one message and exit status 2. Pixels of the 3D view must change where the view does.
 """
 
 from __future__ import annotations
 
+import io
 import os
 import shutil
 import signal
@@ -15,11 +16,17 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from tests.small_report_folder import write_small_report
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 ROOT = Path(__file__).parents[2]
 PATIENCE = 120_000
@@ -90,11 +97,46 @@ def test_a_bad_file_or_an_empty_folder_is_one_message(folder: Path, tmp_path: Pa
         assert err.count("\n") == 1
 
 
+def check_pictures(page: Page, folder: Path) -> None:
+    """What is saved has the scene's pixels, its words at their places and its colours; the chart is sharp."""
+    scene, chart = folder / "scene.png", folder / "chart.png"
+    for button, path, name in (
+        ("#save-scene", scene, "FE_0_down_200_N.png"),
+        ("#save-chart", chart, "chart_of_FE_0_down_200_N.png"),
+    ):
+        with page.expect_download() as saved:
+            page.click(button)
+        assert saved.value.suggested_filename == name
+        saved.value.save_as(path)
+    found = np.asarray(Image.open(io.BytesIO(scene.read_bytes())).convert("RGB")).astype(int)
+    seen = np.asarray(Image.open(io.BytesIO(page.locator(".stage").screenshot())).convert("RGB")).astype(int)
+    assert np.abs(np.subtract(found.shape, seen.shape)).max() <= 1  # the page's place has parts of pixels
+    high, wide = np.minimum(found.shape, seen.shape)[:2]
+    found, seen = found[:high, :wide], seen[:high, :wide]
+    middle = tuple(slice(n // 3, 2 * n // 3) for n in found.shape[:2])
+    np.testing.assert_array_equal(found[middle], seen[middle])
+    assert np.ptp(found[middle]) > 50
+    home = page.locator(".stage").bounding_box()
+    assert home is not None
+    for words in ("#caption", "#bar .title", "#legend"):
+        box = page.locator(words).bounding_box()
+        assert box is not None
+        top, left = round(box["y"] - home["y"]), round(box["x"] - home["x"])
+        here = slice(top, top + round(box["height"])), slice(left, left + round(box["width"]))
+        assert (found[here].max(axis=2) < 100).sum() > 50, f"{words} is not on the picture"
+        assert abs((found[here] < 100).mean() - (seen[here] < 100).mean()) < 0.05
+    warning = (found == (0xD5, 0x5E, 0x00)).all(axis=2)
+    assert warning.sum() > 100  # of the legend
+    width = page.locator("#chart").evaluate("(one) => one.clientWidth")
+    with Image.open(chart) as picture:
+        assert picture.width == 2 * width
+
+
 def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
     if CHROMIUM is None:
         assert os.environ.get("CI") != "true", "CI must have Chromium on PATH"
         pytest.skip("no Chromium on PATH")
-    from playwright.sync_api import Page, sync_playwright
+    from playwright.sync_api import sync_playwright
 
     asked: list[str] = []
     complaints: list[str] = []
@@ -145,6 +187,7 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         page.locator("#mark-yield").check()
         page.locator("#legend", has_text="above yield strength: 250 MPa hub, 355 MPa tire (").wait_for()
         marked = until_changed(page, shown)
+        check_pictures(page, folder.parent)
         page.locator("#mark-yield").uncheck()
         page.wait_for_selector("#legend", state="detached")
         until_changed(page, marked)

@@ -43,7 +43,7 @@ async def open_page(results: Results, secret: str, number: int) -> Window:
     assert plotly is not None
     assert plotly.origin is not None
     static = {"workbench": str(_HERE / "static"), "plotly": str(Path(plotly.origin).parent / "package_data")}
-    scripts, styles = ["plotly/plotly.min.js", "workbench/viewer.js"], ["workbench/viewer.css"]
+    scripts, styles = ["plotly/plotly.min.js", "workbench/pictures.js", "workbench/viewer.js"], ["workbench/viewer.css"]
     server.enable_module({"serve": static, "scripts": scripts, "styles": styles, "vue_use": ["workbench"]})
     state, scene = server.state, Scene()
     state.update(first_state(results.folder))
@@ -58,6 +58,7 @@ async def open_page(results: Results, secret: str, number: int) -> Window:
             click="trame.trigger('probe', [$event && { ray: $event.ray }])",
             after_scene_loaded="trame.trigger('drawn')",
         )
+        view.add_child("<workbench-eye></workbench-eye>")
         layout.root.clear()
         layout.root.add_child((_HERE / "page.html").read_text(encoding="utf-8").replace("<!--scene-->", view.html))
     page = Window(server, Session(state, view, results, scene))

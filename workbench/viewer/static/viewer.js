@@ -62,6 +62,7 @@
   window.workbench = {
     sendCurve,
     install(app) {
+      app.component("workbench-eye", window.workbenchPictures.eye);
       app.component("workbench-chart", chart);
     },
   };
