@@ -250,6 +250,15 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         page.locator("#chart .legend", has_text="mine.csv").wait_for()
         page.locator("#curves label", has_text="FE 0°").click()
         page.locator("#chart .legend", has_text="FE 0°").wait_for()
+        page.fill("#curve-search", "0° fe")
+        page.locator("#curves label", has_text="average").wait_for(state="detached")
+        assert page.locator("#curves label").all_inner_texts() == ["FE 0°", "FE 30°"]
+        page.click("#curves .group button:has-text('none')")  # of what is found alone
+        page.locator("#chart .legend", has_text="FE 0°").wait_for(state="detached")
+        page.fill("#curve-search", "")
+        assert page.locator("#curves input:checked").count() == 2  # the average, and mine
+        page.click("#curves .group:has-text('FE') button:has-text('all')")
+        page.locator("#chart .legend", has_text="FE 0°").wait_for()
 
         wheel = pixels(page)
         page.click("#tab-rover")

@@ -9,6 +9,7 @@ import pytest
 
 from contracts.errors import InputError
 from tests.small_report_folder import write_small_report
+from workbench.viewer.curve_groups import curve_choices
 from workbench.viewer.folder import read_folder, spoken
 
 
@@ -30,6 +31,26 @@ def test_everything_is_found(tmp_path: Path) -> None:
 )
 def test_names_are_spoken(name: str, text: str) -> None:
     assert spoken(name) == text
+
+
+def test_curves_are_grouped_by_model_and_variants_of_it() -> None:
+    names = ["section_phi000", "ancf_wheel_phi000", "ancf_wheel_phi015", "ancf_wheel_average", "words_band_average"]
+    names += ["fe_phi015", "fe_phi000", "fe_average", "fe_penalty_0.1_phi015", "ancf_phi000", "<b>"]
+    found = [(one["group"], one["value"]) for one in curve_choices(names)]
+    assert found == [
+        ("FE", "fe_average"),
+        ("FE", "fe_penalty_0.1_phi015"),
+        ("FE", "fe_phi000"),
+        ("FE", "fe_phi015"),
+        ("ANCF", "ancf_phi000"),
+        ("ANCF wheel", "ancf_wheel_average"),
+        ("ANCF wheel", "ancf_wheel_phi000"),
+        ("ANCF wheel", "ancf_wheel_phi015"),
+        ("section", "section_phi000"),
+        ("others", "words_band_average"),
+        ("others", "<b>"),
+    ]
+    assert {one["value"]: one["text"] for one in curve_choices(names)}["fe_phi015"] == "FE 15°"
 
 
 def test_folders_without_results_are_refused(tmp_path: Path) -> None:

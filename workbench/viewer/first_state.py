@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from workbench.viewer.curve_groups import curve_choices
 from workbench.viewer.folder import ReportFolder, spoken
 from workbench.viewer.names import plain
 from workbench.viewer.wheel_body import STEPS
@@ -48,7 +49,7 @@ def first_state(folder: ReportFolder) -> dict[str, Any]:
         "rover_title": "",
         "series": "load_N",
         "series_choices": {},
-        "curves": [{"value": name, "text": spoken(name)} for name in sorted(folder.curves, key=_rank)],
+        "curves": curve_choices(folder.curves),
         "chosen": averages or list(folder.curves)[:3],
         "probe": None,
         "message": "",
@@ -62,10 +63,3 @@ def first_state(folder: ReportFolder) -> dict[str, Any]:
         "figure": None,
         "cursor": None,
     }
-
-
-def _rank(name: str) -> tuple[bool, int, str]:
-    """Averages first, then FE, ANCF and the rest."""
-    models = ("fe", "ancf", "brush", "section")
-    model = name.split("_")[0]
-    return not name.endswith("_average"), models.index(model) if model in models else len(models), name

@@ -19,6 +19,7 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.study.curve_file import in_si
 from workbench.viewer.charts import curves_chart, series_chart
+from workbench.viewer.curve_groups import OWN
 from workbench.viewer.first_state import first_state
 from workbench.viewer.names import plain
 from workbench.viewer.rover_tab import RoverTab
@@ -156,7 +157,7 @@ class Session:
         self.curves[name] = curve
         if name not in self.own:
             self.own.append(name)
-            state.curves = [*state.curves, {"value": name, "text": name}]
+            state.curves = [*state.curves, {"value": name, "text": name, "group": OWN}]
         state.chosen = [*(one for one in state.chosen if one != name), name]
         self.draw_curves()
 

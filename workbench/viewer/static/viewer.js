@@ -1,4 +1,4 @@
-// The page's own script: a Plotly chart as a Vue component, a curve file sent as text, drags told from clicks.
+// The page's own script: a Plotly chart and the list of curves as Vue components, a curve file sent as text, drags told from clicks.
 (() => {
   const options = { displayModeBar: false, responsive: true, plotlyServerURL: "" };
 
@@ -40,6 +40,46 @@
     },
   };
 
+  // Tick boxes by group; the search hides names and leaves ticks as they are.
+  const curves = {
+    props: ["curves", "chosen"],
+    emits: ["update:chosen"],
+    data: () => ({ search: "" }),
+    computed: {
+      found() {
+        const words = this.search.toLowerCase().split(/\s+/).filter(Boolean);
+        return this.curves.filter((one) => words.every((word) => one.text.toLowerCase().includes(word)));
+      },
+      groups() {
+        return [...new Set(this.found.map((one) => one.group))].map((name) => ({
+          name,
+          curves: this.found.filter((one) => one.group === name),
+        }));
+      },
+    },
+    methods: {
+      tick(those, on) {
+        const values = those.map((one) => one.value);
+        const others = this.chosen.filter((value) => !values.includes(value));
+        this.$emit("update:chosen", on ? [...others, ...values] : others);
+      },
+    },
+    template: `
+      <input id="curve-search" type="search" v-model="search" placeholder="search, such as: fe 15" aria-label="search curves" />
+      <div class="list" id="curves">
+        <div v-for="group in groups" :key="group.name" class="group">
+          <div class="name">{{ group.name }}
+            <button class="link" @click="tick(group.curves, true)">all</button>
+            <button class="link" @click="tick(group.curves, false)">none</button>
+          </div>
+          <label v-for="one in group.curves" :key="one.value">
+            <input type="checkbox" :checked="chosen.includes(one.value)" @change="tick([one], $event.target.checked)" />{{ one.text }}
+          </label>
+        </div>
+        <p v-if="!groups.length" class="hint">no such curve</p>
+      </div>`,
+  };
+
   async function sendCurve(event, trame) {
     const [file] = event.target.files;
     if (!file) return;
@@ -64,6 +104,7 @@
     install(app) {
       app.component("workbench-eye", window.workbenchPictures.eye);
       app.component("workbench-chart", chart);
+      app.component("workbench-curves", curves);
     },
   };
 })();
