@@ -18,7 +18,7 @@ from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun
 from rover_dynamics.vehicle.vehicle import VehicleMotion
-from workbench.questions.fe.field_file import write_fields, write_points
+from workbench.questions.fe.field_file import write_fields, write_points, write_shapes
 from workbench.questions.fe.parts_file import PARTS_FILE, parts_text
 from workbench.questions.rover.motion_file import write_motion
 
@@ -84,8 +84,24 @@ def rolling_run(frames: int = 40) -> ScenarioRun:
     return ScenarioRun(scenario=scenario, design=design, motion=motion)
 
 
+def write_small_modes(folder: Path) -> None:
+    """``modes``: a turn about the axle, even, and a shift along it, odd, of half a wheel; of the whole a plate."""
+    folder.mkdir()
+    mesh = ring_mesh()
+    turn = np.cross((0.0, 1.0, 0.0), mesh.points)
+    shift = np.tile([0.0, 1.0, 0.0], (len(mesh.points), 1))
+    write_shapes(mesh.points, mesh.cells, np.array([turn, shift]), folder / "modes_fe_held.vtu")
+    head = "mode,frequency_Hz,growth_1_s,kind,waves,part,part_share,parity\n"
+    table = f"{head}1,18.54,0,torsional,0,tire,0.7,1\n2,32.2,0,lateral,0,tire,0.6,-1\n"
+    (folder / "modes_fe_held.csv").write_text(table, encoding="utf-8")
+    corners = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
+    stem, up = folder / "modes_ancf_wheel_standing_phi030_200N", np.array([np.eye(4, 3)[:, [1, 2, 0]]])
+    write_shapes(corners, np.arange(4)[None], up, stem.with_name(f"{stem.name}.vtu"))
+    stem.with_name(f"{stem.name}.csv").write_text(f"{head}1,0,12.5,radial,2,tire,0.7,0\n", encoding="utf-8")
+
+
 def write_small_report(folder: Path) -> None:
-    """``curves``, ``fields``, ``series`` and ``motions``; ``summary.json``."""
+    """``curves``, ``fields``, ``series``, ``motions`` and ``modes``; ``summary.json``."""
     for name in ("curves", "fields"):
         (folder / name).mkdir(parents=True)
     (folder / "summary.json").write_text('{"study": "small", "status": "pass"}', encoding="utf-8")
@@ -121,6 +137,7 @@ def write_small_report(folder: Path) -> None:
         model="fe", orientation_deg=None, deflection=deflection, load=8300.0 * deflection, columns={}
     )
     write_curve(average, folder / "curves" / "fe_average.csv")
+    write_small_modes(folder / "modes")
     run = rolling_run()
     write_motion(run, folder / "motions" / "straight_brush.npz")
     times = run.motion.times

@@ -85,6 +85,17 @@ def test_a_port_in_use_is_one_message(folder: Path, address: str) -> None:
     assert err.count("\n") == 1
 
 
+def test_a_folder_of_modes_is_enough(folder: Path, tmp_path: Path) -> None:
+    shutil.copytree(folder / "modes", tmp_path / "modes")
+    process = start(str(tmp_path))
+    assert process.stdout is not None
+    line = process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=PATIENCE / 1000)
+    assert line.startswith("http://127.0.0.1:"), err
+    assert (process.returncode, out, err) == (0, "", "")
+
+
 def test_a_bad_file_or_an_empty_folder_is_one_message(folder: Path, tmp_path: Path) -> None:
     bad = shutil.copytree(folder, tmp_path / "bad")
     (bad / "fields" / "fe_phi000_200N.vtu").write_text("<VTKFile", encoding="utf-8")
@@ -270,6 +281,23 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         until_changed(page, rover)
         places = page.evaluate("[document.querySelector('#frame').value, document.querySelector('#frame').max]")
         assert places == ["39", "39"]
+
+        rover = pixels(page)
+        page.click("#tab-modes")
+        page.select_option("#mode-file", label="FE, held at its hub")
+        caption(page, "mode 1: 18.54 Hz, torsional")
+        first = until_changed(page, rover)
+        page.select_option("#mode", label="2: 32.20 Hz, lateral")
+        caption(page, "mode 2: 32.20 Hz, lateral")
+        second = until_changed(page, first)
+        page.locator("#amplitude").fill("20")
+        until_changed(page, second)
+        page.click("#play")
+        seen = set()
+        while len(seen) < 20:  # all moments of a turn, which goes on
+            seen.add(page.inner_text(".player output"))
+        page.click("#play")
+        page.wait_for_selector("#play[aria-label='play']")
         browser.close()
     assert complaints == []
     home = address.partition("?")[0]

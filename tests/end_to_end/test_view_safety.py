@@ -43,6 +43,7 @@ NONSENSE: tuple[Any, ...] = (
 KEYS = (
     *("tab", "model", "orientation", "load", "quantity", "mark_yield", "visible", "cut_axis", "cut_step"),
     *("cut_other_side", "scenario", "tire", "series", "chosen", "frame", "playing"),
+    *("mode_file", "mode", "amplitude"),
 )
 FOREIGN = ("speed", "figure", "study", "models", "last_frame", "scene_view", "trame__title", "trame__scripts", "nope")
 SENSIBLE = [

@@ -12,7 +12,7 @@ import pytest
 from workbench.viewer.requests import CHOICES, Refused, allowed_change, allowed_trigger, read_request
 
 OFFERED = {
-    "tab": ["wheel", "rover"],
+    "tab": ["wheel", "modes", "rover"],
     "model": ["fe"],
     "orientation": [0, 30.0],
     "load": [0, 2],
@@ -22,6 +22,9 @@ OFFERED = {
     "cut_axis": ["", "x", "y", "z"],
     "cut_step": [0, 100],
     "cut_other_side": [True, False],
+    "mode_file": [0, 1],
+    "mode": [0, 2],
+    "amplitude": [1, 30],
     "scenario": ["straight"],
     "tire": ["brush"],
     "series": ["load_N"],
@@ -31,7 +34,7 @@ OFFERED = {
     "speed": [0.1, 10],
 }
 NOT = (None, -1, 101, 10**30, math.nan, math.inf, 0.7, {}, ["x"], ["fe_average"] * 2, [1, 1], [[]], b"fe", 1 + 0j, "w")
-SOME_OFFER = {"cut_axis": ("", "x"), "cut_step": (11,)}
+SOME_OFFER = {"cut_axis": ("", "x"), "cut_step": (11,), "amplitude": (11,)}
 """What only these choices offer, to be refused to the others."""
 
 
@@ -45,6 +48,8 @@ def page() -> Any:
         orientations=[0.0, 30.0],
         loads=[0.0, 100.0, 200.0],
         scenarios=["straight"],
+        mode_files=[{"value": 0}, {"value": 1}],
+        mode_choices=[{"value": 0}, {"value": 1}, {"value": 2}],
         tires=["brush"],
         series_choices={"load_N": "wheel load"},
         last_frame=9,
@@ -56,7 +61,7 @@ def page() -> Any:
 def test_what_is_offered_passes_and_nothing_else(name: str) -> None:
     for value in OFFERED[name]:
         assert allowed_change(page(), {"key": name, "value": value}) == (name, value)
-    others = [value for one, values in SOME_OFFER.items() if one != name for value in values]
+    others = [value for one, values in SOME_OFFER.items() for value in values if value not in SOME_OFFER.get(name, ())]
     for value in (*NOT, *others, *([] if name in ("playing", "cut_other_side", "mark_yield") else [True])):
         with pytest.raises(Refused):
             assert allowed_change(page(), {"key": name, "value": value}) is None, value
@@ -77,11 +82,12 @@ def test_yield_is_marked_where_strengths_are_known_alone() -> None:
         allowed_change(session, {"key": "mark_yield", "value": True})
 
 
-def test_a_rover_without_motions_is_not_offered() -> None:
+@pytest.mark.parametrize(("tab", "what"), [("wheel", "models"), ("rover", "scenarios"), ("modes", "mode_files")])
+def test_a_tab_without_anything_is_not_offered(tab: str, what: str) -> None:
     session = page()
-    session.state.scenarios = []
+    setattr(session.state, what, [])
     with pytest.raises(Refused):
-        allowed_change(session, {"key": "tab", "value": "rover"})
+        allowed_change(session, {"key": "tab", "value": tab})
 
 
 @pytest.mark.parametrize("change", [None, 3, [], {}, {"key": 1}, {"key": "figure"}, {"key": ["tab"], "value": "wheel"}])

@@ -103,6 +103,20 @@ def test_tasks() -> None:
     assert free == ["mesh_whole", "modes_ancf_wheel_free"]
 
 
+def test_files_of_a_wheel_that_stands_are_told_apart() -> None:
+    study = read_study(built_in_study())
+    first = ModeChoices(state="standing", load=100.0, orientation=15.0).asked(study)
+    others = [replace(first, load=150.0), replace(first, orientation_deg=0.0), replace(first, grip=True)]
+    names = [one.name for one in (first, *others)]
+    assert names == [
+        "standing_phi015_100N",
+        "standing_phi015_150N",
+        "standing_phi000_100N",
+        "standing_phi015_100N_grip",
+    ]
+    assert [ModeChoices(state=state).asked(study).name for state in ("held", "free")] == ["held", "free"]
+
+
 @pytest.mark.parametrize(
     ("choices", "text"),
     [

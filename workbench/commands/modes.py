@@ -84,7 +84,9 @@ class ModeChoices:
 
 
 def run_modes(study_path: Path | None, choices: ModeChoices, out: Path, store: Path, computing: Computing) -> int:
-    """Find the modes; print them, write ``modes/modes_{model}_{state}.csv``, ``.vtu`` and ``.png``; by both, pair them.
+    """Find the modes; print them, write ``modes/modes_{model}_{name}.csv``, ``.vtu`` and ``.png``; by both, pair them.
+
+    The name is that of the state, see `AskedModes`.
 
     Raises
     ------
@@ -108,16 +110,16 @@ def run_modes(study_path: Path | None, choices: ModeChoices, out: Path, store: P
         folder = folders[modes_name(model, asked)]
         kept = read_modes(folder / MODES)
         kinds = mode_kinds(kept)
-        name = f"modes/{modes_name(model, asked)}"
+        name = f"modes/modes_{model}_{asked.name}"
         texts[f"{name}.csv"] = _csv(kept, kinds)
         copies |= {f"{name}.vtu": folder / FIELDS, f"{name}.png": folder / PICTURE}
         _print(f"{study.title} by {model}: {asked.words}", kept, kinds)
         doubts += doubts_of(model, kept)
     if len(choices.models) > 1:
         rows = read_result(folders[COMPARED])["rows"]
-        texts[f"modes/modes_compared_{asked.state}.csv"] = _compared_csv(rows)
+        texts[f"modes/modes_compared_{asked.name}.csv"] = _compared_csv(rows)
         _print_compared(rows)
-    tell_kept(publish(out, f"modes {choices.model} {asked.state}", texts, copies=copies))
+    tell_kept(publish(out, f"modes {choices.model} {asked.name}", texts, copies=copies))
     warn(path, doubts)
     console.print(f"tables, fields, pictures: {out / 'modes'}", soft_wrap=True)
     return 0

@@ -18,8 +18,8 @@ def run_view(folder: Path, port: int, *, open_browser: bool) -> int:
     found = read_folder(folder)
     for name in found.left_out:
         sys.stderr.write(f"workbench: warning: {name} is left out: it leads out of the folder, or is no file\n")
+    from workbench.viewer.results import Results
     from workbench.viewer.server import serve
-    from workbench.viewer.stages import Results
 
     serve(Results(found), port, open_browser=open_browser)
     return 0

@@ -14,9 +14,10 @@ from contracts.curves import StiffnessCurve
 from contracts.series import TimeSeries
 from workbench.charts.palette import INK, MODEL_COLOURS, ORIENTATION_COLOURS
 from workbench.viewer.folder import spoken
+from workbench.viewer.mode_shapes import Mode
 from workbench.viewer.names import chart_text, plain
 
-__all__ = ["curves_chart", "quantities", "series_chart"]
+__all__ = ["curves_chart", "modes_chart", "quantities", "series_chart"]
 
 Figure = dict[str, Any]
 _COLOURS = tuple(c for c in ORIENTATION_COLOURS if c not in MODEL_COLOURS.values())
@@ -64,6 +65,25 @@ def curves_chart(
         place: Figure = {"x": [1e3 * deflection], "y": [load], "mode": "markers", "type": "scatter", "marker": mark}
         lines.append(place | {"name": f"shown: {name}", "hovertemplate": "%{y:.1f} N"})
     return {"data": lines, "layout": _layout("radial deflection [mm]", "load on the wheel [N]", "tozero")}
+
+
+def modes_chart(modes: Sequence[Mode], shown: int) -> Figure:
+    """Frequencies of modes over their numbers; the one that is shown is marked."""
+    bars = {
+        "type": "bar",
+        "x": list(range(1, len(modes) + 1)),
+        "y": _rounded([one.frequency for one in modes]),
+        "text": [chart_text(one.kind) for one in modes],
+        "marker": {"color": ["#d81b60" if k == shown else MODEL_COLOURS["ancf"] for k in range(len(modes))]},
+        "hovertemplate": "%{y:.2f} Hz, %{text}<extra></extra>",
+        "textposition": "none",
+        "showlegend": False,
+    }
+    layout = _layout("number of the mode", "frequency [Hz]", "tozero")
+    return {
+        "data": [bars],
+        "layout": layout | {"hovermode": "closest", "xaxis": layout["xaxis"] | {"rangemode": "normal"}},
+    }
 
 
 def quantities(series: TimeSeries) -> dict[str, str]:

@@ -18,13 +18,21 @@ from workbench.questions.fe.parts_file import PARTS_FILE, read_parts
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours
 from workbench.viewer.names import named_apart, plain
 
-__all__ = ["FieldFile", "ReportFolder", "read_folder", "spoken"]
+__all__ = ["FieldFile", "ModesFile", "ReportFolder", "read_folder", "spoken"]
 
 _FIELDS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_(?P<load>\d+)N\.vtu", re.DOTALL | re.ASCII)
 _POINTS = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_points\.npz", re.DOTALL | re.ASCII)
 _PRESSURES = re.compile(r"(?P<model>.+)_phi(?P<orientation>\d+(?:\.\d+)?)_pressure\.npz", re.DOTALL | re.ASCII)
+_MODES = re.compile(
+    r"modes_(?P<model>.+?)_(?P<state>free|held|standing(?:_phi(?P<orientation>\d+(?:\.\d+)?)_(?P<load>[\d.e+]+)N)?(?P<grip>_grip)?)"
+    r"\.vtu",
+    re.DOTALL | re.ASCII,
+)
+_STATES = {"free": "free in space", "held": "held at its hub"}
 _MODELS = {"fe": "FE", "ancf": "ANCF", "brush": "brush", "section": "section"}
-_HINT = "give the folder that `workbench report --out` wrote, such as build/report"
+_HINT = (
+    "give the folder that `workbench report --out` wrote, such as build/report, or that of stiffness, modes or rover"
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +43,16 @@ class FieldFile:
     orientation: float
     load: float
     path: Path
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModesFile:
+    """Modes of a wheel: its title, what faces the ground [deg], the file of the shapes and the table beside it."""
+
+    title: str
+    orientation: float
+    path: Path
+    table: Path
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +70,7 @@ class ReportFolder:
     curves : by file name without its ending, such as ``fe_phi015``
     series : time series by (scenario, tire)
     motions : files of recorded motions by (scenario, tire)
+    modes : natural modes, by name
     left_out : names of what looks like a result and leads out of the folder, or is no file
 
     Names are `plain`: a file may be called anything.
@@ -67,6 +86,7 @@ class ReportFolder:
     curves: Mapping[str, StiffnessCurve]
     series: Mapping[tuple[str, str], TimeSeries]
     motions: Mapping[tuple[str, str], Path]
+    modes: tuple[ModesFile, ...]
     left_out: tuple[str, ...] = ()
 
     def strengths_of(self, model: str, orientation: float) -> dict[int, float]:
@@ -110,9 +130,14 @@ def read_folder(path: Path) -> ReportFolder:
         curves={name: read_curve(one) for name, one in named_apart(inside.files("curves", "*.csv")).items()},
         series={names: read_series(one, *names) for names, one in series.items()},
         motions=motions,
+        modes=tuple(
+            _modes_file(path, match)
+            for path, match in inside.matches("modes", _MODES, ".vtu")
+            if inside.keeps(path.with_suffix(".csv"))
+        ),
         left_out=tuple(dict.fromkeys(inside.left_out)),
     )
-    if not (found.fields or found.curves or found.series or found.motions):
+    if not (found.fields or found.curves or found.series or found.motions or found.modes):
         raise InputError("report folder", path, "holds no results", _HINT)
     return found
 
@@ -133,6 +158,18 @@ def _field_files(matches: Iterable[tuple[Path, re.Match[str]]]) -> tuple[FieldFi
     return tuple(sorted(found, key=lambda one: (one.model, one.orientation, one.load)))
 
 
+def _modes_file(path: Path, m: re.Match[str]) -> ModesFile:
+    state = _STATES.get(m["state"], "standing")
+    if m["load"]:
+        state += f" on {float(m['orientation']):g}° under {float(m['load']):g} N"
+    return ModesFile(
+        title=f"{spoken(plain(m['model']))}, {state}" + (", gripping" if m["grip"] else ""),
+        orientation=float(m["orientation"] or 0.0),
+        path=path,
+        table=path.with_suffix(".csv"),
+    )
+
+
 def _by_orientation(matches: Iterable[tuple[Path, re.Match[str]]]) -> dict[tuple[str, float], Path]:
     return {(plain(m["model"]), float(m["orientation"])): path for path, m in matches}
 
@@ -146,16 +183,21 @@ class _Inside:
     def files(self, folder: str, pattern: str) -> Iterator[Path]:
         """In the order of their names."""
         for path in sorted((self.root / folder).glob(pattern)):
-            if self.has(path):
+            if self.keeps(path):
                 yield path
-            else:
-                self.left_out.append(plain(str(path.relative_to(self.root))))
 
     def matches(self, folder: str, pattern: re.Pattern[str], ending: str) -> Iterator[tuple[Path, re.Match[str]]]:
         """Those whose name matches as a whole."""
         for path in self.files(folder, f"*{ending}"):
             if match := pattern.fullmatch(path.name):
                 yield path, match
+
+    def keeps(self, path: Path) -> bool:
+        """Whether it `has` this; remembers it if not."""
+        kept = self.has(path)
+        if not kept:
+            self.left_out.append(plain(str(path.relative_to(self.root))))
+        return kept
 
     def has(self, path: Path) -> bool:
         """Whether this is a file in the folder, or a link to one."""

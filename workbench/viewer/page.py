@@ -14,9 +14,9 @@ from trame.ui.html import DivLayout  # type: ignore[import-untyped]
 from trame.widgets import vtk  # type: ignore[import-untyped]
 
 from workbench.viewer.first_state import first_state
+from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
 from workbench.viewer.session import Session
-from workbench.viewer.stages import Results
 from workbench.viewer.window import Window
 
 __all__ = ["open_page"]
@@ -79,6 +79,8 @@ def _connect(server: Any, page: Window) -> None:
         (("load", "quantity", "mark_yield"), session.show_load),
         (("visible", "cut_axis", "cut_step", "cut_other_side"), session.cut),
         (("scenario", "tire"), session.open_rover),
+        (("mode_file",), session.open_modes),
+        (("mode", "amplitude"), session.show_mode),
         (("frame",), session.show_frame),
         (("chosen", "series"), session.draw_curves),
     ):

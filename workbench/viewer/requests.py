@@ -12,6 +12,7 @@ from typing import Any, TypeGuard
 
 import msgpack  # type: ignore[import-untyped]
 
+from workbench.viewer.modes_tab import AMPLITUDES
 from workbench.viewer.rover_tab import SPEEDS
 from workbench.viewer.session import Session
 from workbench.viewer.wheel_body import AXES, STEPS
@@ -94,8 +95,8 @@ def _curves(session: Session, value: object) -> bool:
 
 
 def _offered(choices: list[dict[str, Any]], value: object) -> bool:
-    """Whether this is the value of one of the page's choices; True is no 1."""
-    return not isinstance(value, bool) and value in [one["value"] for one in choices]
+    """Whether this is the value of one of the page's choices; True and 1 + 0j are no 1."""
+    return any(type(value) is type(one["value"]) and value == one["value"] for one in choices)
 
 
 def _parts(session: Session, value: object) -> bool:
@@ -105,7 +106,9 @@ def _parts(session: Session, value: object) -> bool:
 
 
 def _tab(session: Session, value: object) -> bool:
-    return (value == "wheel" and bool(session.state.models)) or (value == "rover" and bool(session.state.scenarios))
+    state = session.state
+    there = {"wheel": state.models, "rover": state.scenarios, "modes": state.mode_files}
+    return isinstance(value, str) and bool(there.get(value))
 
 
 CHOICES: Mapping[str, Callable[[Session, Any], bool]] = {
@@ -121,6 +124,9 @@ CHOICES: Mapping[str, Callable[[Session, Any], bool]] = {
     "cut_other_side": lambda session, value: isinstance(value, bool),
     "scenario": lambda session, value: isinstance(value, str) and value in session.state.scenarios,
     "tire": lambda session, value: isinstance(value, str) and value in session.state.tires,
+    "mode_file": lambda session, value: _offered(session.state.mode_files, value),
+    "mode": lambda session, value: _offered(session.state.mode_choices, value),
+    "amplitude": lambda session, value: type(value) is int and value in AMPLITUDES,
     "series": lambda session, value: isinstance(value, str) and value in session.state.series_choices,
     "chosen": _curves,
     "frame": lambda session, value: _counted(value, session.state.last_frame + 1),

@@ -11,8 +11,9 @@ import numpy as np
 
 from workbench.viewer.charts import quantities
 from workbench.viewer.names import plain
+from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
-from workbench.viewer.stages import Results, RoverStage
+from workbench.viewer.stages import RoverStage
 
 __all__ = ["SPEEDS", "RoverTab"]
 

@@ -91,19 +91,21 @@ class Scene:
             self._now = drawn
         return known
 
-    def add_shape(self, ground: Quads) -> None:
-        """A surface that is still to be shown, and a piece of ground."""
-        drawn = _surface(*ground)  # as VTK adds nothing that is empty
-        drawn.point_data["colour"] = np.zeros((len(ground[0]), 3), dtype=np.uint8)
+    def add_shape(self, ground: Quads | None) -> None:
+        """A surface that is still to be shown, maybe on a piece of ground."""
+        drawn = _surface(np.eye(4, 3), np.arange(4)[None])  # as VTK adds nothing that is empty
+        drawn.point_data["colour"] = np.zeros((4, 3), dtype=np.uint8)
         self._add(drawn, pickable=True, scalars="colour", rgb=True)
         self._now.shapes.append(drawn)
+        if ground is None:
+            return
         self._now.ground = _surface(*ground)
         self._now.below = self._add(self._now.ground, color=_GROUND)
 
-    def show_shape(self, quads: Quads, colours: Colours, ground: Quads) -> None:
+    def show_shape(self, quads: Quads, colours: Colours, ground: Quads | None) -> None:
         """The surface, maybe of nothing, coloured at its points (n, 3) uint8, and its piece of ground."""
         (drawn,), (points, corners) = self._now.shapes, quads
-        if self._now.ground is not None:
+        if self._now.ground is not None and ground is not None:
             self._now.ground.points = ground[0]
         self._now.actors[0].visibility = len(corners) > 0
         if not len(corners):

@@ -20,8 +20,8 @@ from aiohttp import web
 from contracts.errors import InputError
 from workbench.viewer.access import Access
 from workbench.viewer.page import open_page
+from workbench.viewer.results import Results
 from workbench.viewer.site import site
-from workbench.viewer.stages import Results
 from workbench.viewer.window import Windows
 
 __all__ = ["HOST", "serve"]

@@ -18,13 +18,15 @@ import numpy as np
 from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from workbench.study.curve_file import in_si
-from workbench.viewer.charts import curves_chart, series_chart
+from workbench.viewer.charts import curves_chart, modes_chart, series_chart
 from workbench.viewer.curve_groups import OWN
 from workbench.viewer.first_state import first_state
+from workbench.viewer.modes_stage import FRAMES
+from workbench.viewer.modes_tab import ModesTab
 from workbench.viewer.names import plain
+from workbench.viewer.results import Results
 from workbench.viewer.rover_tab import RoverTab
 from workbench.viewer.scene import Scene
-from workbench.viewer.stages import Results
 from workbench.viewer.wheel_tab import WheelTab
 
 __all__ = ["Session"]
@@ -33,6 +35,8 @@ _LOAD_SHOWN = 0.9
 """Longest time a load is shown while they are played [s]."""
 _PLAYED = 4.0
 """Time in which many loads are played [s]."""
+_SWING = 1.6
+"""Shortest time in which a mode is played through one turn [s]."""
 _PATIENCE = 1.0
 """Longest wait for the browser to have drawn a frame [s]."""
 _MOST_OWN = 50
@@ -57,12 +61,13 @@ class Session:
         self.own: list[str] = []
         self.wheel = WheelTab(state, view, results, scene)
         self.rover = RoverTab(state, view, results, scene)
+        self.modes = ModesTab(state, view, results, scene)
         self.drawn = asyncio.Event()
 
     def renew(self) -> None:
         """Forget what the last window did; the scene stays, and with it the addresses the browsers know."""
         self.curves, self.own = dict(self.folder.curves), []
-        self.wheel.stage = self.rover.stage = None
+        self.wheel.stage = self.rover.stage = self.modes.stage = None
         self.scene.mark(None, 0.0)
         with self.state:
             self.state.update(first_state(self.folder))
@@ -74,6 +79,7 @@ class Session:
         self.state.playing = False
         self.open_wheel()
         self.open_rover()
+        self.open_modes()
         self.draw_curves()
         self.look()
 
@@ -101,16 +107,33 @@ class Session:
             self.rover.open()
             self.draw_curves()
 
+    def open_modes(self) -> None:
+        """Modes of another wheel. Nothing while something else is looked at."""
+        if self.state.tab == "modes" and self.folder.modes:
+            self.modes.open()
+            self.draw_curves()
+
+    def show_mode(self) -> None:
+        """Another mode or amplitude."""
+        if self.state.tab == "modes":
+            self.modes.show()
+            self.draw_curves()
+
     def show_frame(self) -> None:
-        """Another frame: a load of the wheel, or a moment of the rover."""
+        """Another frame: a load of the wheel, a moment of the rover or of a mode."""
         if self.state.tab == "wheel":
             self.state.load = int(self.state.frame)
         else:
-            self.rover.show()
+            (self.rover if self.state.tab == "rover" else self.modes).show()
 
     def look(self) -> None:
         """The first view again."""
-        stage = self.wheel.stage if self.state.tab == "wheel" else self.rover.stage
+        tabs: dict[str, WheelTab | RoverTab | ModesTab] = {
+            "wheel": self.wheel,
+            "rover": self.rover,
+            "modes": self.modes,
+        }
+        stage = tabs[self.state.tab].stage
         if stage is not None:
             self.scene.look(stage.camera())
             self.view.update()
@@ -129,6 +152,10 @@ class Session:
             state.figure = series_chart(series, state.series) if series and state.series else None
             return
         state.cursor = None
+        if state.tab == "modes":
+            stage = self.modes.stage
+            state.figure = modes_chart(stage.found.modes, int(state.mode)) if stage else None
+            return
         chosen = {name: self.curves[name] for name in state.chosen if name in self.curves}
         shown, name = None, f"{state.model}_phi{float(state.orientation):03g}"
         if self.wheel.stage is not None and name in self.curves:
@@ -162,22 +189,24 @@ class Session:
         self.draw_curves()
 
     async def play(self) -> None:
-        """Step through the loads, or through the motion by the clock, as fast as the browser draws."""
+        """Step through the loads, through the motion by the clock, or swing, as fast as the browser draws."""
         state = self.state
-        if state.frame >= state.last_frame:
+        if state.frame >= state.last_frame and state.tab != "modes":
             state.frame = -1 if state.tab == "wheel" else 0
         begun, first = time.monotonic(), max(int(state.frame), 0)
-        pause = min(_LOAD_SHOWN, _PLAYED / (state.last_frame + 1))
-        while state.playing and state.frame < state.last_frame:
+        pauses = {"wheel": min(_LOAD_SHOWN, _PLAYED / (state.last_frame + 1)), "rover": 0.03, "modes": _SWING / FRAMES}
+        while state.playing and (state.frame < state.last_frame or state.tab == "modes"):
             self.drawn.clear()
             with state:
                 state.frame = self._due(first, time.monotonic() - begun)
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self.drawn.wait(), _PATIENCE)
-            await asyncio.sleep(pause if state.tab == "wheel" else 0.03)
+            await asyncio.sleep(pauses[state.tab])
         with state:
             state.playing = False
 
     def _due(self, first: int, elapsed: float) -> int:
         """Number of the frame to show."""
-        return int(self.state.frame) + 1 if self.state.tab == "wheel" else self.rover.due(first, elapsed)
+        if self.state.tab == "rover":
+            return self.rover.due(first, elapsed)
+        return (int(self.state.frame) + 1) % (int(self.state.last_frame) + 1)

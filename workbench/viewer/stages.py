@@ -22,13 +22,12 @@ from workbench.questions.fe.field_file import read_points, read_pressures
 from workbench.questions.rover.motion_file import RecordedMotion, read_motion
 from workbench.study.ancf_tire import drawn_tire
 from workbench.viewer.colours import ColourBar, colour_bar, rgb
-from workbench.viewer.folder import ReportFolder
 from workbench.viewer.scene import Camera, Scene
 from workbench.viewer.wheel_body import WheelBody
 from workbench.viewer.wheel_file import read_fields
 from workbench.viewer.wheel_surface import WheelField, WheelPoints, WheelSurface
 
-__all__ = ["QUANTITIES", "Results", "RoverStage", "WheelStage", "wheel_stage"]
+__all__ = ["QUANTITIES", "RoverStage", "WheelStage", "first_look", "upright", "wheel_stage"]
 
 FloatArray = NDArray[np.float64]
 QUANTITIES = {
@@ -54,13 +53,13 @@ class WheelStage:
     body : the same at all loads
     loads : (n,) [N], the first one 0
     fields : (n,)
-    down : unit vector from the hub to the ground, wheel frame
+    orientation : what faces the ground [deg]
     """
 
     body: WheelBody
     loads: tuple[float, ...]
     fields: tuple[WheelField, ...]
-    down: FloatArray
+    orientation: float
     _bars: dict[str, ColourBar] = field(default_factory=dict)
 
     def values(self, number: int, quantity: str) -> FloatArray:
@@ -98,9 +97,7 @@ class WheelStage:
 
     def places(self, number: int, points: WheelPoints) -> FloatArray:
         """Of points of the wheel (n, 3) [m], in true scale, the ground below."""
-        x, z = self.down[0], self.down[2]
-        upright = np.array([[-z, 0.0, x], [0.0, 1.0, 0.0], [-x, 0.0, -z]])
-        places: FloatArray = (points.places + points.displacement(self.fields[number])) @ upright.T
+        places: FloatArray = (points.places + points.displacement(self.fields[number])) @ upright(self.orientation).T
         return places
 
     def show(
@@ -123,8 +120,7 @@ class WheelStage:
 
     def camera(self) -> Camera:
         """From the side and a little above, with the ground below."""
-        reach = float(np.abs(self.body.places).max())
-        return Camera(eye=_unit(_WHEEL_EYE), up=(0.0, 0.0, 1.0), centre=(0.0, 0.0, 0.0), half_height=1.35 * reach)
+        return first_look(float(np.abs(self.body.places).max()))
 
     def ground(self, number: int) -> Quads:
         """A square under the lowest point of the whole wheel."""
@@ -132,6 +128,17 @@ class WheelStage:
         below, half = float(places[:, 2].min()) - 3e-4, 0.85 * float(np.abs(places).max())
         corners = [(a * half, b * half, below) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         return np.array(corners), np.array([[0, 1, 2, 3]])
+
+
+def upright(orientation: float) -> FloatArray:
+    """Rotation (3, 3) from the wheel's frame to one in which what faces the ground [deg] is below."""
+    sin, cos = np.sin(np.radians(orientation)), np.cos(np.radians(orientation))
+    return np.array([[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]])
+
+
+def first_look(reach: float) -> Camera:
+    """At a wheel of this size [m] from the side and a little above."""
+    return Camera(eye=_unit(_WHEEL_EYE), up=(0.0, 0.0, 1.0), centre=(0.0, 0.0, 0.0), half_height=1.35 * reach)
 
 
 def wheel_stage(
@@ -173,12 +180,11 @@ def wheel_stage(
     if pressures is not None:
         shown = _with_pressures(shown, pressures)
     loads = sorted(shown)
-    phi = np.radians(orientation)
     return WheelStage(
         body=body,
         loads=(0.0, *loads),
         fields=(still, *(shown[load] for load in loads)),
-        down=np.array([np.sin(phi), 0.0, -np.cos(phi)]),
+        orientation=orientation,
     )
 
 
@@ -243,25 +249,6 @@ def _with_pressures(shown: Mapping[float, WheelField], path: Path) -> dict[float
             rule = f"must hold the {len(known.von_mises)} nodes of the mesh"
             raise InputError("pressure file", path, rule, "run the report again, or take the file out of the folder")
     return {load: replace(known, pressure=found.get(load)) for load, known in shown.items()}
-
-
-class Results:
-    """A folder with its stages; what cannot be read is said before the page opens.
-
-    Attributes
-    ----------
-    folder : as it was found
-    wheels : by (model, orientation [deg])
-    rovers : by (scenario, tire)
-    """
-
-    def __init__(self, folder: ReportFolder) -> None:
-        self.folder = folder
-        self.wheels: dict[tuple[str, float], WheelStage] = {}
-        for key in dict.fromkeys((one.model, one.orientation) for one in folder.fields):
-            files = [(one.load, one.path) for one in folder.fields if (one.model, one.orientation) == key]
-            self.wheels[key] = wheel_stage(key[1], files, folder.points.get(key), folder.pressures.get(key))
-        self.rovers = {key: RoverStage(path) for key, path in folder.motions.items()}
 
 
 def _unit(vector: tuple[float, float, float]) -> tuple[float, float, float]:

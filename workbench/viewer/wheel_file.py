@@ -20,10 +20,11 @@ from workbench.viewer.field_arrays import field_arrays
 from workbench.viewer.wheel_body import WheelBody, wheel_body
 from workbench.viewer.wheel_surface import WheelField
 
-__all__ = ["read_fields"]
+__all__ = ["read_fields", "read_shapes"]
 
 _HEXAHEDRA = {12: 8, 29: 27}
 """VTK's cell types with their nodes."""
+_QUADRANGLE = 9
 _HINT = "run the report again, or take the file out of the folder"
 
 
@@ -50,6 +51,26 @@ def read_fields(path: Path) -> tuple[WheelBody, WheelField]:
         raise InputError("field file", path, "must hold cells of its own points, and a field at each", _HINT)
     field = WheelField(displacement=moved, von_mises=stress, principal_stress=principal)
     return wheel_body(points, cells, part, moved), field
+
+
+def read_shapes(path: Path, count: int) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]:
+    """Points (n, 3) [m], cells (m, 4, 8 or 27) and ``count`` shapes (count, n, 3) that ``workbench modes`` wrote.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or holds no such cells or fewer shapes.
+    """
+    with _one_message(path):
+        found = field_arrays(path)
+        points, kind, cells = _floats(found["Points"]), *_cells(found)
+        shapes = np.array([_floats(found[f"mode_{number:02d}"]) for number in range(1, count + 1)])
+    sound = ({_QUADRANGLE: 4} | _HEXAHEDRA).get(kind) == cells.shape[1] and shapes.shape[1:] == points.shape
+    if not sound or points.shape[1:] != (3,) or cells.min() < 0 or cells.max() >= len(points):
+        raise InputError("field file", path, "must hold cells of its own points, and a shape at each", _HINT)
+    if not (np.isfinite(points).all() and np.isfinite(shapes).all()):
+        raise InputError("field file", path, "must hold finite shapes", _HINT)
+    return points, cells, shapes
 
 
 @contextmanager

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from workbench.viewer.folder import spoken
 from workbench.viewer.names import plain
+from workbench.viewer.results import Results
 from workbench.viewer.scene import Scene
-from workbench.viewer.stages import QUANTITIES, Results, WheelStage
+from workbench.viewer.stages import QUANTITIES, WheelStage
 from workbench.viewer.wheel_body import Cut
 from workbench.viewer.wheel_surface import WheelSurface
 from workbench.viewer.yielding import above_yield, legend, marked_share

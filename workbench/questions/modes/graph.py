@@ -12,6 +12,7 @@ from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import fe_inputs, without_end
 from workbench.questions.wheel.graph import MESH_WHOLE, mesh_task, wheel_meshes
 from workbench.study.model import Study
+from workbench.study.orientation import orientation_name
 from workbench.study.own_mesh import own_mesh
 
 __all__ = ["COMPARED", "LOAD", "MODELS", "STATES", "AskedModes", "modes_name", "modes_tasks"]
@@ -61,6 +62,13 @@ class AskedModes:
             raise InputError("count", self.count, f"must lie between 1 and {_MOST}", "10 is usual")
 
     @property
+    def name(self) -> str:
+        """For files: ``held``, ``free``, ``standing_phi000_200N``, ``standing_phi000_200N_grip``."""
+        if self.state != "standing":
+            return self.state
+        return f"{orientation_name(self.state, self.orientation_deg)}_{self.load:g}N" + "_grip" * self.grip
+
+    @property
     def words(self) -> str:
         """Title of the state."""
         if self.state != "standing":
@@ -70,7 +78,7 @@ class AskedModes:
 
 
 def modes_name(model: str, asked: AskedModes) -> str:
-    """Name of a task and of its files, such as ``modes_fe_held``."""
+    """Name of a task, such as ``modes_fe_held``."""
     return f"modes_{model}_{asked.state}"
 
 
