@@ -5,8 +5,8 @@ A force f(theta) [N/rad] on the rim, towards the hub, moves it by
     w(theta) = int G(theta - theta') f(theta') d theta',    G(theta) = sum_m g_m cos(m theta)    [m/N],
 
 G the mean over what of the wheel faces the ground. The wheel pressed on rigid ground under a load N tells it: its patch
-is short, so that w = N G there. G is then a secant at that load, as springs soften. What G does not know: that the
-patch has a length, and that a spring here or there changes the shape a little.
+is short, so that w = N G there. G is then a secant at that load; at another one it is as much stiffer or softer as the
+wheel's own curve. What G does not know: that the patch has a length, and that a spring here or there changes the shape.
 
 Verified by tests/unit/test_soil_carcass.py.
 """
@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -38,12 +38,22 @@ class Carcass:
     ----------
     compliance : g_0, g_1, ... [m/N]; empty for a rim that is rigid and held rigidly
     load : at which it is a secant [N]
+    curve : loads [N], ascending, with the deflections [m] of the hub on rigid ground; empty for a line
     source : what it is from
     """
 
     compliance: tuple[float, ...] = ()
     load: float = 0.0
+    curve: tuple[tuple[float, float], ...] = ()
     source: str = "rigid"
+
+    def at(self, load: float) -> Carcass:
+        """The secant at another load [N]; beyond the curve that at its end."""
+        if not self.curve:
+            return self
+        loads, ways = np.array(self.curve).T
+        here, there = (float(np.interp(x, loads, ways / loads)) for x in (load, self.load))
+        return replace(self, compliance=tuple(here / there * g for g in self.compliance), load=load)
 
     @property
     def deflection_per_load(self) -> float:

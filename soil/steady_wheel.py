@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -209,6 +209,7 @@ def _state(wheel: WheelOnSoil, soil: Soil, law: _Law, load: float, driven: tuple
     """Shape and pressure that belong together under a load, and what follows; ``driven`` slip and gravity."""
     if not (math.isfinite(load) and load > 0.0):
         raise InputError("load of the wheel", f"{load:g} N", "must be above zero", "give e.g. 200 N", key="load")
+    wheel = replace(wheel, carcass=wheel.carcass.at(load))
     size = max(len(wheel.carcass.compliance), 1)
     height, shapes, residuals = 0.0, [np.zeros(2 * size)], list[FloatArray]()
     for _ in range(_ROUNDS):

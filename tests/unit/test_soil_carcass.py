@@ -31,6 +31,16 @@ def test_a_point_force_moves_the_rim_by_its_compliance() -> None:
     assert slope == pytest.approx([0.0, 0.0], abs=1e-15)
 
 
+def test_at_another_load_it_is_as_soft_as_the_wheels_curve() -> None:
+    carcass = Carcass(
+        compliance=(5e-6, 75e-6), load=200.0, curve=((100.0, 7e-3), (200.0, 16e-3), (300.0, 30e-3)), source="made up"
+    )
+    assert carcass.at(100.0).deflection_per_load == pytest.approx(80e-6 * 70.0 / 80.0)
+    assert carcass.at(250.0).deflection_per_load == pytest.approx(80e-6 * 90.0 / 80.0)
+    assert carcass.at(1e3).deflection_per_load == carcass.at(300.0).deflection_per_load
+    assert Carcass(compliance=(1e-6,), load=1.0, source="line").at(9.0).compliance == (1e-6,)
+
+
 def test_the_slope_is_the_derivative() -> None:
     carcass = Carcass(compliance=(5e-6, 75e-6, 41e-6, 8e-6), load=200.0, source="made up")
     shape = shape_under(carcass, np.array([0.1, -0.4]), np.array([120.0, 80.0]))

@@ -21,7 +21,7 @@ from workbench.execution.result_files import read_result
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
 from workbench.questions.kept import keep, kept, require_numbers, require_place
-from workbench.questions.soil.bench import Bench, bench_csv, run_bench, wheel_on_soil
+from workbench.questions.soil.bench import Bench, bench_csv, carcass_of, run_bench, wheel_on_soil
 from workbench.questions.soil.graph import CARCASS_MODELS, carcass_name, carcass_tasks
 from workbench.questions.soil.picture import bench_png
 from workbench.report.folders import check_folder, check_targets
@@ -138,14 +138,14 @@ def _carcass(study: Study, path: Path, tire: str, where: tuple[Path, Computing])
 
 def _read(found: object) -> Carcass:
     assert isinstance(found, dict)
-    require_numbers([*found["compliance"], found["load_N"]])
-    return Carcass(compliance=tuple(found["compliance"]), load=found["load_N"], source=str(found["source"]))
+    require_numbers([*found["compliance"], found["load_N"], *(x for pair in found["curve"] for x in pair)])
+    return carcass_of(found)
 
 
 def _print(bench: Bench, tire: str) -> None:
     words = {"rigid": "rigid wheel", "brush": "brush tire, whose rim is rigid in itself"}
     console.print(f"{words.get(tire, bench.carcass)}; on {bench.soil}, {bench.load:g} N", soft_wrap=True)
-    columns = ("slip", "pull N", "torque N m", "sinkage mm", "efficiency", "hub mm", "rigid N", "rigid mm")
+    columns = ("slip", "pull N", "torque Nm", "sunk mm", "effic.", "hub mm", "rigid N", "sunk mm ")
     shown = columns if bench.carcass != "rigid" else columns[:5]
     table = empty_table("", shown, texts=[])
     for row in bench.rows:

@@ -5,7 +5,7 @@ Verified by tests/unit/test_workbench_soil.py and tests/end_to_end/test_drawbar.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -17,7 +17,7 @@ from soil.carcass import RIGID, Carcass
 from soil.soil import Soil, with_ends_of_ranges
 from soil.steady_wheel import WheelOnSoil, WheelState, steady_wheel, towed_wheel
 
-__all__ = ["COLUMNS", "Bench", "BenchRow", "bench_csv", "run_bench", "wheel_on_soil"]
+__all__ = ["COLUMNS", "Bench", "BenchRow", "bench_csv", "carcass_of", "run_bench", "wheel_on_soil"]
 
 COLUMNS = (
     *("slip", "drawbar_pull_N", "torque_N_m", "sinkage_m"),
@@ -80,6 +80,13 @@ class Bench:
             for row in values["rows"]
         )
         return cls(**(values | {"rows": rows}))
+
+
+def carcass_of(found: Mapping[str, Any]) -> Carcass:
+    """How the rim gives way, from the result of a task that found it."""
+    curve = tuple((float(load), float(way)) for load, way in found["curve"])
+    compliance = tuple(float(one) for one in found["compliance"])
+    return Carcass(compliance=compliance, load=float(found["load_N"]), curve=curve, source=str(found["source"]))
 
 
 def wheel_on_soil(design: WheelDesign, carcass: Carcass = RIGID) -> WheelOnSoil:

@@ -9,11 +9,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from soil.carcass import Carcass
 from soil.soil import Soil
 from soil.steady_wheel import standing_wheel
 from workbench.execution.result_files import read_result, write_result
-from workbench.questions.soil.bench import run_bench, wheel_on_soil
+from workbench.questions.soil.bench import carcass_of, run_bench, wheel_on_soil
 from workbench.questions.soil.measured import measured, refinements
 from workbench.study.wheel_design import design_from
 
@@ -26,7 +25,7 @@ __all__ = ["drive", "hold"]
 def drive(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
     """``result.json``: a bench a soil, and the wheel at rest on the first; returns slips driven."""
     found = read_result(needs[inputs["carcass"]])
-    carcass = Carcass(compliance=tuple(found["compliance"]), load=found["load_N"], source=found["source"])
+    carcass = carcass_of(found)
     wheel, soils = wheel_on_soil(design_from(inputs["wheel"]), carcass), [Soil(**one) for one in inputs["soils"]]
     benches = []
     for number, soil in enumerate(soils):

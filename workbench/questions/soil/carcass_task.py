@@ -6,7 +6,7 @@ Verified by tests/unit/test_workbench_soil.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ancf_reduced.wheel.mesh import build_ancf_wheel
 from contracts.archive import read_archive
-from contracts.curves import read_curve
+from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from geometry.wheel import WheelDesign
 from soil.carcass import carcass_from_shapes
@@ -33,6 +33,8 @@ __all__ = ["find"]
 FloatArray = NDArray[np.float64]
 _LARGEST = 1_000_000_000
 """Bytes of the states along one curve."""
+_LOADS = 16
+"""Points of the mean curve."""
 _ON = 2e-5
 """Distance from the rim's radius within which a node lies on it [m]."""
 
@@ -54,6 +56,7 @@ def find(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
         {
             "model": inputs["model"],
             "compliance": list(carcass.compliance),
+            "curve": _mean_curve([read_curve(needs[name] / CURVE) for _, name in inputs["curves"]]),
             "load_N": load,
             "deflection_m": load * carcass.deflection_per_load,
             "source": source,
@@ -61,6 +64,12 @@ def find(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     )
     progress(1.0)
     return len(found)
+
+
+def _mean_curve(curves: Sequence[StiffnessCurve]) -> list[tuple[float, float]]:
+    """Loads [N] up to where every curve goes, and the mean deflections there [m]."""
+    loads = np.linspace(0.0, min(float(curve.load[-1]) for curve in curves), _LOADS + 1)[1:]
+    return [(float(load), float(np.mean([curve.deflection_at(load) for curve in curves]))) for load in loads]
 
 
 def _of_the_solid(

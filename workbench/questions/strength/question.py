@@ -135,6 +135,6 @@ STRENGTH: Question = Question(
     read=_read,
     checks=_checks,
     figures=strength_figures,
-    budget=740,
+    budget=700,
     applies=judges_strength,
 )
