@@ -45,6 +45,8 @@ class PieceKind(IntEnum):
     """c, s, s0, z0, amplitude, wave number: solid below z0 + amplitude sin(wave number (s - s0))."""
     HEIGHT_FIELD = 4
     """x0, y0, dx, dy: solid below the interpolated heights."""
+    CLEAT = 5
+    """c, s, s0, z0, radius, half width: solid within it of s0 and below z0, both edges rounded."""
 
 
 class TerrainPieces(NamedTuple):

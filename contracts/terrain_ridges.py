@@ -1,4 +1,4 @@
-"""Terrain that varies along one horizontal axis: step, crevasse, half-round, sinusoid.
+"""Terrain that varies along one horizontal axis: step, cleat, crevasse, half-round, sinusoid.
 
 Each has a yaw, the angle from +x to its axis s about +z. World frame: z up.
 """
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from contracts.terrain import PieceKind, TerrainPieces, check_finite, terrain_pieces
 
-__all__ = ["Crevasse", "HalfRound", "Sinusoid", "Step"]
+__all__ = ["Cleat", "Crevasse", "HalfRound", "Sinusoid", "Step"]
 
 FloatArray = NDArray[np.float64]
 
@@ -99,6 +99,43 @@ class Step(_Ridge):
             self._row(PieceKind.CORNER, self.base + self.rise, self.edge_radius),
             self._level(),
         )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cleat(_Ridge):
+    """A bar across level ground, upright at its sides, with rounded edges.
+
+    Attributes
+    ----------
+    rise : of its top over the ground [m]; points deeper than this below it are pressed by the ground too
+    width : from side to side along s [m]
+    edge_radius : of both edges [m], at most the rise and half the width; penetration must stay below it, as for `Step`
+    position, yaw, base : of its middle, of the ground
+
+    Verified by tests/unit/test_terrain.py.
+    """
+
+    rise: float
+    width: float
+    edge_radius: float
+
+    def __post_init__(self) -> None:
+        self._check("cleat", rise=self.rise, width=self.width, edge_radius=self.edge_radius)
+        if self.edge_radius > min(self.rise, 0.5 * self.width):
+            rule = "must not exceed the rise and half the width"
+            raise InputError("cleat edge radius", f"{self.edge_radius:g} m", rule, "lower it")
+
+    def profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Height [m] and slope [-] at s [m]: ground, a quarter circle, the top, a quarter circle, ground."""
+        r, inside = self.edge_radius, 0.5 * self.width - np.abs(s)
+        height, slope = _arc(np.clip(inside - r, -r, 0.0), r)
+        solid = inside > 0.0
+        return np.where(solid, self.rise - r + height, 0.0), np.where(solid, np.where(s > 0.0, -slope, slope), 0.0)
+
+    def pieces(self) -> TerrainPieces:
+        """The bar and the ground."""
+        top = self.base + self.rise
+        return terrain_pieces(self._row(PieceKind.CLEAT, top, self.edge_radius, 0.5 * self.width), self._level())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

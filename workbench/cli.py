@@ -19,6 +19,7 @@ from contracts.hub_travel import Way
 from contracts.text import for_terminal
 from workbench.commands.calibrate_app import calibrate_app
 from workbench.commands.ending import complain, flushed, full_disk
+from workbench.commands.obstacle import OBSTACLES, obstacle_choice
 from workbench.commands.options import (
     DEFAULT_STORE,
     Ranks,
@@ -170,6 +171,16 @@ def stiffness(
     matrix: Annotated[
         bool, typer.Option("--matrix", help="Stiffness of the standing wheel, six by six (fe, ancf_wheel).")
     ] = False,
+    obstacle: Annotated[
+        str | None,
+        typer.Option(
+            help=f"Press on it instead of the study's ground (fe, section, ancf_wheel): {', '.join(OBSTACLES)}."
+        ),
+    ] = None,
+    height: Annotated[str | None, typer.Option(help="Of the obstacle, e.g. '20 mm'.")] = None,
+    width: Annotated[str | None, typer.Option(help="Of a cleat, along the wheel's way.")] = None,
+    edge_radius: Annotated[str | None, typer.Option(help="Of a step or cleat; 5 mm if left out.")] = None,
+    offset: Annotated[str | None, typer.Option(help="Of the obstacle ahead of the hub; none if left out.")] = None,
     out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
     store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
@@ -180,6 +191,9 @@ def stiffness(
     from workbench.commands.stiffness import run_stiffness
 
     who = computing(workers, ranks, scheduler)
+    ground = obstacle_choice(obstacle, height=height, width=width, edge_radius=edge_radius, offset=offset)
+    if ground is not None and (matrix or travel is not None):
+        raise InputError("--obstacle", ground.shape, "is pressed on, not moved over", "leave out --travel and --matrix")
     if matrix and travel is not None:
         raise InputError("--matrix", "", "makes travels of its own", "leave out --travel")
     if matrix:
@@ -192,7 +206,7 @@ def stiffness(
         raise typer.Exit(run_travel(study, model, (travel, load), tuple(orientation or ()), out, store, who))
     if load is not None:
         raise InputError("load", f"{load:g} N", "is where the hub's travel begins", "give --travel or --matrix")
-    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who))
+    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who, ground))
 
 
 @app.command()

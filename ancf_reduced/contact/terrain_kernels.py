@@ -1,9 +1,9 @@
 """Compiled terrain: gap, normal and curvature of one piece at one point, and the coarse search.
 
 The gap g is the distance from the surface, open > 0; its gradient is the unit normal n out of the ground, its second
-derivative H the curvature of the parallel surface, H n = 0. Planes, corners and half-rounds have them in closed form.
-Below a graph z = h(x, y) the nearest point is found by Newton; with its tangents a_1, a_2, metric A = a . a, second
-form b and M = A - g b,
+derivative H the curvature of the parallel surface, H n = 0. Planes, corners, cleats and half-rounds have them in closed
+form. Below a graph z = h(x, y) the nearest point is found by Newton; with its tangents a_1, a_2, metric A = a . a,
+second form b and M = A - g b,
     n_,r = H = -(A^-1 b M^-1)^{cd} a_c (x) a_d.
 This holds as long as the point lies less deep than a crest's radius of curvature, M positive definite. Over a graph the
 gap is that of the tangent plane below the point, without curvature: an open gap presses nothing.
@@ -29,7 +29,7 @@ Gap = tuple[float, Vector, Symmetric]
 Bound = tuple[float, float, float, float]
 Graph = tuple[float, float, float, float, float, float]
 PLANE, CORNER, HALF_ROUND = int(PieceKind.PLANE), int(PieceKind.CORNER), int(PieceKind.HALF_ROUND)
-SINUSOID, HEIGHT_FIELD = int(PieceKind.SINUSOID), int(PieceKind.HEIGHT_FIELD)
+SINUSOID, HEIGHT_FIELD, CLEAT = int(PieceKind.SINUSOID), int(PieceKind.HEIGHT_FIELD), int(PieceKind.CLEAT)
 ITERATIONS = 20
 FLAT = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -52,7 +52,9 @@ def piece_gap(piece: FloatArray, knots: FloatArray, x: float, y: float, z: float
         return _graph_gap(piece, knots, x, y, z)
     c, s = piece[1], piece[2]
     u, w, r = c * x + s * y - piece[3], z - piece[4], piece[5]
-    if kind == CORNER:
+    if kind == CLEAT:  # the corner of its nearer side
+        c, s, u = (-c, -s, piece[6] - u) if u > 0.0 else (c, s, piece[6] + u)
+    if kind in (CORNER, CLEAT):
         u, w = u - r, w + r  # from the centre of the edge's arc
         if u >= 0.0 or w <= 0.0:  # above the top, before the face, or inside: the nearer of the two
             if w >= -u:
@@ -200,7 +202,7 @@ def piece_bound(piece: FloatArray, terrain: TerrainPieces, low: Vector, high: Ve
     last = -least(-c, low[0], high[0]) - least(-s, low[1], high[1]) - piece[3]
     if kind == SINUSOID:
         d = piece[4] + _highest_wave(piece[5], piece[6] * first, piece[6] * last)
-    elif kind == CORNER and last >= 0.0:
+    elif (kind == CORNER and last >= 0.0) or (kind == CLEAT and first <= piece[6] and last >= -piece[6]):
         d = piece[4]
     elif kind == HALF_ROUND and first <= piece[5] and last >= -piece[5]:
         d = piece[4] + piece[5]

@@ -22,7 +22,7 @@ class Surface(NamedTuple):
 
     normal, along : (dim,) unit axes z and s of the profile [-]
     level, start : z and s of the profile's origin, along those axes [m]
-    pieces : (c, 4), see `obstacles.piece_gap`
+    pieces : (c, 5), see `obstacles.piece_gap`
     stiffness : (m,) penalty stiffness of each facet [N/m^3]
     ramp : see `contact.law.ramped_pressure` [m]
     friction : mu [-]

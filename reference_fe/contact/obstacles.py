@@ -1,4 +1,4 @@
-"""Rigid obstacles as analytic surfaces: plane, step edge, half-round rock.
+"""Rigid obstacles as analytic surfaces: plane, step edge, cleat, half-round rock.
 
 Each is a cylinder over a profile in a plane: s points along the ground, z up; nothing varies across. A profile is made
 of convex pieces of solid. A point has one normal gap to each piece, and one contact condition for each: the union of
@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from contracts.errors import InputError
 from reference_fe.compiled import compiled
 
-__all__ = ["HalfRoundRock", "Obstacle", "Plane", "StepEdge", "piece_gap", "smallest_gap", "touch_level"]
+__all__ = ["Cleat", "HalfRoundRock", "Obstacle", "Plane", "StepEdge", "piece_gap", "smallest_gap", "touch_level"]
 
-_HALF_PLANE, _CORNER, _HALF_ROUND = 0.0, 1.0, 2.0
+_HALF_PLANE, _CORNER, _HALF_ROUND, _CLEAT = 0.0, 1.0, 2.0, 3.0
 
 
 class Obstacle(Protocol):
@@ -32,7 +32,7 @@ class Obstacle(Protocol):
         """Angle from the forward direction to the profile's s axis, about the ground's normal [deg]."""
 
     def pieces(self) -> NDArray[np.float64]:
-        """Convex pieces, (n, 4): kind, and s, z, radius [m] as `piece_gap` reads them."""
+        """Convex pieces, (n, 5): kind, and s, z, radius, half width [m] as `piece_gap` reads them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,8 +42,8 @@ class Plane:
     yaw_deg: float = 0.0
 
     def pieces(self) -> NDArray[np.float64]:
-        """One half plane, (1, 4), see `Obstacle`."""
-        return np.array([[_HALF_PLANE, 0.0, 0.0, 0.0]])
+        """One half plane, (1, 5), see `Obstacle`."""
+        return np.array([_level(0.0)])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,9 +70,42 @@ class StepEdge:
             raise InputError("step edge radius", f"{self.edge_radius:g} m", "must not exceed the height", "lower it")
 
     def pieces(self) -> NDArray[np.float64]:
-        """Rounded corner and lower ground, (2, 4), see `Obstacle`."""
-        corner = [_CORNER, self.position, 0.0, self.edge_radius]
-        return np.array([corner, [_HALF_PLANE, 0.0, -self.height, 0.0]])
+        """Rounded corner and lower ground, (2, 5), see `Obstacle`."""
+        corner = [_CORNER, self.position, 0.0, self.edge_radius, 0.0]
+        return np.array([corner, _level(-self.height)])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cleat:
+    """A bar across the ground with rounded edges; its top is at z = 0, the ground at z = -height.
+
+    Attributes
+    ----------
+    height : of the bar's top over the ground [m]
+    width : from side to side along s [m]
+    edge_radius : radius of both edges [m]; penetration must stay below it
+    position : of the bar's middle along s [m]
+    yaw_deg : see `Obstacle`; at 0 the bar is lateral
+    """
+
+    height: float
+    width: float
+    edge_radius: float
+    position: float = 0.0
+    yaw_deg: float = 0.0
+
+    def __post_init__(self) -> None:
+        _positive("cleat height", self.height)
+        _positive("cleat width", self.width)
+        _positive("cleat edge radius", self.edge_radius)
+        if self.edge_radius > min(self.height, 0.5 * self.width):
+            rule = "must not exceed the height and half the width"
+            raise InputError("cleat edge radius", f"{self.edge_radius:g} m", rule, "lower it")
+
+    def pieces(self) -> NDArray[np.float64]:
+        """Bar and ground, (2, 5), see `Obstacle`."""
+        bar = [_CLEAT, self.position, 0.0, self.edge_radius, 0.5 * self.width]
+        return np.array([bar, _level(-self.height)])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,9 +127,9 @@ class HalfRoundRock:
         _positive("rock radius", self.radius)
 
     def pieces(self) -> NDArray[np.float64]:
-        """Half-round and ground, (2, 4), see `Obstacle`."""
-        crown = [_HALF_ROUND, self.position, -self.radius, self.radius]
-        return np.array([crown, [_HALF_PLANE, 0.0, -self.radius, 0.0]])
+        """Half-round and ground, (2, 5), see `Obstacle`."""
+        crown = [_HALF_ROUND, self.position, -self.radius, self.radius, 0.0]
+        return np.array([crown, _level(-self.radius)])
 
 
 @compiled()
@@ -105,8 +138,8 @@ def piece_gap(piece: NDArray[np.float64], s: float, z: float) -> tuple[float, fl
 
     Parameters
     ----------
-    piece : (4,) kind, s0, z0, r: half plane z < z0; corner s > s0, z < z0 with edge radius r; half-round
-        about (s0, z0), with upright sides below
+    piece : (5,) kind, s0, z0, r, w: half plane z < z0; corner s > s0, z < z0 with edge radius r; half-round
+        about (s0, z0), with upright sides below; cleat |s - s0| < w, z < z0 with edge radius r
     s, z : the point [m]
 
     Returns
@@ -121,14 +154,17 @@ def piece_gap(piece: NDArray[np.float64], s: float, z: float) -> tuple[float, fl
     x, y = s - piece[1], z - piece[2]
     if kind == _HALF_PLANE:
         return y, 0.0, 1.0, 0.0
-    if kind == _CORNER:
+    ahead = 1.0
+    if kind == _CLEAT:  # the corner of its nearer side
+        ahead, x = math.copysign(1.0, -x), piece[4] - abs(x)
+    if kind in (_CORNER, _CLEAT):
         x, y = x - r, y + r
         if x >= 0.0 or y <= 0.0:  # over the top, before the face, or inside
-            return (y - r, 0.0, 1.0, 0.0) if y >= -x else (-x - r, -1.0, 0.0, 0.0)
+            return (y - r, 0.0, 1.0, 0.0) if y >= -x else (-x - r, -ahead, 0.0, 0.0)
     elif y < 0.0:  # below the axis of a half-round: its upright sides
         return abs(x) - r, math.copysign(1.0, x), 0.0, 0.0
     distance = max(math.hypot(x, y), 1e-300)
-    return distance - r, x / distance, y / distance, 1.0 / distance
+    return distance - r, ahead * x / distance, y / distance, 1.0 / distance
 
 
 @compiled()
@@ -154,6 +190,11 @@ def touch_level(obstacle: Obstacle, s: NDArray[np.float64], z: NDArray[np.float6
         else:
             high = middle
     return low
+
+
+def _level(z: float) -> list[float]:
+    """Row of a half plane below z [m]."""
+    return [_HALF_PLANE, 0.0, z, 0.0, 0.0]
 
 
 def _positive(what: str, value: float) -> None:

@@ -32,7 +32,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contracts.terrain import TerrainPieces
+from contracts.errors import InputError
+from contracts.terrain import PieceKind, TerrainPieces
 from rover_dynamics.tires.brush_compiled import Vector, along, compiled, cross, dot, over_length, ramp, vector
 from rover_dynamics.tires.brush_contact import CONTACT_SIZE, fading, find_contacts
 from rover_dynamics.tires.brush_graph import is_beside
@@ -115,7 +116,9 @@ def brush_result(wheels: int, terrain: TerrainPieces) -> BrushResult:
 
 
 def brush_scratch(terrain: TerrainPieces) -> BrushScratch:
-    """Working memory for a terrain."""
+    """Working memory for a terrain; raises InputError for a cleat, whose distance the brush does not know."""
+    if (terrain.rows[:, 0] == PieceKind.CLEAT).any():
+        raise InputError("terrain of a brush tire", "a cleat", "is not known to it", "take a step or a half-round")
     return BrushScratch(np.zeros((len(terrain.rows), CONTACT_SIZE)), np.zeros((SAMPLES + 1, 4)))
 
 

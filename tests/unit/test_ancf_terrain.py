@@ -8,7 +8,7 @@ import pytest
 from ancf_reduced.contact.terrain_kernels import is_clear, is_outside, piece_bound, piece_gap
 from contracts.height_field import HeightField
 from contracts.terrain import Terrain, TerrainPieces, inclined_plane, normals
-from contracts.terrain_ridges import HalfRound, Sinusoid, Step
+from contracts.terrain_ridges import Cleat, HalfRound, Sinusoid, Step
 
 LINE = np.linspace(-0.5, 0.5, 21)
 FIELD = HeightField(
@@ -21,6 +21,7 @@ SHAPES: dict[str, Terrain] = {
     "plane": inclined_plane(0.4, 0.7, 0.1),
     "step": STEP,
     "half-round": HalfRound(radius=0.05, yaw=1.1, position=0.01, base=0.01),
+    "cleat": Cleat(rise=0.05, width=0.12, edge_radius=0.02, yaw=-0.8, position=0.01, base=0.01),
     "sinusoid": Sinusoid(amplitude=0.03, wavelength=0.4, yaw=0.3, base=0.1),
     "field": FIELD,
 }

@@ -15,7 +15,7 @@ from ancf_reduced.wheel.static import WheelOnGround, press
 from contracts.errors import InputError
 from contracts.height_field import HeightField
 from contracts.terrain import Plane, Terrain
-from contracts.terrain_ridges import HalfRound, Step
+from contracts.terrain_ridges import Cleat, HalfRound, Step
 from geometry.wheel import exomars_hoops
 
 Array = NDArray[np.float64]
@@ -81,13 +81,14 @@ def test_forces_and_tangents_are_derivatives_of_the_grounds_energy(wheel: AncfWh
     np.testing.assert_allclose(plates.assembled(blocks) @ direction.ravel(), change, atol=1e-5 * np.abs(change).max())
 
 
-def test_the_load_is_the_energys_slope_on_a_rock_and_on_a_step(wheel: AncfWheel) -> None:
+def test_the_load_is_the_energys_slope_on_a_rock_a_step_and_a_cleat(wheel: AncfWheel) -> None:
     """Forces of both pieces along the ground's normal: dW / dd within 1 %; less than on a plane."""
     loads = {}
     for name, terrain in {
         "plane": Plane(),
         "rock": HalfRound(radius=15e-3, base=-15e-3),
         "step": Step(rise=2e-3, edge_radius=1e-3, base=-2e-3),
+        "cleat": Cleat(rise=10e-3, width=4e-3, edge_radius=1e-3, base=-10e-3),
     }.items():
         problem = WheelOnGround(wheel, 0.0, terrain=terrain)
         one, two, three = press(problem, [5.9e-3, 6e-3, 6.1e-3])
@@ -95,6 +96,7 @@ def test_the_load_is_the_energys_slope_on_a_rock_and_on_a_step(wheel: AncfWheel)
         loads[name] = two.load
     assert loads["rock"] < loads["plane"]
     assert loads["step"] < loads["plane"]
+    assert loads["cleat"] < loads["plane"]
 
 
 def test_half_a_wheel_stands_on_symmetric_ground_alone() -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from contracts.errors import InputError
 from reference_fe.contact.obstacles import (
+    Cleat,
     HalfRoundRock,
     Obstacle,
     Plane,
@@ -18,6 +19,7 @@ from reference_fe.contact.obstacles import (
 
 STEP = StepEdge(height=0.03, edge_radius=0.004, position=0.01)
 ROCK = HalfRoundRock(radius=0.02, position=-0.005)
+CLEAT = Cleat(height=0.02, width=0.03, edge_radius=0.005, position=0.004)
 POINTS = [
     (0.05, 0.003),
     (0.011, 0.002),
@@ -30,7 +32,7 @@ POINTS = [
 ]
 
 
-@pytest.mark.parametrize("obstacle", [Plane(), STEP, ROCK], ids=["plane", "step", "rock"])
+@pytest.mark.parametrize("obstacle", [Plane(), STEP, ROCK, CLEAT], ids=["plane", "step", "rock", "cleat"])
 @pytest.mark.parametrize("point", POINTS)
 def test_normal_and_curvature_are_the_derivatives_of_the_gap(obstacle: Obstacle, point: tuple[float, float]) -> None:
     h = 1e-6
@@ -55,6 +57,9 @@ def test_distances_that_are_known() -> None:
     )
     s, z = np.array([-0.005, 0.025, 0.1]), np.array([0.001, -0.02 + 0.001, 0.0])
     np.testing.assert_allclose(smallest_gap(ROCK.pieces(), s, z), [0.001, 0.001, 0.02], atol=1e-4)
+    s, z = 0.004 + np.array([0.0, 0.018, -0.018, 0.015, -0.015]), np.array([0.002, -0.01, -0.01, 0.0, 0.0])
+    corner = 0.005 * (np.sqrt(2.0) - 1.0)
+    np.testing.assert_allclose(smallest_gap(CLEAT.pieces(), s, z), [0.002, 0.003, 0.003, corner, corner], atol=1e-15)
 
 
 def test_the_sides_below_the_axis_are_upright() -> None:
@@ -87,5 +92,7 @@ def test_touch_level_of_a_disc_of_points(obstacle: Obstacle, expected: float) ->
 def test_impossible_obstacles_are_refused() -> None:
     with pytest.raises(InputError, match="edge radius"):
         StepEdge(height=0.01, edge_radius=0.02)
+    with pytest.raises(InputError, match="height and half the width"):
+        Cleat(height=0.02, width=0.01, edge_radius=0.006)
     with pytest.raises(InputError, match="rock radius"):
         HalfRoundRock(radius=0.0)

@@ -8,7 +8,7 @@ import pytest
 from contracts.errors import InputError
 from contracts.height_field import HeightField
 from contracts.terrain import PieceKind, Plane, Terrain, TerrainUnion, inclined_plane, normals
-from contracts.terrain_ridges import Crevasse, HalfRound, Sinusoid, Step
+from contracts.terrain_ridges import Cleat, Crevasse, HalfRound, Sinusoid, Step
 
 STEP = Step(rise=0.1, edge_radius=0.02, position=0.3, yaw=np.pi / 2, base=0.05)
 SHAPES: list[Terrain] = [
@@ -16,6 +16,7 @@ SHAPES: list[Terrain] = [
     STEP,
     Crevasse(width=0.15, depth=0.4, edge_radius=0.02, position=0.1, yaw=0.3, base=0.05),
     HalfRound(radius=0.05, position=0.02, yaw=0.4),
+    Cleat(rise=0.05, width=0.3, edge_radius=0.02, position=0.02, yaw=0.4, base=0.01),
     Sinusoid(amplitude=0.03, wavelength=0.4, position=0.1, yaw=-0.5, base=0.2),
     TerrainUnion(parts=(HalfRound(radius=0.05), HalfRound(radius=0.03, position=0.2), inclined_plane(0.1))),
 ]
@@ -41,6 +42,16 @@ def test_step_goes_from_base_over_a_quarter_circle_to_its_top() -> None:
 def test_half_round_is_a_circle_on_its_base() -> None:
     rock = HalfRound(radius=0.05, position=0.2, base=-0.01)
     assert [at(rock, x, 3.0) for x in (0.1, 0.2, 0.23)] == pytest.approx([-0.01, 0.04, 0.03], abs=1e-14)
+
+
+def test_cleat_has_two_sides_and_a_top() -> None:
+    bar = Cleat(rise=0.02, width=0.1, edge_radius=0.01, position=0.2, base=-0.02)
+    quarter = -0.01 * (1.0 - np.sqrt(0.75))
+    assert [at(bar, x, 3.0) for x in (0.149, 0.155, 0.2, 0.245, 0.251)] == pytest.approx(
+        [-0.02, quarter, 0.0, quarter, -0.02], abs=1e-14
+    )
+    with pytest.raises(InputError, match="half the width"):
+        Cleat(rise=0.02, width=0.01, edge_radius=0.006)
 
 
 def test_union_is_the_highest_and_shares_the_ground() -> None:

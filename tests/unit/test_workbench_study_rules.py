@@ -101,7 +101,7 @@ def test_what_a_section_can_have_is_read(tmp_path: Path, more: str) -> None:
 STEP = '[fe.obstacle]\nshape = "step"\nedge_radius = "5 mm"\n'
 PLANE = '[fe.obstacle]\nshape = "plane"\n'
 FIT = '[ancf_fit]\n[[ancf_fit.tires]]\nspokes = 4\ncircumferential_plates = 4\nfree = ["phase"]\n'
-SHAPES = "must be one of plane, step, half_round_rock"
+SHAPES = "must be one of plane, step, cleat, half_round_rock"
 NAMED = {
     "missing in a list of tables": (BAND + 'low = "5 mm"\n', "reference.band.points[0].high: is missing"),
     "missing name of a tire": (FIT, "ancf_fit.tires[0].name: is missing"),
@@ -112,6 +112,14 @@ NAMED = {
     "yaw": (STEP + 'height = "5 mm"\nyaw = "10 deg"\n', "fe.obstacle.yaw = 10 deg: turns the ground"),
     "camber": ('camber = "-2 deg"\n', "fe.camber = -2 deg: turns the ground"),
     "height in kg": (STEP + 'height = "5 kg"\n', "fe.obstacle.height = '5 kg': must be a length"),
+    "edge higher than the step": (
+        STEP + 'height = "4 mm"\n',
+        "fe.obstacle.edge_radius = 5 mm: must not exceed the height",
+    ),
+    "edge of a narrow cleat": (
+        STEP.replace("step", "cleat") + 'height = "9 mm"\nwidth = "9 mm"\n',
+        "fe.obstacle.edge_radius = 5 mm: must not exceed the height and half the width",
+    ),
     "no height": (STEP, "fe.obstacle.height: is missing"),
     "height of a plane": (PLANE + 'height = "5 mm"\n', "fe.obstacle.height = '5 mm': is not a known key; remove it or"),
     "misspelt height": (STEP + 'heigth = "5 mm"\n', "fe.obstacle.heigth = '5 mm': is not a known key; use height"),

@@ -23,7 +23,7 @@ from geometry.build import build_mesh
 from geometry.planar import build_planar_mesh
 from geometry.wheel import exomars_hoops
 from reference_fe.contact.obstacle import ObstacleTerm
-from reference_fe.contact.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
+from reference_fe.contact.obstacles import Cleat, HalfRoundRock, Obstacle, Plane, StepEdge
 from reference_fe.solver.increments import solve_increments
 from reference_fe.solver.newton import NewtonSolver
 from reference_fe.wheel.case import WheelLoadCase
@@ -84,6 +84,18 @@ def test_a_step_of_no_height_is_the_plane() -> None:
     flat = press(StepEdge(height=height, edge_radius=height))
     assert flat.normal == pytest.approx(plane.normal, rel=2.0 * height / RISE)
     assert abs(press(StepEdge(height=2e-3, edge_radius=1e-3)).normal / plane.normal - 1.0) > 0.05
+
+
+def test_a_wide_cleat_is_the_plane_and_a_narrow_one_is_softer() -> None:
+    """Its sides beyond the wheel; one beside the middle pushes back alike on either side."""
+    plane = press(Plane())
+    wide = press(Cleat(height=0.02, width=0.4, edge_radius=0.005))
+    assert wide.normal == pytest.approx(plane.normal, rel=1e-9)
+    ahead, behind = (press(Cleat(height=0.02, width=0.02, edge_radius=0.01, position=s)) for s in (0.02, -0.02))
+    assert ahead.normal < 0.97 * plane.normal
+    assert ahead.normal == pytest.approx(behind.normal, rel=1e-6)
+    assert ahead.forward == pytest.approx(-behind.forward, rel=1e-6)
+    assert ahead.forward < -0.01 * ahead.normal
 
 
 def test_a_rock_ahead_pushes_back_and_one_behind_forward() -> None:

@@ -6,9 +6,10 @@ Verified by tests/unit/test_workbench_commands.py and tests/end_to_end/test_comm
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from contracts.errors import InputError, MemoryLimitError, StudyError
 from workbench.commands.ending import of_bearable_length
@@ -20,14 +21,17 @@ from workbench.execution.task import Task
 from workbench.execution.terminal import Terminal, console
 from workbench.study.magnitudes import of_the_file
 from workbench.study.model import Study
-from workbench.study.reading import read_study
+from workbench.study.reading import read_study_table, study_of
 
 __all__ = ["complain_of_early_ends", "computed", "console", "naming", "read_and_warn", "shortest", "tell_kept", "warn"]
 
 
-def read_and_warn(path: Path) -> Study:
-    """The study of a file, as `read_study`; what is unusual about it goes to stderr."""
-    study = read_study(path)
+def read_and_warn(path: Path, changed: Callable[[Mapping[str, Any]], Mapping[str, Any]] = dict) -> Study:
+    """The study of a file, as `read_study`; what is unusual about it goes to stderr.
+
+    changed : what becomes of the file's table before it is checked
+    """
+    study = study_of(path, changed(read_study_table(path)))
     warn(path, of_the_file(study))
     return study
 

@@ -20,6 +20,7 @@ from workbench.commands.computing import (
     tell_kept,
     warn,
 )
+from workbench.commands.obstacle import ObstacleChoice
 from workbench.execution.result_files import early_ends, losses_of_stability
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
@@ -40,14 +41,23 @@ type Peaks = Sequence[tuple[float, PeakStress]]
 
 
 def run_stiffness(
-    study_path: Path, model: str, orientations: tuple[float, ...], out: Path, store: Path, computing: Computing
+    study_path: Path,
+    model: str,
+    orientations: tuple[float, ...],
+    out: Path,
+    store: Path,
+    computing: Computing,
+    obstacle: ObstacleChoice | None = None,
 ) -> int:
-    """Curves of one model at the orientations asked for; fields and peak stresses at the study's snapshot loads."""
+    """Curves of one model at the orientations asked for; fields and peak stresses at the study's snapshot loads.
+
+    obstacle : in place of what the study's [fe.obstacle] says
+    """
     if model not in MODELS:
         raise InputError("model", model, "is not known", f"give one of {', '.join(MODELS)}")
     for orientation in orientations:
         check_orientation(orientation)
-    study = read_and_warn(study_path)
+    study = read_and_warn(study_path, lambda table: table if obstacle is None else obstacle.put_in(table, model))
     if model == "brush" and orientations:
         warn(study_path, ["the brush is the same at every orientation: --orientation changes nothing"])
     check_folder(out)

@@ -177,8 +177,8 @@ def _study_error(path: Path, error: ValidationError, table: Any) -> StudyError:
         rule, hint = f"must be one of {', '.join(words_of((*place, name)))}", "see docs/reference/study_keys.md"
     elif first["type"] == "key_in_section":
         rule, hint, value = (str(first["ctx"][name]) for name in ("rule", "hint", "value"))
-        key = f"{key}.{first['ctx']['key']}".lstrip(".")
-        found = _at(table, (*place, first["ctx"]["key"]))
+        place = _in_file((*first["loc"], first["ctx"]["key"]), table)
+        key, found = dotted(place), _at(table, place)
         if value and found and isinstance(found, list) and not any(isinstance(one, dict | list) for one in found):
             value = ", ".join(map(str, found))
         elif value and isinstance(found, str | int | float):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from contracts.terrain import Plane, Terrain
-from contracts.terrain_ridges import HalfRound, Step
+from contracts.terrain_ridges import Cleat, HalfRound, Step
 
 __all__ = ["terrain_of"]
 
@@ -17,6 +17,13 @@ def terrain_of(values: Mapping[str, Any]) -> Terrain:
         "plane": Plane,
         "step": lambda: Step(
             rise=values["height"], edge_radius=values["edge_radius"], base=-values["height"], **_place(values)
+        ),
+        "cleat": lambda: Cleat(
+            rise=values["height"],
+            width=values["width"],
+            edge_radius=values["edge_radius"],
+            base=-values["height"],
+            **_place(values),
         ),
         "half_round_rock": lambda: HalfRound(radius=values["radius"], base=-values["radius"], **_place(values)),
     }

@@ -6,11 +6,16 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from reference_fe.contact.obstacles import HalfRoundRock, Obstacle, Plane, StepEdge
+from reference_fe.contact.obstacles import Cleat, HalfRoundRock, Obstacle, Plane, StepEdge
 
 __all__ = ["obstacle_of"]
 
-_SHAPES: dict[str, Callable[..., Obstacle]] = {"plane": Plane, "step": StepEdge, "half_round_rock": HalfRoundRock}
+_SHAPES: dict[str, Callable[..., Obstacle]] = {
+    "plane": Plane,
+    "step": StepEdge,
+    "cleat": Cleat,
+    "half_round_rock": HalfRoundRock,
+}
 
 
 def obstacle_of(values: Mapping[str, Any]) -> Obstacle:
