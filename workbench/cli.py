@@ -158,8 +158,16 @@ def stiffness(
         list[float] | None, typer.Option(help="Degrees; may be given several times. Default: those of the study.")
     ] = None,
     travel: Annotated[
+        list[str] | None,
+        typer.Option(
+            help=f"Move the pressed hub (fe, ancf_wheel): {', '.join(Way)} or all; may be given several times."
+        ),
+    ] = None,
+    path: Annotated[
         str | None,
-        typer.Option(help=f"Move the pressed hub (fe, ancf_wheel): {', '.join(Way)} or all."),
+        typer.Option(
+            help="Move it along a path (fe, ancf_wheel): 'radial 10 mm, lateral 5 mm + leaning 1 deg, radial 8 mm'."
+        ),
     ] = None,
     load: Annotated[
         float | None,
@@ -192,18 +200,25 @@ def stiffness(
 
     who = computing(workers, ranks, scheduler)
     ground = obstacle_choice(obstacle, height=height, width=width, edge_radius=edge_radius, offset=offset)
-    if ground is not None and (matrix or travel is not None):
-        raise InputError("--obstacle", ground.shape, "is pressed on, not moved over", "leave out --travel and --matrix")
-    if matrix and travel is not None:
-        raise InputError("--matrix", "", "makes travels of its own", "leave out --travel")
+    moves = [name for name, given in (("--travel", travel), ("--path", path), ("--matrix", matrix)) if given]
+    if ground is not None and moves:
+        raise InputError("--obstacle", ground.shape, "is pressed on, not moved over", f"leave out {moves[0]}")
+    if len(moves) > 1:
+        raise InputError(moves[1], "", f"moves the hub its own way, beside {moves[0]}", f"leave out {moves[0]}")
+    if path is not None and load is not None:
+        raise InputError("load", f"{load:g} N", "does not go with --path, which says how deep", "leave it out")
+    if path is not None:
+        from workbench.commands.hub_path import run_path
+
+        raise typer.Exit(run_path(study, model, path, tuple(orientation or ()), out, store, who))
     if matrix:
         from workbench.commands.travel import run_matrix
 
         raise typer.Exit(run_matrix(study, model, load, tuple(orientation or ()), out, store, who))
-    if travel is not None:
+    if travel:
         from workbench.commands.travel import run_travel
 
-        raise typer.Exit(run_travel(study, model, (travel, load), tuple(orientation or ()), out, store, who))
+        raise typer.Exit(run_travel(study, model, (tuple(travel), load), tuple(orientation or ()), out, store, who))
     if load is not None:
         raise InputError("load", f"{load:g} N", "is where the hub's travel begins", "give --travel or --matrix")
     raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who, ground))

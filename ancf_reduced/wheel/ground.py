@@ -88,9 +88,10 @@ class GroundContact:
         if travel is not None and not isinstance(terrain, Plane):
             rule = "must be a plane if the wheel is moved over it"
             raise InputError("ground", type(terrain).__name__, rule, "leave out the travel")
-        if travel is not None and wheel.sides > 1.0 and not travel.way.mirrored:
+        askew = [] if travel is None else [way for way in travel.ways if not way.mirrored]
+        if askew and wheel.sides > 1.0:
             rule = "is not symmetric about the wheel's middle plane"
-            raise InputError("travel", travel.way.value, rule, "build the full width (half_width = false)")
+            raise InputError("travel", askew[0].value, rule, "build the full width (half_width = false)")
         self._rows, self._knots, _ = terrain.pieces()
         if wheel.sides > 1.0:
             _require_symmetric(self._rows, frame)

@@ -140,7 +140,7 @@ class WheelOnGround:
             raise InputError("inner contact stiffness", told, "must be >= 0", "1e11 N/m^3 is usual, 0 is without")
         if not (np.isfinite(friction) and friction >= 0.0):
             raise InputError("friction coefficient", f"{friction:g}", "must be >= 0", "0 is without friction")
-        if travel is not None and friction == 0.0:
+        if travel is not None and travel.slides and friction == 0.0:
             rule = "must be > 0 for a wheel that moves over the ground: without, nothing resists"
             raise InputError("friction coefficient", "0", rule, "0.6 is the thesis'")
         self.wheel, self.orientation, self.camber, self.friction = wheel, orientation, camber, friction

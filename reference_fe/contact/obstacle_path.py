@@ -78,7 +78,7 @@ class ObstaclePath:
         about = [angle * axis for angle, axis in turns if angle]
         if not about:
             return Place(rotation=None, moved=moved)
-        R = Rotation.from_rotvec(about[0]).as_matrix()
+        R = Rotation.from_rotvec(sum(about[1:], start=about[0])).as_matrix()
         return Place(rotation=R, moved=R @ moved)
 
     def axes(self, control: float) -> tuple[Array, Array]:

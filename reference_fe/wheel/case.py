@@ -62,7 +62,8 @@ class WheelLoadCase:
     soil : modulus [N/m^(n+2)] and exponent of soil in place of rigid ground, or None
     friction : Coulomb coefficient on the obstacle [-]
     unload : whether the ground then goes back, through the same deflections until it leaves the wheel
-    travel : what follows the last deflection, if anything does; it needs friction, and the whole width but fore and aft
+    travel : what follows the last deflection, if anything does; over the ground it needs friction, off the middle
+        plane the whole width
     inner_contact_stiffness : the same between the wheel's own parts [N/m^3]
     contact_ramp : gap at which the contact pressure begins [m], see `contact.law.ramped_pressure`
     gauss_points : Gauss points along the curved axis and the others of a cell, see `Discretisation`; a planar mesh
@@ -102,7 +103,7 @@ class WheelLoadCase:
             raise InputError("camber", f"{self.camber_deg} deg", "must lie between -90 and 90 deg", "e.g. 10")
         if not self.maximum_load > 0.0:
             raise InputError("maximum load", f"{self.maximum_load:g} N", "must be > 0", "300 N covers the reference")
-        if self.travel is not None and not self.friction > 0.0:
+        if self.travel is not None and self.travel.slides and not self.friction > 0.0:
             rule = "must be > 0 for a wheel that moves over the ground: without, nothing resists"
             raise InputError("friction coefficient", f"{self.friction:g}", rule, "0.6 is the thesis'")
         if self.travel is not None and self.travel.start != self.deflections[-1]:
@@ -141,7 +142,7 @@ class WheelResult:
     curve : load of the full wheel against the plane's rise from first touch; columns as in `solve_wheel`
     unloading : curve of the way back, if the load case has one and came to turn: from the permanent set, the deflection
         at which no load is left, or partial
-    travelled : rows behind it, if the load case has a travel: ``travel`` [m; rad of a turn] and the curve's columns
+    travelled : rows behind it, if the load case has a travel: ``control`` [m] of the travel and the curve's columns
     increments : every attempted increment, in order
     snapshots : fields at the chosen loads that were reached
     points : fields at the points of the curve behind first touch, without principal stresses, if the load case keeps

@@ -142,13 +142,16 @@ class _WheelRun:
         if found is not None and found < reached:
             largest = max(row["load_N"] for row in self.rows) / self.wheel.sides
             self.solver.inner_force = FORCE_SHARE * largest
+        travel = self.load_case.travel
+        if found is not None and travel is not None and travel.place(found).radial < travel.place(reached).radial:
+            self.solver.inner_force = FORCE_SHARE * max(row["load_N"] for row in self.rows) / self.wheel.sides
         return found
 
     def record(self, state: ConvergedState) -> float:
         """Add one converged state to the curve, with the snapshots passed on the way; returns its load [N]."""
         row, travel = self._measured(state), self.load_case.travel
         if travel is not None and state.control > travel.start:
-            self.travelled.append({"travel": travel.at(state.control)} | row | {"deflection_m": travel.start})
+            self.travelled.append({"control": state.control} | row | {"deflection_m": travel.start})
             return row["load_N"]
         if state.control < self.rows[-1]["deflection_m"]:
             if row["load_N"] == 0.0:

@@ -143,10 +143,11 @@ def _check_symmetry(load_case: WheelLoadCase, *, prismatic: bool, planar: bool) 
     )
     if prismatic and turned:
         raise InputError("camber or yaw", f"{turned:g} deg", rule, "mesh the full width")
-    if planar and load_case.travel is not None and load_case.travel.way.turns:
-        raise InputError("travel", load_case.travel.way.value, "turns what is solved in one plane", "mesh the wheel")
-    if prismatic and load_case.travel is not None and not load_case.travel.way.mirrored:
-        raise InputError("travel", load_case.travel.way.value, rule, "mesh the full width")
+    for way in load_case.travel.ways if load_case.travel is not None else ():
+        if planar and way.turns:
+            raise InputError("travel", way.value, "turns what is solved in one plane", "mesh the wheel")
+        if prismatic and not way.mirrored:
+            raise InputError("travel", way.value, rule, "mesh the full width")
 
 
 def _inner_contact(mesh: TaggedMesh, load_case: WheelLoadCase) -> InnerContact | None:

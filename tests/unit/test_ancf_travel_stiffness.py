@@ -74,7 +74,7 @@ def moved_wrench(stuck: StuckGround, ground: np.ndarray, turned: float) -> dict[
 def test_it_is_that_of_whole_solves(stand: Stand, way: Way) -> None:
     """Central in sign, so that the error is of second order: 1e-5 for steps of a micrometre and a microradian."""
     stuck, step = stuck_ground(stand), 1e-6
-    travel = HubTravel(way=way, start=stand.deflection, steps=(step,))
+    travel = HubTravel.along(way=way, start=stand.deflection, steps=(step,))
     motion = travel.ground(travel.controls[0])
     both = []
     for sign in (1.0, -1.0):

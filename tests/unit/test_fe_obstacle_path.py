@@ -19,7 +19,7 @@ UP, FORWARD, LEFT = np.eye(3)[[2, 0, 1]]
 
 
 def travel(way: Way) -> HubTravel:
-    return HubTravel(way=way, start=0.1, steps=(0.05,))
+    return HubTravel.along(way=way, start=0.1, steps=(0.05,))
 
 
 def path(way: Way) -> ObstaclePath:

@@ -66,7 +66,7 @@ def test_the_travel_starts_where_the_curve_bears_the_load(tmp_path: Path) -> Non
     write_curve(StiffnessCurve(model="fe", orientation_deg=0.0, deflection=d, load=8e3 * d), tmp_path / CURVE)
     inputs = {"curve": "c", "travel": {"way": "turning", "load": 200.0, "steps": [0.01]}}
     found = hub_travel(inputs, {"c": tmp_path})
-    assert (found.way, found.start, found.steps) == (Way.TURNING, pytest.approx(25e-3), (0.01,))
+    assert (found.ways, found.start, found.legs[0].steps) == ((Way.TURNING,), pytest.approx(25e-3), (0.01,))
     assert approach(found.start)[-1] == found.start
     np.testing.assert_allclose(np.diff([0.0, *approach(found.start)]), found.start / APPROACH)
     with pytest.raises(InputError, match="lies outside the curve"):

@@ -36,7 +36,7 @@ from reference_fe.verification.structured_hexahedra import block_mesh
 
 TWENTIETHS = [0.05 * k for k in range(1, 21)]
 HEIGHTS = [0.5e-3 * k for k in range(1, 25)]
-FAR_OFF = HubTravel(way=Way.FORE_AFT, start=1.0, steps=(1.0,))
+FAR_OFF = HubTravel.along(way=Way.FORE_AFT, start=1.0, steps=(1.0,))
 path = functools.cache(roof_path)
 FEW = NewtonSettings(maximum_iterations=6)
 

@@ -33,6 +33,10 @@ STEPS = {
 }
 
 
+def travel_of(way: Way) -> HubTravel:
+    return HubTravel.along(way=way, start=START, steps=STEPS[way])
+
+
 @functools.cache
 def moved(way: Way, *, half_width: bool = False) -> WheelResult:
     mesh = build_mesh(exomars_hoops(), element_size=14e-3, axial_size=40e-3, parts="flexible", half_width=half_width)
@@ -40,7 +44,7 @@ def moved(way: Way, *, half_width: bool = False) -> WheelResult:
         orientation_deg=ORIENTATION,
         deflections=APPROACH,
         friction=FRICTION,
-        travel=HubTravel(way=way, start=START, steps=STEPS[way]),
+        travel=travel_of(way),
     )
     return solve_wheel(mesh, dict.fromkeys(mesh.parts, TI_6AL_4V), case)
 
@@ -73,7 +77,7 @@ def test_sideways_it_slides_at_the_limit_of_friction() -> None:
 @pytest.mark.parametrize(("way", "name"), [(Way.LATERAL, "force_left_N"), (Way.WIND_UP, "moment_left_Nm")])
 def test_the_hubs_work_is_stored_or_lost(way: Way, name: str) -> None:
     result = moved(way, half_width=way is Way.WIND_UP)
-    travel = np.array([0.0, *(row["travel"] for row in result.travelled)])
+    travel = np.array([0.0, *(travel_of(way).at(row["control"]) for row in result.travelled)])
     force = -column(result, name)
     work = float((0.5 * (force[1:] + force[:-1]) * np.diff(travel)).sum())
     parts = [np.diff(column(result, f"{name}_J")[[0, -1]])[0] for name in ("stored_energy", "slip_energy")]
@@ -94,7 +98,7 @@ def test_the_hubs_work_is_stored_or_lost(way: Way, name: str) -> None:
 def test_plates_resist_as_the_solid_does(way: Way, name: str) -> None:
     half = way is Way.WIND_UP
     result = moved(way, half_width=half)
-    travel = HubTravel(way=way, start=START, steps=STEPS[way][:2])
+    travel = HubTravel.along(way=way, start=START, steps=STEPS[way][:2])
     wheel = build_ancf_wheel(exomars_hoops(), element_size=10e-3, axial_size=20e-3, half_width=half)
     problem = WheelOnGround(wheel, math.radians(ORIENTATION), friction=FRICTION, travel=travel)
     states = list(press(problem, [*APPROACH, *travel.controls]))[-3:]
@@ -108,7 +112,7 @@ def test_plates_resist_as_the_solid_does(way: Way, name: str) -> None:
 
 
 def test_a_wheel_without_friction_or_of_half_width_is_not_moved_sideways() -> None:
-    travel = HubTravel(way=Way.LATERAL, start=START, steps=(1e-3,))
+    travel = HubTravel.along(way=Way.LATERAL, start=START, steps=(1e-3,))
     with pytest.raises(InputError, match="nothing resists"):
         WheelLoadCase(orientation_deg=0.0, deflections=APPROACH, travel=travel)
     with pytest.raises(InputError, match="must be the last deflection"):

@@ -33,26 +33,25 @@ from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import publish
 from workbench.study.orientation import degrees, orientation_name
 
-__all__ = ["check_way", "run_matrix", "run_travel"]
+__all__ = ["check_ways", "run_matrix", "run_travel"]
 
 _SHORT = {name: name.replace("about_", "turn ") for name in MOTIONS}
 _NOISE = 1e-4
 """Share of the diagonals' geometric mean below which an entry is not printed [-]."""
 
 
-def check_way(name: str) -> tuple[Way, ...]:
-    """The ways of a name, ``all`` for each of them."""
-    if name == "all":
-        return tuple(Way)
-    if name not in tuple(Way):
-        raise InputError("travel", repr(name), "is not known", f"give {', '.join(Way)} or all")
-    return (Way(name),)
+def check_ways(names: Sequence[str]) -> tuple[Way, ...]:
+    """The ways of some names, each once; ``all`` for each of them."""
+    for name in names:
+        if name not in (*Way, "all"):
+            raise InputError("travel", repr(name), "is not known", f"give {', '.join(Way)} or all")
+    return tuple(Way) if "all" in names else tuple(dict.fromkeys(map(Way, names)))
 
 
 def run_travel(
     study_path: Path,
     model: str,
-    travel: tuple[str, float | None],
+    travel: tuple[Sequence[str], float | None],
     orientations: tuple[float, ...],
     out: Path,
     store: Path,
@@ -60,9 +59,9 @@ def run_travel(
 ) -> int:
     """Curves of force and moment against the hub's travel at the orientations asked for.
 
-    travel : name of the way, and load from which the hub moves [N]; None for `WORKING_LOAD`
+    travel : names of ways, a curve each, and load from which the hub moves [N]; None for `WORKING_LOAD`
     """
-    ways = check_way(travel[0])
+    ways = check_ways(travel[0])
     check_targets(out, ("travels/any",))
     curves, folders = _solved(study_path, model, (ways, travel[1]), orientations, out, (store, computing), small=False)
     tell_kept(_published(out, model, ways, curves))

@@ -10,17 +10,20 @@ from workbench.execution.task import Task
 from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks
 from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import fe_curve_tasks, fe_inputs, without_fields
-from workbench.questions.travel_files import travel_name
+from workbench.questions.travel_files import path_name, travel_name
 from workbench.questions.wheel.graph import MESH, mesh_task, wheel_meshes
 from workbench.study.full import require_level
+from workbench.study.hub_path import LONGEST_STEP
 from workbench.study.model import Study
 from workbench.study.orientation import degrees
 from workbench.study.own_mesh import own_mesh
 
-__all__ = ["FRICTION", "STEPS", "WORKING_LOAD", "travel_tasks"]
+__all__ = ["FRICTION", "STEPS", "WORKING_LOAD", "path_tasks", "travel_tasks"]
 
 MESH_FULL = "mesh_full"
 """Name of the task."""
+_SOLID = "workbench.questions.fe.task:solve_orientation"
+"""Function of a solid curve's task."""
 STEPS: Mapping[Way, tuple[float, ...]] = {
     Way.FORE_AFT: (1e-3, 2e-3, 4e-3),
     Way.LATERAL: (1e-3, 2e-3, 4e-3),
@@ -59,15 +62,39 @@ def travel_tasks(
         For another model than fe and ancf_wheel, a load beyond the curves or next to none, and a study whose wheel is
         not pressed on level ground.
     """
-    if model not in ("fe", "ancf_wheel"):
-        raise InputError("model", model, "has no hub that could be moved", "give fe or ancf_wheel")
+    asked = _orientations(study, model, orientations_deg)
     if not _LEAST_LOAD <= load <= study.fe.max_load:
         rule = f"must lie between {_LEAST_LOAD:g} N and fe.max_load, {study.fe.max_load:g} N, at which curves end"
         raise InputError("load", f"{load:g} N", rule, f"{WORKING_LOAD:g} N is usual")
+    mirrored = all(way.mirrored for way in ways)
+    meshes, curves = _meshes_and_curves(study, model, asked, mirrored=mirrored)
+    tasks = [
+        _task(study, curve, travel_name(model, way, o, small=small), _asked(study, way, load, small), way.mirrored)
+        for curve, o in zip(curves, asked, strict=True)
+        for way in ways
+    ]
+    return foreseen([*meshes, *curves, *tasks])
+
+
+def path_tasks(
+    study: Study, model: str, places: Sequence[Mapping[Way, float]], orientations_deg: Sequence[float] = ()
+) -> tuple[Task, ...]:
+    """A path of the hub, as `workbench.study.hub_path` reads it, at each orientation [deg]; see `travel_tasks`."""
+    asked = _orientations(study, model, orientations_deg)
+    mirrored = all(way.mirrored for place in places for way in place)
+    meshes, curves = _meshes_and_curves(study, model, asked, mirrored=mirrored)
+    path = [{way.value: value for way, value in place.items()} for place in places]
+    travel = {"path": path, "longest": LONGEST_STEP, "friction": _friction(study)}
+    tasks = [_task(study, curve, path_name(model, o), travel, mirrored) for curve, o in zip(curves, asked, strict=True)]
+    needed = {name for task in tasks for name in task.needs}
+    return foreseen([*(mesh for mesh in meshes if mesh.name in needed), *tasks])
+
+
+def _orientations(study: Study, model: str, orientations_deg: Sequence[float]) -> tuple[float, ...]:
+    if model not in ("fe", "ancf_wheel"):
+        raise InputError("model", model, "has no hub that could be moved", "give fe or ancf_wheel")
     require_level(study)
-    asked = tuple(orientations_deg) or tuple(degrees(o) for o in study.fe.orientations)
-    make = _fe_tasks if model == "fe" else _ancf_wheel_tasks
-    return make(study, ways, load, asked, small)
+    return tuple(orientations_deg) or tuple(degrees(o) for o in study.fe.orientations)
 
 
 def _friction(study: Study) -> float:
@@ -79,60 +106,41 @@ def _asked(study: Study, way: Way, load: float, small: bool) -> dict[str, object
     return {"way": way.value, "load": load, "steps": steps, "friction": _friction(study)}
 
 
-def _fe_tasks(
-    study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float], small: bool
-) -> tuple[Task, ...]:
-    curves = fe_curve_tasks(study, orientations_deg)
+def _meshes_and_curves(
+    study: Study, model: str, orientations_deg: Sequence[float], *, mirrored: bool
+) -> tuple[list[Task], Sequence[Task]]:
+    """Of ways that are ``mirrored`` half a wheel will do, if that is what the study has."""
+    if model == "ancf_wheel":
+        return [], ancf_wheel_curve_tasks(study, orientations_deg)
     meshes = [wheel_meshes(study)[0]]
-    whole = any(not way.mirrored for way in ways) and study.mesh.half_width
-    if whole and (own := own_mesh(study)) is not None:
-        rule = "is half a wheel, whose hub can be moved and turned forwards alone"
-        raise InputError("mesh.symmetry", own.symmetry, rule, "mesh the whole wheel")
-    if whole:
+    if not mirrored and study.mesh.half_width:
+        if (own := own_mesh(study)) is not None:
+            rule = "is half a wheel, whose hub can be moved and turned forwards alone"
+            raise InputError("mesh.symmetry", own.symmetry, rule, "mesh the whole wheel")
         meshes.append(mesh_task(study, MESH_FULL, {"half_width": False}))
-    tasks = []
-    for curve, o in zip(curves, orientations_deg, strict=True):
-        for way in ways:
-            mesh = MESH_FULL if whole and not way.mirrored else MESH
-            inputs = without_fields(fe_inputs(study, o, ())) | {
-                "travel": _asked(study, way, load, small),
-                "mesh": mesh,
-                "curve": curve.name,
-            }
-            tasks.append(
-                Task(
-                    name=travel_name("fe", way, o, small=small),
-                    function="workbench.questions.fe.travel_task:solve_travel",
-                    inputs=inputs,
-                    needs=(mesh, curve.name),
-                    resumable=True,
-                    shared=True,
-                )
-            )
-    return foreseen([*meshes, *curves, *tasks])
+    return meshes, fe_curve_tasks(study, orientations_deg)
 
 
-def _ancf_wheel_tasks(
-    study: Study, ways: Sequence[Way], load: float, orientations_deg: Sequence[float], small: bool
-) -> tuple[Task, ...]:
-    curves = ancf_wheel_curve_tasks(study, orientations_deg)
-    tasks = []
-    for curve, o in zip(curves, orientations_deg, strict=True):
-        for way in ways:
-            kept = ("wheel", "contact_stiffness", "inner_contact_stiffness", "orientation_deg")
-            options = curve.inputs["options"] | ({} if way.mirrored else {"half_width": False})
-            inputs = {name: curve.inputs[name] for name in kept} | {
-                "options": options,
-                "travel": _asked(study, way, load, small),
-                "curve": curve.name,
-            }
-            tasks.append(
-                Task(
-                    name=travel_name("ancf_wheel", way, o, small=small),
-                    function="workbench.questions.ancf_wheel.travel_task:solve_travel",
-                    inputs=inputs,
-                    needs=(curve.name,),
-                    cost=2.0 * curve.cost,
-                )
-            )
-    return (*curves, *tasks)
+def _task(study: Study, curve: Task, name: str, travel: Mapping[str, object], mirrored: bool) -> Task:
+    """One travel at the orientation of a curve, which it needs where it begins at a load."""
+    begin = {"curve": curve.name} if "load" in travel else {}
+    if curve.function != _SOLID:
+        kept = ("wheel", "contact_stiffness", "inner_contact_stiffness", "orientation_deg")
+        options = curve.inputs["options"] | ({} if mirrored else {"half_width": False})
+        return Task(
+            name=name,
+            function="workbench.questions.ancf_wheel.travel_task:solve_travel",
+            inputs={one: curve.inputs[one] for one in kept} | {"options": options, "travel": travel} | begin,
+            needs=tuple(begin.values()),
+            cost=2.0 * curve.cost,
+        )
+    mesh = MESH if mirrored or not study.mesh.half_width else MESH_FULL
+    inputs = without_fields(fe_inputs(study, curve.inputs["orientation_deg"], ()))
+    return Task(
+        name=name,
+        function="workbench.questions.fe.travel_task:solve_travel",
+        inputs=inputs | {"travel": travel, "mesh": mesh} | begin,
+        needs=(mesh, *begin.values()),
+        resumable=True,
+        shared=True,
+    )

@@ -28,7 +28,7 @@ from geometry.own_mesh.files import read_mesh_file
 from geometry.own_mesh.step_files import STEP_ENDINGS
 from workbench.execution.fingerprint import canonical_json
 from workbench.execution.task import Task
-from workbench.questions.travel_start import APPROACH
+from workbench.questions.travel_start import APPROACH, asked_steps
 from workbench.questions.wheel.mesh_file import OWN_FILE
 from workbench.study.wheel_design import design_from
 
@@ -105,7 +105,7 @@ def _with_needs(task: Task, counts: Mapping[str, MeshCount], filled: Mapping[str
     if task.function == _MODES:
         points = _STANDING if task.inputs["modes"]["state"] == "standing" else _MODES_ALONE
     if task.function == _TRAVEL:
-        points = APPROACH + len(task.inputs["travel"]["steps"])
+        points = APPROACH + asked_steps(task.inputs["travel"])
     cost = solve_seconds(unknowns, points)
     memory = solve_bytes(unknowns) * (_UNSYMMETRIC if task.function == _TRAVEL else 1.0) * filled.get(name, 1.0)
     return replace(task, cost=cost, memory=memory, unknowns=unknowns)
