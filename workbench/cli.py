@@ -19,7 +19,6 @@ from contracts.hub_travel import Way
 from contracts.text import for_terminal
 from workbench.commands.calibrate_app import calibrate_app
 from workbench.commands.ending import complain, flushed, full_disk
-from workbench.commands.obstacle import OBSTACLES, obstacle_choice
 from workbench.commands.options import (
     DEFAULT_STORE,
     Ranks,
@@ -181,9 +180,7 @@ def stiffness(
     ] = False,
     obstacle: Annotated[
         str | None,
-        typer.Option(
-            help=f"Press on it instead of the study's ground (fe, section, ancf_wheel): {', '.join(OBSTACLES)}."
-        ),
+        typer.Option(help="Press on a step, cleat or half_round in place of the study's ground (fe, section, ancf_wheel)."),
     ] = None,
     height: Annotated[str | None, typer.Option(help="Of the obstacle, e.g. '20 mm'.")] = None,
     width: Annotated[str | None, typer.Option(help="Of a cleat, along the wheel's way.")] = None,
@@ -196,13 +193,14 @@ def stiffness(
     scheduler: Scheduler = None,
 ) -> None:
     """Stiffness curves of one model."""
+    from workbench.commands.obstacle import chosen_obstacle
     from workbench.commands.stiffness import run_stiffness
 
     who = computing(workers, ranks, scheduler)
-    ground = obstacle_choice(obstacle, height=height, width=width, edge_radius=edge_radius, offset=offset)
+    ground = chosen_obstacle(obstacle, height=height, width=width, edge_radius=edge_radius, offset=offset)
     moves = [name for name, given in (("--travel", travel), ("--path", path), ("--matrix", matrix)) if given]
     if ground is not None and moves:
-        raise InputError("--obstacle", ground.shape, "is pressed on, not moved over", f"leave out {moves[0]}")
+        raise InputError("--obstacle", ground["shape"], "is pressed on, not moved over", f"leave out {moves[0]}")
     if len(moves) > 1:
         raise InputError(moves[1], "", f"moves the hub its own way, beside {moves[0]}", f"leave out {moves[0]}")
     if path is not None and load is not None:

@@ -166,6 +166,17 @@ def test_an_orientation_step_goes_once_around() -> None:
     assert point.study.fe.orientations == pytest.approx(np.deg2rad([0.0, 30.0, 60.0, 90.0]))
 
 
+def test_the_ground_is_varied_in_a_few_words_and_its_place_beside_it() -> None:
+    place = {"fe.obstacle.position": ["5 mm", "-5 mm"]}
+    points = _points(**place, obstacle=["step 20 mm", "cleat 20 mm x 12 mm"], base=False)
+    found = [point.study.fe.obstacle.model_dump() for point in points]
+    assert [one["shape"] for one in found] == ["step", "cleat", "step", "cleat"]
+    assert [one["position"] for one in found] == [0.005, 0.005, -0.005, -0.005]
+    assert (found[1]["height"], found[1]["width"], found[1]["edge_radius"]) == (0.02, 0.012, 0.005)
+    (plane,) = _points(obstacle=["plane"], base=False)
+    assert plane.study.fe.obstacle == PlaneSection()
+
+
 def test_temperature_is_one_of_the_whole_wheel() -> None:
     cold, warm = _points(temperature=["-40 degC", "30 degC"], models=["fe"], base=False)
     assert (cold.temperature, warm.temperature) == (pytest.approx(233.15), pytest.approx(303.15))
@@ -197,6 +208,9 @@ def test_keys_may_be_written_without_quotes() -> None:
         ({"temperature": ["-40 degC", "900 degC"], "models": ["fe"]}, r"point 2 .*temperature = 900 degC: .* data"),
         ({"temperature": ["-40 degC"]}, r"sweep.temperature = -40 degC: acts on the solid model only"),
         ({"fe.hub": ["rigid", "soft"]}, r"point 2 \(fe.hub = 'soft'\): fe.hub = 'soft': must be 'rigid' or"),
+        ({"obstacle": ["plane", "wall 9 mm"]}, r"point 2 \(obstacle = 'wall 9 mm'\): obstacle = .*is not known; give step"),
+        ({"obstacle": ["step 3 mm"]}, r"point 1 .*fe.obstacle.edge_radius = .*must not exceed the height"),
+        ({"obstacle": ["step 9 mm"], "models": ["brush"]}, r"sweep.obstacle = step 9 mm: acts on ancf_wheel, fe, section"),
         ({}, r"sweep.strip_thickness: must be given, or another key to vary"),
         ({"strip_thickness": []}, r"sweep.strip_thickness = \[\]: must be a list of values or a range"),
         ({"strip_thickness": "0.5 mm"}, r"must be a list of values or a range"),

@@ -6,7 +6,7 @@ Verified by tests/end_to_end/test_commands.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from contracts.curves import StiffnessCurve
@@ -20,7 +20,7 @@ from workbench.commands.computing import (
     tell_kept,
     warn,
 )
-from workbench.commands.obstacle import ObstacleChoice
+from workbench.commands.obstacle import on_obstacle
 from workbench.execution.result_files import early_ends, losses_of_stability
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
@@ -47,17 +47,17 @@ def run_stiffness(
     out: Path,
     store: Path,
     computing: Computing,
-    obstacle: ObstacleChoice | None = None,
+    obstacle: Mapping[str, str] | None = None,
 ) -> int:
     """Curves of one model at the orientations asked for; fields and peak stresses at the study's snapshot loads.
 
-    obstacle : in place of what the study's [fe.obstacle] says
+    obstacle : [fe.obstacle] in place of the study's
     """
     if model not in MODELS:
         raise InputError("model", model, "is not known", f"give one of {', '.join(MODELS)}")
     for orientation in orientations:
         check_orientation(orientation)
-    study = read_and_warn(study_path, lambda table: table if obstacle is None else obstacle.put_in(table, model))
+    study = read_and_warn(study_path, lambda table: table if obstacle is None else on_obstacle(table, obstacle, model))
     if model == "brush" and orientations:
         warn(study_path, ["the brush is the same at every orientation: --orientation changes nothing"])
     check_folder(out)

@@ -86,12 +86,12 @@ _KINDS = "target (with within), at_most, at_least"
 
 
 class SweepSection(Section):
-    """A parameter study: every other key of the section is a key of the study, or one of four names, and its values.
+    """A parameter study: every other key of the section is a key of the study, or one of some names, and its values.
 
     Attributes
     ----------
-    parameters : dotted key of the study (``"fe.friction"``), or ``strip_thickness``, ``orientation``, ``temperature``
-        or ``plates`` -> its values, or the range they are drawn from
+    parameters : dotted key of the study (``"fe.friction"``), or ``strip_thickness``, ``orientation``, ``temperature``,
+        ``plates`` or ``obstacle`` -> its values, or the range they are drawn from
     models : which of the models each point runs
     design : every combination of the values, a Latin hypercube of ``samples`` points drawn with ``seed``, or a search
         of so many points for what ``aims`` say
@@ -224,6 +224,10 @@ class SweepSection(Section):
             raise in_key("travels", ", ".join(self.travels), "names a way twice", "give each once")
         if "temperature" in self.parameters and self.models != ("fe",):
             raise in_key("temperature", "given", "acts on the solid model only", 'set models = ["fe"]')
+        stand = {"fe", "section", "ancf_wheel"}
+        if "obstacle" in self.parameters and not set(self.models) <= stand:
+            rule = f"acts on {', '.join(sorted(stand))} only"
+            raise in_key("obstacle", "given", rule, "take the others out of models")
         for key in self.parameters:
             if key.startswith("ancf_wheel.") and "ancf_wheel" not in self.models:
                 raise in_key(key, "given", "acts on the ANCF wheel only", 'add "ancf_wheel" to models')

@@ -21,6 +21,7 @@ from contracts.errors import InputError, StudyError
 from workbench.study.full import steps_around
 from workbench.study.key_units import is_whole_number, parts_of
 from workbench.study.model import Study
+from workbench.study.obstacle_words import obstacle_words
 from workbench.study.own_mesh import materials_by_part
 from workbench.study.quantities import number_and_unit, to_si
 from workbench.study.reading import study_of
@@ -45,10 +46,13 @@ __all__ = [
 NAMED = {
     "strip_thickness": "wheel.tire.thickness",
     "strip_scale": "",
+    "obstacle": "",
     "plates": "ancf.circumferential_plates",
     "orientation_step": "full.orientation_step",
 }
 """Names of parameters that are more than one key -> the key that says what kind of value they take."""
+_PUT = {"obstacle": -1}
+"""Order in which values are put into a study: an obstacle before its keys, other names last."""
 _MOST_ENDS = 40
 
 
@@ -249,7 +253,7 @@ def study_point(path: Path, base: Mapping[str, Any], number: int, values: Mappin
 
 def set_parameters(path: Path, table: dict[str, Any], values: Mapping[str, Value], base: Mapping[str, Any]) -> None:
     """Change a table, which was the ``base``, as a point's values ask for it; StudyError names a key that is none."""
-    for key, value in sorted(values.items(), key=lambda item: item[0] in NAMED):
+    for key, value in sorted(values.items(), key=lambda item: _PUT.get(item[0], int(item[0] in NAMED))):
         _set_parameter(path, table, key, value, base)
 
 
@@ -284,6 +288,11 @@ def _set_parameter(path: Path, table: dict[str, Any], key: str, value: Value, ba
         table["full"] = table.get("full", {}) | {"orientation_step": value}
     elif key == "orientation":
         _turn(table, value)
+    elif key == "obstacle":
+        try:
+            table["fe"] |= {"obstacle": obstacle_words(value)}
+        except InputError as error:
+            raise StudyError(path, key, value, f"{error.what} {error.rule}", error.hint) from error
     elif key == "plates":
         table["ancf"] |= _replated(base["ancf"], value)
     else:
