@@ -7,7 +7,7 @@ mass of that direction (docs/theory/vibration.md). Verified by tests/unit/test_m
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,11 +94,24 @@ class Modes:
         """(n, 6) modal effective masses and moments of inertia [kg; kg m^2]."""
         return self.participation**2
 
+    def whole_pairs(self, count: int) -> Modes:
+        """The first ``count`` modes besides rigid ones, and the next where it shares the last one's frequency."""
+        end = int(self.rigid.sum()) + count
+        if end < len(self.eigenvalue) and self._shared(end):
+            end += 1
+        cut = {f: getattr(self, f)[:end] for f in ("eigenvalue", "shape", "participation", "rigid", "parity")}
+        return replace(self, **cut)
+
+    def _shared(self, i: int) -> bool:
+        """Whether a mode shares the frequency of the one before."""
+        value, before = self.eigenvalue[i], self.eigenvalue[i - 1]
+        return bool(abs(value - before) <= 2.0 * _SAME * abs(value))
+
     def clusters(self) -> list[NDArray[np.int64]]:
         """Numbers of modes that share a frequency, group by group, ascending; any mixture of a group is a mode too."""
         groups: list[list[int]] = []
-        for i, value in enumerate(self.eigenvalue):
-            if groups and abs(value - self.eigenvalue[i - 1]) <= 2.0 * _SAME * abs(value):
+        for i in range(len(self.eigenvalue)):
+            if groups and self._shared(i):
                 groups[-1].append(i)
             else:
                 groups.append([i])

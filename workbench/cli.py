@@ -240,7 +240,7 @@ def modes(
     grip: Annotated[
         bool, typer.Option("--grip", help="Points that touch the ground stick to it; else they slide freely.")
     ] = False,
-    count: Annotated[int, typer.Option(help="Modes, besides those of a rigid body.")] = 10,
+    count: Annotated[int, typer.Option(help="Modes, besides those of a rigid body; whole pairs.")] = 10,
     out: Annotated[Path, typer.Option(help="Folder of the tables and fields.")] = Path("build/modes"),
     store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,

@@ -35,6 +35,12 @@ def test_frequency_growth_and_effective_mass() -> None:
     assert [group.tolist() for group in modes.clusters()] == [[0], [1], [2, 3], [4]]
 
 
+def test_no_pair_is_cut() -> None:
+    """Besides the rigid one: the second and third share their frequency, the fourth has its own."""
+    counts = {asked: len(some_modes().whole_pairs(asked).eigenvalue) - 1 for asked in (1, 2, 3, 4, 9)}
+    assert counts == {1: 1, 2: 3, 3: 3, 4: 4, 9: 4}
+
+
 def test_arrays_that_do_not_belong_together_are_refused() -> None:
     with pytest.raises(InputError, match="weight"):
         replace(some_modes(), weight=np.ones(3))

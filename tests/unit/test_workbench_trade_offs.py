@@ -14,6 +14,7 @@ import pytest
 from contracts.curves import StiffnessCurve
 from contracts.errors import StudyError
 from contracts.hub_travel import Way
+from workbench.commands.optimise import _sentences
 from workbench.commands.optimise_search import Optimised, search_and_confirm
 from workbench.commands.point_batches import PointBatches
 from workbench.questions.model_curves import mean_curve
@@ -212,6 +213,51 @@ def test_a_band_that_no_wheel_has_is_told_with_the_nearest(capsys: pytest.Captur
     assert f"no point is within the limits; nearest: {told_point(close, section)}" in " ".join(
         capsys.readouterr().out.split()
     )
+
+
+def test_the_nearest_is_a_wheel_of_which_something_is_known() -> None:
+    """One far off before one without a curve, which misses each limit by less here; alone it is the nearest."""
+    far, section = _judged([_line(8e5, 0.0)])
+    nothing = Outcome(run=far.outcome.run, note="could not be meshed")
+    blind = replace(far, outcome=nothing, objective=None, misses={"stiffness": 10.0, "stability": 0.0})
+    assert far.missed > blind.missed
+    assert nearest([blind, far]) is far
+    assert nearest([blind]) is blind
+    assert "could not be meshed" in told_point(blind, section)
+    assert told_verdict(replace(far, objective=None, misses={"stability": 0.0})) == "has no objective"
+
+
+def test_an_objective_without_a_value_ends_the_search_with_a_message() -> None:
+    with pytest.raises(StudyError, match=r"optimise.objective: relative_l2 has no value at any of the first \d+ wheels"):
+        _found((8e12,), {"low": "8 N/mm", "high": "9 N/mm"}, objective={"least": "relative_l2"})
+
+
+def test_a_gain_is_that_of_one_model() -> None:
+    """Solid 10 % softer: the deflection at 150 N of the searched wheel against that of the study, not of the solid."""
+    wish = {"most": "deflection_at_150N_m"}
+    found, section = _found((8e12,), {"low": "8 N/mm", "high": "9 N/mm"}, softer=0.9, objective=wish)
+    points = found.assessed(section)
+    assert found.answer is not None
+    (told,) = [one for one in _sentences(section, found, points) if one.startswith("best")]
+    searched = next(p for p in points if p.number == found.confirmed[-1].found)
+    change = 100.0 * (searched.objective / points[0].objective - 1.0)  # type: ignore[operator]
+    assert f"; {change:+.3g} % against the study as it is (not within the limits), both by the section model" in told
+    assert found.answer.objective == pytest.approx(searched.objective / 0.9)  # type: ignore[operator]
+
+
+def test_ends_of_ranges_that_make_no_wheel_are_told_beforehand() -> None:
+    table = read_study_table(LEAVES)
+    base = {key: value for key, value in table.items() if key != "optimise"}
+    batches = PointBatches(path=LEAVES, base=base, study=STUDY, section="optimise")
+    section = STUDY.optimise
+    assert section is not None
+    assert batches.unusable_ends(section.as_sweep) == []
+    wide = {"wheel.springs[0].points[0][1]": {"low": "12 deg", "high": "170 deg"}}
+    changed = study_of(LEAVES, table | {"optimise": table["optimise"] | {"variables": wide}}).optimise
+    assert changed is not None
+    (told,) = batches.unusable_ends(changed.as_sweep)
+    assert told.startswith("optimise: wheel.springs[0].points[0][1] = 170 deg makes no wheel: wheel.springs[0].points")
+    assert "crosses the hub or the rim" in told
 
 
 def _judged(curves: Sequence[StiffnessCurve], **more: Any) -> tuple[Assessed, OptimiseSection]:

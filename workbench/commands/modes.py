@@ -114,6 +114,8 @@ def run_modes(study_path: Path | None, choices: ModeChoices, out: Path, store: P
         texts[f"{name}.csv"] = _csv(kept, kinds)
         copies |= {f"{name}.vtu": folder / FIELDS, f"{name}.png": folder / PICTURE}
         _print(f"{study.title} by {model}: {asked.words}", kept, kinds)
+        if (count := int((~kept.modes.rigid).sum())) > asked.count:
+            console.print(f"mode {len(kinds)} is more than the {count - 1} asked for: it is a pair with the one before")
         doubts += doubts_of(model, kept)
     if len(choices.models) > 1:
         rows = read_result(folders[COMPARED])["rows"]

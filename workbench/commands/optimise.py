@@ -97,7 +97,9 @@ def _sentences(section: OptimiseSection, found: Optimised, points: Sequence[Asse
     counts = f"{len(points)} wheels by the {section.model} model, {sum(p.feasible for p in points)} within the limits"
     buckled = sum(point.misses[STABILITY] > 0.0 for point in points)
     refusals = f", {refused} could not be meshed or pressed" if refused else ""
-    told = [f"{counts}{refusals}{f', {buckled} buckle below the load' if buckled else ''}"]
+    unknown = sum(point.objective is None and point.outcome.curve is not None for point in points)
+    without = f", {unknown} have no {section.objective.column} and count as not within them" if unknown else ""
+    told = [f"{counts}{refusals}{f', {buckled} buckle below the load' if buckled else ''}{without}"]
     if len(found.limits) > 1:
         told.append(f"limits of the last search, corrected by the solid model: {told_limits(found.limits[-1])}")
     told += [
@@ -108,7 +110,7 @@ def _sentences(section: OptimiseSection, found: Optimised, points: Sequence[Asse
     if found.answer is not None:
         confirmed = next((one for one in found.confirmed if one.solid is found.answer), None)
         by = "not confirmed by the solid model" if confirmed is None else f"point {confirmed.found}, by the solid model"
-        gain = _gain(section, points, found.answer)
+        gain = _gain(section, points, found.answer if confirmed is None else _searched(points, confirmed.found))
         told.append(f"best ({by}): {told_point(found.answer, section)}{gain}")
     elif found.confirmed:
         told.append(f"no confirmed wheel is within the limits; {_last(section, found)}")
@@ -117,13 +119,18 @@ def _sentences(section: OptimiseSection, found: Optimised, points: Sequence[Asse
     return told
 
 
+def _searched(points: Sequence[Assessed], number: int) -> Assessed:
+    return next(point for point in points if point.number == number)
+
+
 def _gain(section: OptimiseSection, points: Sequence[Assessed], answer: Assessed) -> str:
-    """By how much the objective differs from that of the study as it is."""
+    """By how much the objective of a point of the search differs from that of the study as it is, by the same model."""
     base = next((point.objective for point in points if point.number == 0), None)
     if not base or answer.objective is None:
         return ""
-    kept = "" if points[0].feasible else ", which is not within the limits"
-    return f"; {100.0 * (answer.objective / base - 1.0):+.3g} % against the study as it is{kept}"
+    kept = "" if points[0].feasible else " (not within the limits)"
+    change = 100.0 * (answer.objective / base - 1.0)
+    return f"; {change:+.3g} % against the study as it is{kept}, both by the {section.model} model"
 
 
 def _last(section: OptimiseSection, found: Optimised) -> str:

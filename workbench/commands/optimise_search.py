@@ -75,7 +75,7 @@ def search_and_confirm(batches: PointBatches, section: OptimiseSection) -> Optim
     Raises
     ------
     StudyError
-        If no point of the first batch is a wheel.
+        If no point of the first batch is a wheel, or none has an objective.
     """
     return _Rounds(batches, section).run()
 
@@ -136,7 +136,10 @@ class _Rounds:
             asked, begun = strategy.ask(more), time.monotonic()
             self.places |= dict(enumerate(asked, start=self.next))
             values = drawn_values(sweep, asked)
-            points = self._run(values, number) if self.found.searched else self._run([{}, *values], number, first=0)[1:]
+            begins = not self.found.searched
+            points = self._run([{}, *values], number, first=0)[1:] if begins else self._run(values, number)
+            if begins:
+                self._require_objective()
             scale = self._scale()
             strategy.tell([point.cost(section.objective, scale) for point in points])
             done += len(points)
@@ -169,6 +172,15 @@ class _Rounds:
             for size in (reach, 0.25 * reach)
         ]
         return [one for one in both if one is not None]
+
+    def _require_objective(self) -> None:
+        """Refuse an objective of which no wheel of the first batch has a value: every point would be infeasible."""
+        numbers = [numbers for outcome, numbers in self.found.searched if outcome.curve is not None]
+        column = self.section.objective.column
+        if numbers and not any(isinstance(one.get(column), float | int) for one in numbers):
+            rule = f"{column} has no value at any of the first {len(numbers)} wheels, all would count as infeasible"
+            hint = "take a column that has one, see `workbench sweep`, or a study whose curves reach further"
+            raise StudyError(self.batches.path, "optimise.objective", "", rule, hint)
 
     def _scale(self) -> float:
         """A usual size of the objective: that of the first point which has one."""

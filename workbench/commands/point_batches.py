@@ -21,7 +21,7 @@ from workbench.execution.store import Entry, Store
 from workbench.questions.sweep.graph import SweepRun, sweep_graph
 from workbench.questions.sweep.results import Outcome, measured, outcomes, own_curves
 from workbench.study.model import Study
-from workbench.study.sweep import SweepSection, SweptModel, Value
+from workbench.study.sweep import SweepRange, SweepSection, SweptModel, Value
 from workbench.study.sweep_points import Point, study_point
 
 __all__ = ["PointBatches"]
@@ -80,6 +80,19 @@ class PointBatches:
                 near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
                 hint = f"e.g. {near[0]}" if near else f"one of {', '.join(known)}"
                 raise StudyError(self.path, f"{self.section}.{key}", "", "is no number of the table", hint)
+
+    def unusable_ends(self, sweep: SweepSection) -> list[str]:
+        """Each end of a range and each value of a list that, the rest as it is, makes no wheel, and why."""
+        found = []
+        for key, values in sweep.parameters.items():
+            ends = (values.low, values.high) if isinstance(values, SweepRange) else values
+            for number, value in enumerate(ends, start=1):
+                try:
+                    sweep_graph([study_point(self.path, self.base, number, {key: value})], sweep.models, sweep.moved)
+                except (StudyError, InputError) as error:
+                    what = error.key.rpartition("): ")[2] if isinstance(error, StudyError) else error.what
+                    found.append(f"{self.section}: {key} = {value} makes no wheel: {what} = {error.value}: {error.rule}")
+        return found
 
     def run(
         self,

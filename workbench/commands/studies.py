@@ -150,7 +150,8 @@ def run_check(path: Path) -> int:
         if study.sweep is not None:
             sweep_graph(points, study.sweep.models, study.sweep.moved)
         if study.optimise is not None:
-            require_optimise(path, read_study_table(path), study)
+            batches, section = require_optimise(path, read_study_table(path), study)
+            warn(path, batches.unusable_ends(section.as_sweep))
         if study.input_uncertainty is not None and without_planar_model(study) is None:
             require_inputs(path, read_study_table(path), study.input_uncertainty)
     console.print(f"{path}: {study.title}: can be used; its report takes {len(tasks)} tasks", soft_wrap=True)

@@ -66,6 +66,7 @@ def run_travel(
     curves, folders = _solved(study_path, model, (ways, travel[1]), orientations, out, (store, computing), small=False)
     tell_kept(_published(out, model, ways, curves))
     _print(curves)
+    _tell_load(travel[1])
     if curves:
         console.print(f"curves: {out / 'travels'}", soft_wrap=True)
     complain_of_early_ends(study_path, early_ends(folders))
@@ -98,8 +99,18 @@ def run_matrix(
     tell_kept(publish(out, f"stiffness {model} matrix", texts))
     for matrix in found:
         _print_matrix(matrix)
+    _tell_load(load)
     console.print(f"matrices: {out / 'matrices'}", soft_wrap=True)
     return 0
+
+
+def _tell_load(asked: float | None) -> None:
+    """Why the load in the table is not that asked for [N]."""
+    load = WORKING_LOAD if asked is None else asked
+    console.print(
+        f"load: the wheel is pressed to where its curve without friction bears {load:g} N; friction adds what is more",
+        soft_wrap=True,
+    )
 
 
 def _solved(

@@ -45,6 +45,12 @@ _HINTS = {
     "string_type": ("must be a text", "put it in quotes"),
     "string_too_short": ("must not be empty", "write what it is"),
 }
+_EXAMPLE = "studies/exomars.toml"
+_EXAMPLES: Mapping[str | int, str] = {
+    "optimise": "studies/leaf_optimise.toml",
+    "sweep": "studies/strip_sweep.toml",
+}
+"""Section that the built-in study has not -> a study that has it."""
 _NO_TABLE = ("dict_type", "model_type", "model_attributes_type")
 _LIMITS = {"less_than": "lt", "less_than_equal": "le", "greater_than": "gt", "greater_than_equal": "ge"}
 """Pydantic's name of a complaint -> that of its limit, which is in SI whatever unit the user writes."""
@@ -164,6 +170,7 @@ def _study_error(path: Path, error: ValidationError, table: Any) -> StudyError:
     value = "" if first["type"] == "missing" else _shown(first["input"])
     if first["type"] in _HINTS:
         rule, hint = _HINTS[first["type"]]
+        hint = hint.replace(_EXAMPLE, _example(place))
         if first["type"] == "extra_forbidden" and (meant := nearest_key(place)):
             hint = f"use {meant}, if that is meant; else remove it"
     elif first["type"] in _NO_TABLE:
@@ -186,7 +193,7 @@ def _study_error(path: Path, error: ValidationError, table: Any) -> StudyError:
     elif first["type"] in ("too_short", "too_long"):
         limit = first["ctx"]["min_length" if first["type"] == "too_short" else "max_length"]
         rule = f"must have {'at least' if first['type'] == 'too_short' else 'at most'} {limit} items"
-        hint = "see studies/exomars.toml for an example"
+        hint = f"see {_example(place)} for an example"
     elif first["type"] == "quantity":
         rule, hint = str(first["ctx"]["rule"]), str(first["ctx"]["hint"])
     else:
@@ -195,10 +202,15 @@ def _study_error(path: Path, error: ValidationError, table: Any) -> StudyError:
             limit = first["ctx"][_LIMITS[first["type"]]]
             shown = f"{math.degrees(limit):g} deg" if "deg" in first["input"] else f"{limit:g} in SI units"
             rule = re.sub(r"\S+$", lambda _: shown, rule)  # pydantic writes 0.0 as 0
-        hint = "see studies/exomars.toml for an example"
+        hint = f"see {_example(place)} for an example"
     if first["type"] in ("extra_forbidden", "literal_error"):
         hint = hint_of_its_place(place) or hint
     return StudyError(path, key, value, rule, hint)
+
+
+def _example(place: Key) -> str:
+    """A study that has the section of a place."""
+    return _EXAMPLES.get(place[0], _EXAMPLE) if place else _EXAMPLE
 
 
 def _in_file(loc: Key, table: Any) -> Key:

@@ -55,7 +55,9 @@ def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
     stands = standing_under(problem, asked["load"]) if asked["state"] == "standing" else None
     progress(0.6)
     hub = _hub_mass(inputs, needs, wheel) if asked["state"] == "free" else None
-    modes, shapes = wheel_modes(problem, asked["count"], state=stands, hub=hub, grip=asked["grip"])
+    found, shapes = wheel_modes(problem, asked["count"] + 1, state=stands, hub=hub, grip=asked["grip"])
+    modes = found.whole_pairs(asked["count"])
+    shapes = shapes[: len(modes.eigenvalue)]
     parts = tuple(dict.fromkeys(wheel.parts.tolist()))
     part = np.zeros(len(modes.points), dtype=np.int64)
     for number in range(len(parts) - 1, -1, -1):

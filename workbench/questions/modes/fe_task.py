@@ -25,7 +25,10 @@ __all__ = ["solve"]
 
 
 def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``modes.npz``, ``modes.vtu``, ``modes.png``, ``result.json``; returns the unknowns. Needs the mesh's task."""
+    """``modes.npz``, ``modes.vtu``, ``modes.png``, ``result.json``; returns the unknowns. Needs the mesh's task.
+
+    One mode more than asked for where the last would be half a pair.
+    """
     (mesh_folder,) = needs.values()
     mesh, asked, begun = read_mesh(mesh_folder / MESH), inputs["modes"], time.perf_counter()
     found = wheel_modes(
@@ -33,16 +36,17 @@ def solve(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
         materials_of(inputs),
         load_case(inputs),
         WheelState(asked["state"]),
-        asked["count"],
+        asked["count"] + 1,
         load=asked["load"],
         grip=asked["grip"],
         progress=lambda share: progress(0.8 * share),
     )
     half = "symmetry" in mesh.faces
     part = _part_of_points(mesh)
-    kept = KeptModes(modes=found.modes, parts=tuple(mesh.parts), part=part, half=half)
+    modes = found.modes.whole_pairs(asked["count"])
+    kept = KeptModes(modes=modes, parts=tuple(mesh.parts), part=part, half=half)
     write_modes(kept, out / MODES)
-    write_shapes(mesh.points, mesh.cells, found.modes.shape, out / FIELDS)
+    write_shapes(mesh.points, mesh.cells, modes.shape, out / FIELDS)
     draw(kept, out / FIELDS, out / PICTURE)
     numbers = {
         "dofs": found.dofs,

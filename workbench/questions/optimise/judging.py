@@ -166,8 +166,8 @@ def best(points: Sequence[Assessed], wish: Wish) -> Assessed | None:
 
 
 def nearest(points: Sequence[Assessed]) -> Assessed:
-    """The point that misses the limits by least."""
-    return min(points, key=lambda point: (point.missed, point.number))
+    """The point that misses the limits by least; one without a curve or an objective only where there is no other."""
+    return min(points, key=lambda p: (p.outcome.curve is None, p.objective is None, p.missed, p.number))
 
 
 def front(points: Sequence[Assessed], section: OptimiseSection) -> list[Assessed]:

@@ -37,8 +37,9 @@ def told_buckling(point: Assessed, section: OptimiseSection) -> str:
 
 
 def told_verdict(point: Assessed) -> str:
-    """``"within the limits"``, ``"breaks a limit"``, ``"buckles"`` or both of these."""
+    """``"within the limits"``, or what of ``"breaks a limit"``, ``"buckles"`` and ``"has no objective"`` is so."""
     found = [*(["breaks a limit"] if _limits_missed(point) else []), *(["buckles"] if point.misses[STABILITY] else [])]
+    found += ["has no objective"] if point.objective is None else []
     return " and ".join(found) or "within the limits"
 
 
