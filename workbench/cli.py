@@ -21,6 +21,7 @@ from workbench.commands.calibrate_app import calibrate_app
 from workbench.commands.ending import complain, flushed, full_disk
 from workbench.commands.options import (
     DEFAULT_STORE,
+    LongCommand,
     Ranks,
     Scheduler,
     StoreOption,
@@ -64,7 +65,7 @@ def whole(
         raise typer.Exit
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def report(
     study: StudyOrBuiltIn = None,
     out: Annotated[Path, typer.Option(help="Folder of report.html, summary.json, junit.xml and curves.")] = Path(
@@ -147,7 +148,7 @@ def mesh(
     raise typer.Exit(run_mesh_of(study, model, orientation, tuple(deflection or ()), out, store))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def stiffness(
     study: StudyArgument,
     model: Annotated[
@@ -222,7 +223,7 @@ def stiffness(
     raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who, ground))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def modes(
     study: StudyOrBuiltIn = None,
     model: Annotated[str, typer.Option(help="fe, ancf_wheel (the wheel as plates), or both, held together.")] = "fe",
@@ -252,7 +253,7 @@ def modes(
     raise typer.Exit(run_modes(study, choices, out, store, computing(workers, 1, None)))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def sweep(
     study: StudyArgument,
     out: Annotated[Path, typer.Option(help="Folder of sweep.csv, sweep.parquet and sweep.html.")] = Path("build/sweep"),
@@ -267,7 +268,7 @@ def sweep(
     raise typer.Exit(run_sweep(study, out, store, computing(workers, ranks, scheduler)))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def optimise(
     study: StudyArgument,
     out: Annotated[Path, typer.Option(help="Folder of optimise.html, optimise.csv, best.toml.")] = Path(
@@ -287,7 +288,7 @@ def optimise(
     raise typer.Exit(run_optimise(study, out, store, computing(workers, ranks, scheduler)))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def sample(
     study: StudyOrBuiltIn = None,
     store: StoreOption = DEFAULT_STORE,
@@ -301,7 +302,7 @@ def sample(
     raise typer.Exit(run_sample(study, store, computing(workers, ranks, scheduler)))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def mission(
     study: StudyOrBuiltIn = None,
     tire: Annotated[
@@ -319,7 +320,7 @@ def mission(
     raise typer.Exit(run_mission(study, tire or (), store, computing(workers, ranks, scheduler)))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def traverse(
     study: StudyOrBuiltIn = None,
     tire: Annotated[
@@ -343,7 +344,7 @@ def traverse(
     raise typer.Exit(run_traverse(study, tire or (), asked, out, store, computing(workers, ranks, scheduler)))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def roll(
     study: StudyOrBuiltIn = None,
     case: Annotated[str, typer.Option(help="rolling, drop or half_round.")] = "rolling",
@@ -373,7 +374,7 @@ def roll(
     raise typer.Exit(run_roll(study, choices, out, store))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def rover(
     scenario: Annotated[
         str | None, typer.Argument(help="Name of a scenario; --list shows them.", show_default=False)

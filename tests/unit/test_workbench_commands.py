@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib.metadata
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -38,6 +40,56 @@ def test_a_warning_is_of_bearable_length(capsys: pytest.CaptureFixture[str]) -> 
     assert long.startswith("workbench: warning: my/study.toml: kkk")
     assert long.endswith("kkk names no key of the study")
     assert short == "workbench: warning: my/study.toml: short"
+
+
+SAID_ON_A_TERMINAL = """
+import sys
+
+class Screen:
+    terminal, told = True, []
+    def isatty(self):
+        return self.terminal
+    def write(self, text):
+        self.told.append((text, sorted({"numpy", "rich.progress", "workbench.execution.runner"} & set(sys.modules))))
+    def flush(self):
+        pass
+
+from workbench.cli import app
+sys.stderr = Screen()
+Screen.terminal = sys.argv[1] == "terminal"
+try:
+    app(sys.argv[2:], standalone_mode=False)
+except Exception as error:
+    print(type(error).__name__)
+print(Screen.told)
+"""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("stiffness", "none.toml"), "stiffness none.toml"),
+        (("report", "none.toml"), "report none.toml"),
+        (("modes", "none.toml"), "modes none.toml"),
+        (("rover", "no_such_scenario"), "rover no_such_scenario"),
+        (("calibrate", "none.toml"), "thickness none.toml"),
+    ],
+)
+def test_a_long_command_says_at_once_what_it_is_about(arguments: tuple[str, ...], words: str) -> None:
+    """On a terminal, and before the libraries are loaded that take the time."""
+    for screen, told in (("terminal", [(f"{words}: loading and planning\n", [])]), ("pipe", [])):
+        call = [sys.executable, "-c", SAID_ON_A_TERMINAL, screen, *arguments]
+        ended = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True)
+        error, said = ended.stdout.splitlines()
+        assert error in ("InputError", "StudyError")
+        assert said == repr(told), screen
+
+
+def test_help_and_wrong_usage_are_not_announced() -> None:
+    for arguments in (("report", "--help"), ("report", "--nonsense")):
+        call = [sys.executable, "-c", SAID_ON_A_TERMINAL, "terminal", *arguments]
+        ended = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True)
+        assert ended.stdout.splitlines()[-1] == "[]"
 
 
 @pytest.mark.parametrize("distribution", NEEDED)

@@ -10,6 +10,7 @@ import typer
 from workbench.commands.options import (
     DEFAULT_STORE,
     DefaultCommand,
+    LongCommand,
     Ranks,
     Scheduler,
     StoreOption,
@@ -33,7 +34,7 @@ calibrate_app = typer.Typer(
 )
 
 
-@calibrate_app.command("thickness")
+@calibrate_app.command("thickness", cls=LongCommand)
 def calibrate_thickness(
     study: StudyOrBuiltIn = None,
     target: Annotated[
@@ -51,7 +52,7 @@ def calibrate_thickness(
     raise typer.Exit(run_calibrate(study, target, out, store, computing(workers, ranks, scheduler)))
 
 
-@calibrate_app.command("ancf")
+@calibrate_app.command("ancf", cls=LongCommand)
 def calibrate_ancf(
     study: StudyOrBuiltIn = None,
     tire: Annotated[
@@ -71,7 +72,7 @@ def calibrate_ancf(
     raise typer.Exit(run_calibrate_ancf(study, tire, out, store, computing(workers, ranks, scheduler)))
 
 
-@calibrate_app.command("brush")
+@calibrate_app.command("brush", cls=LongCommand)
 def calibrate_brush(
     study: StudyOrBuiltIn = None,
     model: Annotated[str, typer.Option(help="fe or ancf_wheel.")] = "fe",

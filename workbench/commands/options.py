@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 from contracts.errors import InputError
+from contracts.text import for_terminal
 
 if TYPE_CHECKING:
     from workbench.execution.runner import Computing
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = [
     "DEFAULT_STORE",
     "DefaultCommand",
+    "LongCommand",
     "Ranks",
     "Scheduler",
     "StoreOption",
@@ -69,6 +72,23 @@ class DefaultCommand(TyperGroup):
         if not args or (args[0] not in self.commands and args[0] != "--help"):
             args = [self.default, *args]
         return super().parse_args(ctx, args)
+
+
+class LongCommand(TyperCommand):
+    """A command that takes a while to begin: on a terminal it says at once what it is about, before anything is loaded.
+
+    Nothing is said where standard error is no terminal: what reads it there gets warnings and errors alone.
+    Verified by tests/unit/test_workbench_commands.py.
+    """
+
+    def invoke(self, ctx: Any) -> Any:
+        """Say so, then do it."""
+        if sys.stderr.isatty():
+            about = ctx.params.get("study") or ctx.params.get("scenario")
+            words = " ".join(str(one) for one in (ctx.info_name, about) if one)
+            sys.stderr.write(f"{for_terminal(words)}: loading and planning\n")
+            sys.stderr.flush()
+        return super().invoke(ctx)
 
 
 def computing(workers: int | None, ranks: int, scheduler: str | None) -> Computing:

@@ -13,6 +13,11 @@ __all__ = ["Left", "RemainingTime"]
 _TELLING = 0.02
 """Fraction from which on a running task's own pace says more than its expected cost."""
 
+_EVIDENCE = 0.05
+"""Share of all work that must be done before anything is said of the rest."""
+_BELIEVED = 60.0
+"""Work [s] that counts as done in the time that was foretold, against what finished tasks of other functions took."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Left:
@@ -34,12 +39,14 @@ class _Running:
 class RemainingTime:
     """Estimates the remaining wall time of a graph.
 
-    A task is expected to take its own cost times what finished tasks of the same function took per unit of cost, or,
-    where none has finished, what all finished ones took. A running task that says how far it is, is expected to go on
-    at its own pace. With the wall times W spent so far (finished and running tasks) in the time t, the work left takes
-    ``t W_left / W``, and at the least what the longest single task left takes. This holds for any number of workers,
-    which need not be known. A task that has run longer than expected is expected to take at least as long again as it
-    is late: what is left is then a bound from below.
+    A task is expected to take its own cost times what finished tasks of the same function took per unit of cost. Where
+    none has finished, its cost is believed, corrected by what all finished ones took: as if tasks of one minute had
+    taken just that besides, so that a single short task, which may have compiled first, says little of the rest. A
+    running task that says how far it is, is expected to go on at its own pace. With the wall times W spent so far
+    (finished and running tasks) in the time t, the work left takes ``t W_left / W``, and at the least what the longest
+    single task left takes. This holds for any number of workers, which need not be known. Nothing is said before a
+    twentieth of all work is done. A task that has run longer than expected is expected to take at least as long again
+    as it is late: what is left is then a bound from below.
 
     Parameters
     ----------
@@ -75,7 +82,7 @@ class RemainingTime:
         self._running.pop(name, None)
 
     def left(self, now: float) -> Left | None:
-        """Remaining time, None before anything has finished."""
+        """Remaining time, None before enough has finished."""
         walls, running, names = dict(self._walls), dict(self._running), list(self._left)
         if not walls or self._start is None:
             return None
@@ -89,13 +96,17 @@ class RemainingTime:
         spent = sum(walls.values()) + sum(now - one.start for one in running.values())
         if not each or spent <= 0.0:
             return Left(seconds=0.0) if not each else None
+        if spent < _EVIDENCE * (spent + sum(each)):
+            return None
         return Left(seconds=max((now - self._start) * sum(each) / spent, *each), at_least=late)
 
     def _expected(self, name: str, walls: dict[str, float]) -> float:
         """Expected wall time of a task [s]."""
         task = self._tasks[name]
-        alike = [other for other in walls if self._tasks[other].function == task.function] or list(walls)
-        return task.cost * sum(walls[other] for other in alike) / sum(self._tasks[other].cost for other in alike)
+        alike = [other for other in walls if self._tasks[other].function == task.function]
+        known, believed = (alike, 0.0) if alike else (list(walls), _BELIEVED)
+        took, cost = sum(walls[other] for other in known), sum(self._tasks[other].cost for other in known)
+        return task.cost * (believed + took) / (believed + cost)
 
 
 def _rest(running: _Running, expected: float, now: float) -> tuple[float, bool]:
