@@ -8,18 +8,24 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError, MemoryLimitError
+from contracts.hub_travel import Way
 from contracts.memory import MemoryBound
 from workbench.execution.memory import memory_warning
 from workbench.execution.task import Task, chain_costs, task_keys
 from workbench.questions.curve_graph import mesh_tasks, stiffness_tasks
-from workbench.questions.fe.foresight import solve_bytes, solve_seconds
+from workbench.questions.fe.foresight import modes_bytes, solve_bytes, solve_seconds
+from workbench.questions.modes.graph import AskedModes, modes_tasks
 from workbench.questions.study_graph import report_tasks
+from workbench.questions.travels import travel_tasks
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
 STUDY = read_study(built_in_study().parent / "exomars_hoops.toml")
-MEASURED = {23112: 395, 41544: 509, 79614: 731, 151092: 1124, 227196: 1610, 328896: 2219}
-"""Unknowns -> largest resident memory [MB] of a process that solved the wheel."""
+MEASURED = {15600: 324, 25416: 368, 53028: 514, 112608: 762, 133224: 875, 228240: 1330}
+MEASURED_ROUGH = {15600: 369, 25416: 443, 53028: 689, 112608: 1186, 133224: 1388, 228240: 2222}
+MEASURED_MODES = {15600: 845, 25416: 876, 43008: 1087, 53028: 1286, 112608: 2202, 133224: 2532, 228240: 4197}
+"""Unknowns -> largest resident memory [MB] of a process that solved the wheel, without and with friction, or found six
+modes; benchmarks/README.md, "Memory foretold"."""
 TIMED = {36612: 0.179, 91872: 0.464, 227196: 1.359}
 """Unknowns -> time of an iteration [s], benchmarks/README.md."""
 
@@ -37,6 +43,10 @@ def _solves(tasks: tuple[Task, ...]) -> list[Task]:
 def test_the_law_of_memory_is_what_was_measured() -> None:
     for unknowns, megabytes in MEASURED.items():
         assert solve_bytes(unknowns) == pytest.approx(1e6 * megabytes, rel=0.05)
+    for unknowns, megabytes in MEASURED_ROUGH.items():
+        assert solve_bytes(unknowns, rough=True) == pytest.approx(1e6 * megabytes, rel=0.05)
+    for unknowns, megabytes in MEASURED_MODES.items():
+        assert modes_bytes(unknowns) == pytest.approx(1e6 * megabytes, rel=0.05)
 
 
 def test_the_law_of_time_is_what_was_measured() -> None:
@@ -53,10 +63,10 @@ def test_unknowns_are_those_that_are_solved() -> None:
     assert all(task.memory > 0.0 for task in tasks if task.function == "workbench.questions.wheel.mesh_task:build")
 
 
-def test_a_mesh_ten_times_finer_needs_8_gb() -> None:
-    """And more than its share of the time."""
+def test_a_mesh_ten_times_finer_needs_7_gb() -> None:
+    """By the law, far beyond what it is fitted to; and more than its share of the time."""
     (solve,), (own,) = (_solves(stiffness_tasks(study, "fe", (0.0,))) for study in (_finer(10.0), STUDY))
-    assert solve.memory == pytest.approx(8.3e9, rel=0.05)
+    assert solve.memory == pytest.approx(6.6e9, rel=0.05)
     assert solve.cost / own.cost > solve.unknowns / own.unknowns > 20.0
 
 
@@ -66,6 +76,16 @@ def test_a_mesh_that_nothing_could_hold_is_refused_when_the_graph_is_made(times:
         stiffness_tasks(_finer(times), "fe", (0.0,))
     with pytest.raises(InputError, match="cells, at most"):
         mesh_tasks(_finer(times))
+
+
+def test_friction_takes_more_memory_and_modes_most() -> None:
+    """On the same mesh of 53 028 unknowns; a travel has friction whatever [fe] says."""
+    rough = STUDY.model_copy(update={"fe": STUDY.fe.model_copy(update={"friction": 0.3})})
+    (smooth,), (sliding,) = (_solves(stiffness_tasks(study, "fe", (0.0,))) for study in (STUDY, rough))
+    moved = travel_tasks(STUDY, "fe", (Way.WIND_UP,), 100.0, (0.0,))[-1]
+    modes = modes_tasks(STUDY, ("fe",), AskedModes(state="held", load=0.0, orientation_deg=0.0, count=6))[-1]
+    assert smooth.unknowns == sliding.unknowns == moved.unknowns == modes.unknowns
+    assert 1.3 * smooth.memory < sliding.memory == moved.memory < 0.6 * modes.memory
 
 
 def test_expectations_are_no_part_of_a_key() -> None:
@@ -88,11 +108,11 @@ def test_who_has_most_before_it_starts_first() -> None:
 
 
 def test_a_mesh_from_another_program_is_counted_before_it_is_solved() -> None:
-    """The spiral wheel's 13 950 unknowns took 352 MB; divided in six along each axis they are many, and told."""
+    """The spiral wheel's 13 950 unknowns took 321 MB; divided in six along each axis they are many, and told."""
     study = read_study(built_in_study().parent / "spiral.toml")
     (own,) = _solves(stiffness_tasks(study, "fe", (0.0,)))
     assert own.unknowns == 13950
-    assert own.memory == pytest.approx(352e6, rel=0.05)
+    assert own.memory == pytest.approx(321e6, rel=0.05)
     fine = study.model_copy(update={"mesh": study.mesh.model_copy(update={"factor": 6})})
     mesh, solve = stiffness_tasks(fine, "fe", (0.0,))
     assert solve.unknowns > 100 * own.unknowns
