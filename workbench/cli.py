@@ -181,7 +181,9 @@ def stiffness(
     ] = False,
     obstacle: Annotated[
         str | None,
-        typer.Option(help="Press on a step, cleat or half_round in place of the study's ground (fe, section, ancf_wheel)."),
+        typer.Option(
+            help="Press on a step, cleat or half_round in place of the study's ground (fe, section, ancf_wheel)."
+        ),
     ] = None,
     height: Annotated[str | None, typer.Option(help="Of the obstacle, e.g. '20 mm'.")] = None,
     width: Annotated[str | None, typer.Option(help="Of a cleat, along the wheel's way.")] = None,

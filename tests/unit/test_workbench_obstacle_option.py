@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+
 import pytest
 
 from contracts.errors import InputError
@@ -86,7 +87,9 @@ def test_a_ground_in_a_few_words(text: str, table: dict[str, str]) -> None:
     assert obstacle_words(text) == table
 
 
-@pytest.mark.parametrize("text", ["", "plane 2 mm", "step", "cleat 20 mm", "half_round 9 mm x 2 mm", "cleat 1 x 2 x 3", 7])
+@pytest.mark.parametrize(
+    "text", ["", "plane 2 mm", "step", "cleat 20 mm", "half_round 9 mm x 2 mm", "cleat 1 x 2 x 3", 7]
+)
 def test_words_that_are_no_ground_are_refused(text: object) -> None:
     with pytest.raises(InputError):
         obstacle_words(text)

@@ -208,9 +208,15 @@ def test_keys_may_be_written_without_quotes() -> None:
         ({"temperature": ["-40 degC", "900 degC"], "models": ["fe"]}, r"point 2 .*temperature = 900 degC: .* data"),
         ({"temperature": ["-40 degC"]}, r"sweep.temperature = -40 degC: acts on the solid model only"),
         ({"fe.hub": ["rigid", "soft"]}, r"point 2 \(fe.hub = 'soft'\): fe.hub = 'soft': must be 'rigid' or"),
-        ({"obstacle": ["plane", "wall 9 mm"]}, r"point 2 \(obstacle = 'wall 9 mm'\): obstacle = .*is not known; give step"),
+        (
+            {"obstacle": ["plane", "wall 9 mm"]},
+            r"point 2 \(obstacle = 'wall 9 mm'\): obstacle = .*is not known; give step",
+        ),
         ({"obstacle": ["step 3 mm"]}, r"point 1 .*fe.obstacle.edge_radius = .*must not exceed the height"),
-        ({"obstacle": ["step 9 mm"], "models": ["brush"]}, r"sweep.obstacle = step 9 mm: acts on ancf_wheel, fe, section"),
+        (
+            {"obstacle": ["step 9 mm"], "models": ["brush"]},
+            r"sweep.obstacle = step 9 mm: acts on ancf_wheel, fe, section",
+        ),
         ({}, r"sweep.strip_thickness: must be given, or another key to vary"),
         ({"strip_thickness": []}, r"sweep.strip_thickness = \[\]: must be a list of values or a range"),
         ({"strip_thickness": "0.5 mm"}, r"must be a list of values or a range"),

@@ -228,7 +228,9 @@ def test_the_nearest_is_a_wheel_of_which_something_is_known() -> None:
 
 
 def test_an_objective_without_a_value_ends_the_search_with_a_message() -> None:
-    with pytest.raises(StudyError, match=r"optimise.objective: relative_l2 has no value at any of the first \d+ wheels"):
+    with pytest.raises(
+        StudyError, match=r"optimise.objective: relative_l2 has no value at any of the first \d+ wheels"
+    ):
         _found((8e12,), {"low": "8 N/mm", "high": "9 N/mm"}, objective={"least": "relative_l2"})
 
 

@@ -91,7 +91,9 @@ class PointBatches:
                     sweep_graph([study_point(self.path, self.base, number, {key: value})], sweep.models, sweep.moved)
                 except (StudyError, InputError) as error:
                     what = error.key.rpartition("): ")[2] if isinstance(error, StudyError) else error.what
-                    found.append(f"{self.section}: {key} = {value} makes no wheel: {what} = {error.value}: {error.rule}")
+                    found.append(
+                        f"{self.section}: {key} = {value} makes no wheel: {what} = {error.value}: {error.rule}"
+                    )
         return found
 
     def run(
