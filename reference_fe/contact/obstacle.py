@@ -65,8 +65,6 @@ class ObstacleContact:
     method : penalty or augmented Lagrangian
     penetration_tolerance : largest depth, or gap under pressure, that the augmented Lagrangian leaves at a point [m];
         its ramp is at most twice that
-    soil : modulus k [N/m^(n+2)] and exponent n of soil that the obstacle is of, plane and without friction; its
-        pressure is k z^n on the level area of what lies z deep. None is a rigid obstacle
     friction : Coulomb coefficient mu [-]
     stick_ratio : stiffness of sticking over penalty stiffness [-]: elastic slip before sliding is mu p / (ratio k)
     """
@@ -83,7 +81,6 @@ class ObstacleContact:
     gauss_points: int = 5
     method: ContactMethod = ContactMethod.PENALTY
     penetration_tolerance: float = 5e-7
-    soil: tuple[float, float] | None = None
     friction: float = 0.0
     stick_ratio: float = 1.0
 
@@ -98,8 +95,6 @@ class ObstacleContact:
         if self.travel is not None and not isinstance(self.obstacle, Plane):
             rule = "must be a plane if the wheel is moved over it"
             raise InputError("obstacle", type(self.obstacle).__name__, rule, "leave out the travel")
-        if self.soil is not None:
-            _require_soil(self)
         positive = {
             "contact stiffness": (self.stiffness, "N/m^3", "None takes it from the local stiffness"),
             "contact ramp": (self.ramp, "m", "5e-6 is usual"),
@@ -136,10 +131,6 @@ class ObstacleContact:
 
     def build(self, domain: Domain, V: api.Expr, young_modulus: NDArray[np.float64] | None = None) -> ObstacleTerm:
         """The term on a mesh; without a stiffness it needs every own cell's Young modulus [Pa], 0 where rigid."""
-        if self.soil is not None:
-            from reference_fe.contact.soil_ground import SoilTerm
-
-            return SoilTerm(self, domain, V, young_modulus)
         return ObstacleTerm(self, domain, V, young_modulus)
 
 
@@ -179,7 +170,7 @@ class ObstacleTerm:
         self._multiplier = np.zeros_like(self._out.pressure)
         self._accepted_multiplier = np.zeros_like(self._out.pressure)
         self._dissipated = np.zeros(1)
-        self._level_share = np.zeros((0, 0))
+        self._soil, self._level_share = (0.0, 0.0), np.zeros((0, 0))
 
     def couplings(self) -> NDArray[np.int64]:
         """Nodes of each facet, (n_facets, n_nodes)."""
@@ -316,22 +307,9 @@ class ObstacleTerm:
             ramp=self._ramp,
             friction=contact.friction,
             stick=self._stick,
-            soil=contact.soil or (0.0, 0.0),
+            soil=self._soil,
             level_share=self._level_share,
         )
-
-
-def _require_soil(contact: ObstacleContact) -> None:
-    """Refuse what the law of soil does not know."""
-    assert contact.soil is not None
-    modulus, exponent = contact.soil
-    if not (math.isfinite(modulus) and modulus > 0.0 and math.isfinite(exponent) and exponent > 0.0):
-        value = f"k = {modulus:g}, n = {exponent:g}"
-        raise InputError("soil", value, "must have a modulus and an exponent above zero", "take a known soil")
-    odd = not isinstance(contact.obstacle, Plane), contact.friction > 0.0, contact.closes_gaps
-    if any(odd) or contact.travel is not None:
-        rule = "presses as a plane, without friction, by its depth alone"
-        raise InputError("soil", "with an obstacle, friction, multipliers or a travel", rule, "leave them out")
 
 
 def moment_of(x: NDArray[np.float64], f: NDArray[np.float64]) -> NDArray[np.float64]:

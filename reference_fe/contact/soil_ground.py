@@ -7,27 +7,65 @@ each solve has a symmetric tangent. Verified by tests/verification/test_fe_soil.
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
+from contracts.errors import InputError
 from reference_fe import dolfinx_api as api
 from reference_fe.contact.facets import gauss_line
 from reference_fe.contact.obstacle import ObstacleContact, ObstacleTerm
+from reference_fe.contact.obstacles import Plane
 from reference_fe.contact.surface_term import TermState
 from reference_fe.problem.domain import Domain
 
-__all__ = ["SoilTerm"]
+__all__ = ["SoilContact", "SoilTerm"]
 
 FloatArray = NDArray[np.float64]
 _SETTLED = 1e-4
 """Change of the level share below which it is left [-]."""
 
 
-class SoilTerm(ObstacleTerm):
-    """Surface term of an `ObstacleContact` with soil."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SoilContact(ObstacleContact):
+    """Contact with a plane of soil; the penalty's attributes are of no use to it.
 
-    def __init__(self, contact: ObstacleContact, domain: Domain, V: api.Expr, young_modulus: FloatArray | None) -> None:
+    Attributes
+    ----------
+    modulus, exponent : k [N/m^(n+2)] and n of p = k z^n
+
+    Raises
+    ------
+    InputError
+        For numbers that are not above zero; with an obstacle, friction, multipliers or a travel.
+    """
+
+    modulus: float
+    exponent: float
+
+    def __post_init__(self) -> None:
+        ObstacleContact.__post_init__(self)
+        if not all(math.isfinite(one) and one > 0.0 for one in (self.modulus, self.exponent)):
+            value = f"k = {self.modulus:g}, n = {self.exponent:g}"
+            raise InputError("soil", value, "must have a modulus and an exponent above zero", "take a known soil")
+        odd = not isinstance(self.obstacle, Plane), self.friction > 0.0, self.closes_gaps, self.travel is not None
+        if any(odd):
+            rule = "presses as a plane, without friction, by its depth alone"
+            raise InputError("soil", "with an obstacle, friction, multipliers or a travel", rule, "leave them out")
+
+    def build(self, domain: Domain, V: api.Expr, young_modulus: FloatArray | None = None) -> SoilTerm:
+        """The term on a mesh."""
+        return SoilTerm(self, domain, V, young_modulus)
+
+
+class SoilTerm(ObstacleTerm):
+    """Surface term of a `SoilContact`."""
+
+    def __init__(self, contact: SoilContact, domain: Domain, V: api.Expr, young_modulus: FloatArray | None) -> None:
         super().__init__(contact, domain, V, young_modulus)
+        self._soil = contact.modulus, contact.exponent
         self._slopes = _slopes(gauss_line(contact.gauss_points)[0])
         self._undeformed = np.linalg.norm(self._areas(self._facets.positions), axis=-1)
         self._level_share = self._share(self._facets.positions)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from reference_fe.contact.inner_pairs import wheel_contact_pairs
 from reference_fe.contact.obstacle import ObstacleContact
 from reference_fe.contact.obstacles import touch_level
 from reference_fe.contact.patch import contact_faces, facet_samples
+from reference_fe.contact.soil_ground import SoilContact
 from reference_fe.material.thermal_state import solve_thermal_state
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import Discretisation, StaticProblem
@@ -112,19 +114,22 @@ def ground_contact(shape: TaggedMesh, load_case: WheelLoadCase) -> ObstacleConta
     if load_case.faces is not None:
         faces = load_case.faces.ground
     points, _ = facet_samples(shape.points, contact_faces(shape, faces))
-    return ObstacleContact(
-        faces=faces,
-        normal=tuple(normal[axes].tolist()),
-        along=tuple(along[axes].tolist()),
-        obstacle=load_case.obstacle,
-        distance_at_touch=-touch_level(load_case.obstacle, points @ along[axes], points @ normal[axes]),
-        stiffness=load_case.contact_stiffness,
-        ramp=load_case.contact_ramp,
-        method=load_case.contact_method,
-        soil=load_case.soil,
-        friction=load_case.friction,
-        travel=load_case.travel,
-    )
+    where: dict[str, Any] = {
+        "faces": faces,
+        "normal": tuple(normal[axes].tolist()),
+        "along": tuple(along[axes].tolist()),
+        "obstacle": load_case.obstacle,
+        "distance_at_touch": -touch_level(load_case.obstacle, points @ along[axes], points @ normal[axes]),
+        "stiffness": load_case.contact_stiffness,
+        "ramp": load_case.contact_ramp,
+        "method": load_case.contact_method,
+        "friction": load_case.friction,
+        "travel": load_case.travel,
+    }
+    if load_case.soil is None:
+        return ObstacleContact(**where)
+    modulus, exponent = load_case.soil
+    return SoilContact(modulus=modulus, exponent=exponent, **where)
 
 
 def ground_axes(down: NDArray[np.float64], load_case: WheelLoadCase) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

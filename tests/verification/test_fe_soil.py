@@ -23,8 +23,9 @@ from contracts.hub_travel import HubTravel, Way
 from geometry.build import build_mesh
 from geometry.wheel import WheelDesign, exomars_hoops
 from reference_fe import dolfinx_api as api
-from reference_fe.contact.obstacle import ObstacleContact, ObstacleTerm
+from reference_fe.contact.obstacle import ObstacleTerm
 from reference_fe.contact.obstacles import HalfRoundRock
+from reference_fe.contact.soil_ground import SoilContact
 from reference_fe.problem.domain import Domain
 from reference_fe.verification.structured_hexahedra import block_mesh
 from reference_fe.wheel.case import WheelLoadCase
@@ -42,13 +43,14 @@ def plate(tilt: float = 0.0, soil: tuple[float, float] = (MODULUS, EXPONENT)) ->
     """A block of 1 m whose lower face, at z = 0 about the origin, stands on soil tilted about y [rad]."""
     domain = Domain.from_tagged(block_mesh((2, 2, 1), lambda X: X - [0.5, 0.5, 0.0]))
     V = api.fem.functionspace(domain.mesh, ("Lagrange", 2, (3,)))
-    contact = ObstacleContact(
+    contact = SoilContact(
         faces=("z0",),
         normal=(math.sin(tilt), 0.0, math.cos(tilt)),
         along=(math.cos(tilt), 0.0, -math.sin(tilt)),
         distance_at_touch=0.0,
         stiffness=1.0,
-        soil=soil,
+        modulus=soil[0],
+        exponent=soil[1],
     )
     return contact.build(domain, V), int(V.dofmap.index_map.size_global * 3)
 
@@ -116,16 +118,22 @@ def test_the_tangent_is_the_derivative_of_the_force() -> None:
 
 
 def test_what_soil_does_not_know_is_refused() -> None:
-    given = {"faces": ("z0",), "normal": (0.0, 0.0, 1.0), "distance_at_touch": 0.0, "soil": LAW}
+    given = {
+        "faces": ("z0",),
+        "normal": (0.0, 0.0, 1.0),
+        "distance_at_touch": 0.0,
+        "modulus": LAW[0],
+        "exponent": LAW[1],
+    }
     for odd in ({"friction": 0.3}, {"obstacle": HalfRoundRock(radius=0.1)}):
         with pytest.raises(InputError, match="presses as a plane"):
-            ObstacleContact(**given | odd)  # type: ignore[arg-type]
+            SoilContact(**given | odd)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="above zero"):
-        ObstacleContact(**given | {"soil": (0.0, 1.0)})  # type: ignore[arg-type]
+        SoilContact(**given | {"modulus": 0.0})  # type: ignore[arg-type]
     wheel = build_ancf_wheel(design(), element_size=40e-3, axial_size=60e-3)
     with pytest.raises(InputError, match="leave the friction out"):
         WheelOnGround(wheel, 0.0, friction=0.3, soil=LAW)
-    travel = HubTravel(way=Way.FORE_AFT, start=5e-3, steps=(1e-3,))
+    travel = HubTravel.along(way=Way.FORE_AFT, start=5e-3, steps=(1e-3,))
     with pytest.raises(InputError, match="leave the friction out"):
         WheelOnGround(wheel, 0.0, friction=0.3, travel=travel, soil=LAW)
 

@@ -21,10 +21,10 @@ from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.key_units import nameless
 from workbench.study.laws import other_law
 from workbench.study.model import DATA, Study
+from workbench.study.off_soil import without_soil
 from workbench.study.own_mesh import material_names
 from workbench.study.quantities import to_si
 from workbench.study.sections import ToleranceSection
-from workbench.study.soil_section import without_soil
 
 __all__ = [
     "GATES",

@@ -15,7 +15,7 @@ from workbench.questions.soil.graph import soil_tasks
 from workbench.questions.soil.measured import QUANTITIES
 from workbench.questions.soil.results import REQUIRED_SLOPE, OnSoil, read_on_soil
 from workbench.study.model import Study
-from workbench.study.soil_section import without_soil
+from workbench.study.off_soil import without_soil
 from workbench.verdict.rules import Claim, at_least, at_most
 
 __all__ = ["SOIL"]
