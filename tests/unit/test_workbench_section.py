@@ -109,7 +109,8 @@ def test_a_law_without_planar_form_leaves_the_topic_out(study: Study) -> None:
 
 def test_springs_that_bend_out_of_the_plane_leave_it_out_too(study: Study) -> None:
     springs = SimpleNamespace(name="sides", material="Ti-6Al-4V")
-    closed = study.model_copy(update={"wheel": study.wheel.model_copy(update={"sidewall_springs": springs})})
+    changed = study.wheel.model_copy(update={"sidewall_springs": springs})
+    closed = study.model_copy(update={"wheel": changed, "soil": None})
     assert "section" not in {t.name for t in questions_of(closed)}
     with pytest.raises(InputError, match="out of the plane"):
         stiffness_tasks(closed, "section", [])

@@ -24,6 +24,7 @@ from workbench.study.ancf_wheel import without_ancf_wheel
 from workbench.study.model import Study, stated
 from workbench.study.off_soil import without_soil
 from workbench.study.soil_file import soil_of
+from workbench.study.wheel_design import wheel_design
 
 __all__ = [
     "AT_REST",
@@ -80,14 +81,14 @@ def soil_tasks(study: Study) -> list[Task]:
 
 def at_rest_orientation(study: Study) -> float:
     """What faces the ground of the wheel at rest [deg]: half way between two grousers, where it has any."""
-    lugs = study.parametric.grousers
+    lugs = wheel_design(study).grousers
     return 0.0 if lugs is None else round(math.degrees(lugs.phase) % 360.0 + 180.0 / lugs.count, 6)
 
 
 def _at_rest(study: Study, soil: Soil) -> list[Task]:
     """The wheel pressed into a soil by the solid model, and by plates where the study has them."""
     section, orientation = stated(study.soil, "soil"), at_rest_orientation(study)
-    law = [soil.modulus(study.parametric.tire.width), soil.exponent]
+    law = [soil.modulus(wheel_design(study).tire.width), soil.exponent]
     deepest = study.fe.max_deflection
     changed: dict[str, Any] = {
         "soil": law,
