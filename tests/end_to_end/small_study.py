@@ -28,6 +28,8 @@ CHANGES = {
     r"temperatures = \[[^\]]*\]": 'temperatures = ["-40 degC", "20 degC"]',
     r"factors = \[1, 2, 3\]": "factors = [1, 1.5, 2]",
     r'\["10 mm", "30 mm"\]': '["6 mm"]',
+    r"\[soil\][^\[]*\[[^\[]*(?=\n\[)": "",
+    r"soil_models = .*\n": "",
     r"\[hub_study\][^\[]*\[[^\[]*\n(?=\[)": "",
     r'\[penalty_study\][^\[]*deflection = "[^"]*"\n': "",
     r'\norientation = "(?!0)[^"]*"': '\norientation = "0 deg"',

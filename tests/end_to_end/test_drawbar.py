@@ -107,7 +107,7 @@ def test_what_cannot_be_is_one_message(studies: Path, options: tuple[str, ...], 
         (("exponent = 1.1", "exponant = 1.1"), "exponant"),
         (('["9.7 mm", "13.1 mm"]', '["13.1 mm", "9.7 mm"]'), "[low, high]"),
         (("exponent = 1.1\n", ""), "exponent"),
-        (("exponent = 1.1", "exponent = "), "is no TOML"),
+        (("exponent = 1.1", "exponent = "), "is not valid TOML"),
         (('["9.7 mm", "13.1 mm"]', "[]"), "[low, high]"),
     ],
 )

@@ -85,5 +85,5 @@ FE = Question(
     checks=_checks,
     figures=_figures,
     curves=lambda study, results: [*results.curves, *(back.curve for back in results.unloadings.values())],
-    budget=1190,
+    budget=1300,
 )

@@ -222,5 +222,5 @@ ROVER = Question(
     figures=_figures,
     series=_series,
     applies=_asked,
-    budget=1180,
+    budget=1260,
 )

@@ -23,7 +23,6 @@ def soil_figures(benches: Sequence[Bench], held: Held) -> dict[str, str]:
             style = {"color": colour, "width": 2.2, "dash": dash}
             pulls.add_scatter(x=slip, y=pull, name=f"{bench.soil}{name}", mode="lines", line=style)
     pulls.update_yaxes(rangemode="normal")
-    pulls.update_layout(height=215)
     measured = low_figure("slip", "drawbar pull [N]")
     measured.add_scatter(
         x=held.slip, y=[row[0] for row in held.measured], name="measured", mode="markers", marker={"color": "#1a1a1a"}

@@ -135,6 +135,6 @@ STRENGTH: Question = Question(
     read=_read,
     checks=_checks,
     figures=strength_figures,
-    budget=700,
+    budget=740,
     applies=judges_strength,
 )

@@ -166,5 +166,5 @@ WHEEL = Question(
     read=read_wheel,
     checks=_checks,
     figures=_figures,
-    budget=690,
+    budget=760,
 )

@@ -83,5 +83,5 @@ WORDS = Question(
     figures=words_figures,
     curves=_curves,
     applies=asked,
-    budget=1000,
+    budget=1050,
 )
