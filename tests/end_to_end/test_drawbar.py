@@ -116,3 +116,9 @@ def test_a_soil_file_that_cannot_be_is_one_message(studies: Path, change: tuple[
     run = drawbar("exomars.toml", "--tire", "rigid", "--soil", "odd.toml", "--out", "refused", cwd=studies)
     assert (run.returncode, run.stderr.count("\n")) == (2, 1), run.stderr
     assert word in run.stderr
+
+
+def test_the_kept_rim_names_no_place_of_this_machine() -> None:
+    kept = (ROOT / "studies" / "exomars.kept" / "carcass_fe.json").read_text(encoding="utf-8")
+    assert '"workbench drawbar --tire fe"' in kept
+    assert str(ROOT) not in kept

@@ -74,7 +74,8 @@ def run_drawbar(study_path: Path | None, choices: DrawbarChoices, out: Path, sto
     check_targets(out, _FILES)
     with naming(path):
         design = wheel_design(study)
-        carcass = _carcass(study, path, choices.tire, (store, computing))
+        typed = "" if study_path is None else f"{shlex.quote(str(study_path))} "
+        carcass = _carcass(study, (path, typed), choices.tire, (store, computing))
         bench = run_bench(wheel_on_soil(design, carcass), soil, load, slips, gravity, towed=choices.towed)
     _print(bench, choices.tire)
     title = f"{study.name} on {soil.name} under {load:g} N, g = {gravity:g} m/s²"
@@ -112,8 +113,12 @@ def slips_of(text: str | None) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _carcass(study: Study, path: Path, tire: str, where: tuple[Path, Computing]) -> Carcass:
-    """How the rim of the study's wheel gives way by a model: kept beside the study, else found and kept."""
+def _carcass(study: Study, given: tuple[Path, str], tire: str, where: tuple[Path, Computing]) -> Carcass:
+    """How the rim of the study's wheel gives way by a model: kept beside the study, else found and kept.
+
+    given : the study's file, and how the user named it
+    """
+    path, typed = given
     if tire not in CARCASS_MODELS:
         return RIGID
     tasks, name = carcass_tasks(study, tire), carcass_name(tire)
@@ -131,7 +136,7 @@ def _carcass(study: Study, path: Path, tire: str, where: tuple[Path, Computing])
     except InputError as error:
         warn(path, [f"the rim's compliance is not kept beside it: {error}"])
     else:
-        again = f"workbench drawbar {shlex.quote(str(path))} --tire {tire} --soil ding2011 --load 200"
+        again = f"workbench drawbar {typed}--tire {tire}"
         keep(study, name, again, tasks, time.monotonic() - begun, found)
     return _read(found)
 
