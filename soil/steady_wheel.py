@@ -27,25 +27,21 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Annotated, NamedTuple
+from typing import Annotated
 
 import numpy as np
-from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from contracts.declared import In, PositiveLength, require_declared
 from contracts.errors import InputError
 from soil.carcass import RIGID, Carcass, RimShape, shape_under
-from soil.laws import lug_thrust, mobilised, rebound, slip_sinkage
+from soil.contour import Contour, PressureLaw, contour_of, hub_heights, integrated
+from soil.laws import lug_thrust, mobilised, slip_sinkage
 from soil.soil import Soil
 
 __all__ = ["WheelOnSoil", "WheelState", "standing_wheel", "steady_wheel", "towed_wheel"]
 
 FloatArray = NDArray[np.float64]
-_NODES = 40
-"""Gauss points of each of the two regions."""
-_FARTHEST = 1.5
-"""Largest angle of contact [rad]."""
 _RELAXED, _MEMORY, _ROUNDS, _SETTLED = 0.5, 4, 100, 1e-8
 """Share of a new shape that is taken, rounds that are mixed, rounds at most, and how far the last moves the shape over
 R."""
@@ -121,44 +117,8 @@ class WheelState:
     efficiency: float
 
 
-class _Contour(NamedTuple):
-    """Along the contact, from the first contact backwards.
-
-    ends [rad] and depth of the deepest point [m]; at the points angle, weight of integration [rad], pressure [Pa], and
-    depth and the derivatives of x and depth over the angle [m].
-    """
-
-    ends: tuple[float, float]
-    deepest: float
-    angle: FloatArray
-    weight: FloatArray
-    pressure: FloatArray
-    depth: FloatArray
-    along: FloatArray
-    down: FloatArray
-
-
-class _Law(NamedTuple):
-    """p = modulus z^exponent behind and before ``top`` times theta_1; None of these for a wheel that stands."""
-
-    modulus: float
-    exponent: float
-    top: float | None
-
-
-def _integration() -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Gauss points on (0, 1), weights, and the matrix that integrates from 0 to each of them."""
-    x, w = legendre.leggauss(_NODES)
-    upto = np.empty((_NODES, _NODES))
-    for k in range(_NODES):
-        upto[:, k] = legendre.legval(x, legendre.legint(np.eye(_NODES)[k], lbnd=-1))
-    matrix = 0.5 * upto @ np.linalg.inv(legendre.legvander(x, _NODES - 1))
-    return 0.5 * (x + 1.0), 0.5 * w, matrix
-
-
 _NEAR = 1e-4
 """How far a changed shape moves the hub, about [m]."""
-_U, _W, _UPTO = _integration()
 
 
 def steady_wheel(wheel: WheelOnSoil, soil: Soil, load: float, slip: float, gravity: float) -> WheelState:
@@ -173,13 +133,13 @@ def steady_wheel(wheel: WheelOnSoil, soil: Soil, load: float, slip: float, gravi
         raise InputError("slip", f"{slip:g}", "must lie in [-4, 1)", "0 rolls, 0.2 is usual for a drive", key="slip")
     sunk = slip_sinkage(slip) ** soil.slip_sinkage
     top = soil.peak_rolling + soil.peak_slipping * max(slip, 0.0)
-    law = _Law(soil.modulus(wheel.width) / sunk**soil.exponent, soil.exponent, top)
+    law = PressureLaw(soil.modulus(wheel.width) / sunk**soil.exponent, soil.exponent, top)
     return _state(wheel, soil, law, load, (slip, gravity))
 
 
 def standing_wheel(wheel: WheelOnSoil, soil: Soil, load: float) -> WheelState:
     """The wheel pressed straight down under a load [N], without shear: the pressure that of the depth everywhere."""
-    return _state(wheel, soil, _Law(soil.modulus(wheel.width), soil.exponent, None), load, (0.0, 0.0))
+    return _state(wheel, soil, PressureLaw(soil.modulus(wheel.width), soil.exponent, None), load, (0.0, 0.0))
 
 
 def towed_wheel(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> WheelState:
@@ -205,7 +165,7 @@ def towed_wheel(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> 
     return steady_wheel(wheel, soil, load, slip, gravity)
 
 
-def _state(wheel: WheelOnSoil, soil: Soil, law: _Law, load: float, driven: tuple[float, float]) -> WheelState:
+def _state(wheel: WheelOnSoil, soil: Soil, law: PressureLaw, load: float, driven: tuple[float, float]) -> WheelState:
     """Shape and pressure that belong together under a load, and what follows; ``driven`` slip and gravity."""
     if not (math.isfinite(load) and load > 0.0):
         raise InputError("load of the wheel", f"{load:g} N", "must be above zero", "give e.g. 200 N", key="load")
@@ -244,10 +204,10 @@ def _mixed(shapes: Sequence[FloatArray], residuals: Sequence[FloatArray]) -> Flo
 def _carried(
     wheel: WheelOnSoil,
     soil: Soil,
-    law: _Law,
+    law: PressureLaw,
     asked: tuple[RimShape, float],
     known: tuple[tuple[float, float], float],
-) -> tuple[float, _Contour]:
+) -> tuple[float, Contour]:
     """Height of the hub at which a rim of a shape carries a load, and the contour there; ``known`` what drives it and
     the height found before, 0 if none.
     """
@@ -256,96 +216,20 @@ def _carried(
     (shape, load), (driven, last) = asked, known
 
     def carried(height: float) -> float:
-        return float(_forces(wheel, soil, _contour(wheel, soil, law, shape, height), driven)[0])
+        return float(_forces(wheel, soil, contour_of(wheel.radius, soil, law, shape, height), driven)[0])
 
-    low, high = _lowest_and_highest(wheel, shape)
+    low, high = hub_heights(wheel.radius, shape)
     if (most := carried(low)) < load:
         rule = f"must be below {most:.3g} N, where the wheel lies in the soil nearly up to its axle"
         raise InputError("load of the wheel", f"{load:g} N", rule, "give firmer soil or a larger wheel", key="load")
     if low + _NEAR < last < high - _NEAR and carried(last - _NEAR) > load > carried(last + _NEAR):
         low, high = last - _NEAR, last + _NEAR
     height = float(brentq(lambda at: carried(at) - load, low, high, xtol=1e-12, rtol=1e-12))
-    return height, _contour(wheel, soil, law, shape, height)
-
-
-def _lowest_and_highest(wheel: WheelOnSoil, shape: RimShape) -> tuple[float, float]:
-    """Heights of the hub [m] between which it is looked for: in the soil up to the farthest angle, barely touching."""
-    angle = np.linspace(-_FARTHEST, _FARTHEST, 601)
-    rim = (wheel.radius - shape.at(angle)[0]) * np.cos(angle)
-    return float(max(rim[0], rim[-1])) + 1e-9, float(rim.max()) - 1e-9 * wheel.radius
-
-
-def _contour(wheel: WheelOnSoil, soil: Soil, law: _Law, shape: RimShape, height: float) -> _Contour:
-    """Pressure and place along the contact of a rim of a shape whose hub is at a height [m]."""
-    entry = _crossing(wheel, shape, height, 1.0)
-    top = 0.0 if law.top is None else law.top * entry
-    front = entry - (entry - top) * _U**2
-    fore = _rim(wheel, shape, height, front)
-    if law.top is None:
-        behind = -_crossing(wheel, shape, height, -1.0)
-        rear = behind + (top - behind) * (1.0 - _U) ** 2
-        aft = _rim(wheel, shape, height, rear)
-        pressed = aft[0]
-    else:
-        peak = float(_rim(wheel, shape, height, np.array([top]))[0][0])
-        back = rebound(peak, law.modulus, law.exponent, soil.unloading_stiffness, soil.unloading_growth)
-        lowest = _deepest(wheel, shape, height, entry)
-        behind = min(-_crossing(wheel, shape, height + max(lowest - back, 0.0), -1.0), top - 1e-9)
-        rear = behind + (top - behind) * (1.0 - _U) ** 2
-        aft = _rim(wheel, shape, height, rear)
-        pressed = _rim(wheel, shape, height, top + (top - rear) * (entry - top) / (top - behind))[0]
-    depth = np.concatenate([fore[0], pressed])
-    return _Contour(
-        ends=(entry, behind),
-        deepest=_deepest(wheel, shape, height, entry),
-        angle=np.concatenate([front, rear]),
-        weight=np.concatenate([2.0 * (entry - top) * _U * _W, 2.0 * (top - behind) * (1.0 - _U) * _W]),
-        pressure=law.modulus * np.maximum(depth, 0.0) ** law.exponent,
-        depth=np.concatenate([fore[0], aft[0]]),
-        along=np.concatenate([fore[1], aft[1]]),
-        down=np.concatenate([fore[2], aft[2]]),
-    )
-
-
-def _deepest(wheel: WheelOnSoil, shape: RimShape, height: float, entry: float) -> float:
-    """Depth of the rim's lowest point [m], by a parabola through three of its points."""
-    angle = np.linspace(-entry, entry, 121)
-    depth = _rim(wheel, shape, height, angle)[0]
-    k = int(np.clip(np.argmax(depth), 1, len(depth) - 2))
-    before, most, after = depth[k - 1 : k + 2].tolist()
-    bend = before - 2.0 * most + after
-    return float(most - 0.125 * (after - before) ** 2 / bend) if bend < 0.0 else float(most)
-
-
-def _rim(
-    wheel: WheelOnSoil, shape: RimShape, height: float, angle: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Depth of the rim and the derivatives of x and depth over the angle [m]."""
-    w, dw = shape.at(angle)
-    reach, cosine, sine = wheel.radius - w, np.cos(angle), np.sin(angle)
-    return reach * cosine - height, reach * cosine - dw * sine, -reach * sine - dw * cosine
-
-
-def _crossing(wheel: WheelOnSoil, shape: RimShape, height: float, side: float) -> float:
-    """Angle [rad] from below the hub, forwards (side 1) or backwards (-1), up to which the rim lies deeper than H."""
-    from scipy.optimize import brentq
-
-    if not shape.cosines.any() and not shape.sines.any():
-        return math.acos(min(1.0, height / wheel.radius))
-
-    def depth(angle: float) -> float:
-        return float(_rim(wheel, shape, height, np.array([side * angle]))[0][0])
-
-    tried = np.linspace(0.0, _FARTHEST, 301)
-    above = np.flatnonzero(_rim(wheel, shape, height, side * tried)[0] > 0.0)
-    if not above.size:
-        return 1e-9
-    last = int(above[-1])
-    return float(brentq(depth, tried[last], tried[last + 1], xtol=1e-14)) if last < 300 else _FARTHEST
+    return height, contour_of(wheel.radius, soil, law, shape, height)
 
 
 def _forces(
-    wheel: WheelOnSoil, soil: Soil, contour: _Contour, driven: tuple[float, float]
+    wheel: WheelOnSoil, soil: Soil, contour: Contour, driven: tuple[float, float]
 ) -> tuple[float, float, float]:
     """Load [N], pull [N] and torque [N m]; a gravity of 0 is for a wheel that stands and does not shear."""
     slip, gravity = driven
@@ -355,7 +239,7 @@ def _forces(
     arc = np.hypot(contour.along, contour.down)
     numbers = soil.cohesion, soil.friction_angle, soil.density * gravity, soil.rim_angle
     strength = np.array([lug_thrust(one, numbers, wheel.lug, b) for one in p.tolist()])
-    sheared = _so_far(contour, wheel.shear_radius / wheel.radius * arc - (1.0 - slip) * contour.along)
+    sheared = integrated(contour, wheel.shear_radius / wheel.radius * arc - (1.0 - slip) * contour.along)
     tau = strength * np.array([mobilised(j, soil.shear_modulus)[0] for j in sheared.tolist()])
     return (
         b * float((p * contour.along - tau * contour.down) @ w),
@@ -364,16 +248,9 @@ def _forces(
     )
 
 
-def _so_far(contour: _Contour, rate: FloatArray) -> FloatArray:
-    """Integral of a rate over the angle from the first contact on, at each point."""
-    per_node = rate * contour.weight / np.tile(_W, 2)
-    front, rear = per_node[:_NODES], per_node[_NODES:]
-    return np.concatenate([_UPTO @ front, float(front @ _W) + _UPTO @ rear])
-
-
 def _told(
     wheel: WheelOnSoil,
-    contour: _Contour,
+    contour: Contour,
     hub: tuple[float, float],
     forces: tuple[float, float, float],
     driven: tuple[float, float],
