@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 __all__ = [
+    "lug_lines",
     "lug_thrust",
     "mobilised",
     "pressure_and_stiffness",
@@ -83,34 +84,34 @@ def slip_sinkage(slip: float) -> float:
     return (1.0 + s) / (1.0 - 0.5 * s)
 
 
-def lug_thrust(
-    pressure: float,
-    soil: tuple[float, float, float, float],
-    lug: tuple[float, float, float],
-    width: float,
-) -> float:
-    """Largest shear stress under a rim with lugs [Pa]: the weaker of two ways to fail.
+def lug_lines(
+    soil: tuple[float, float, float, float], lug: tuple[float, float, float], width: float
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The two ways in which the ground under a rim with lugs fails, each a line of the pressure: offset [Pa], slope.
 
     Along the tips soil shears on soil, with the sides of the lugs' track (Bekker 1969, as Wong quotes him):
     c (1 + 2 h / b) + p tan(phi) (1 + 0.64 h / b arccot(h / b)). Or each lug pushes its wedge out, in Rankine's passive
     state under the pressure p, while the rim slides between the lugs: p tan(delta) + F / pitch,
-    F = (gamma h^2 / 2 + p h) N_phi + 2 c h sqrt(N_phi). Without lugs the rim slides.
+    F = (gamma h^2 / 2 + p h) N_phi + 2 c h sqrt(N_phi). Without lugs the rim slides, which both lines say.
 
     Parameters
     ----------
-    pressure : p [Pa]
     soil : cohesion c [Pa], friction angle phi [rad], weight gamma [N/m^3], angle of friction at the rim delta [rad]
     lug : height h [m], pitch [m], 1 if there are any, else 0
     width : b of the wheel [m]
     """
     cohesion, angle, weight, rim = soil
     height, pitch, there = lug
-    slides = pressure * math.tan(rim)
+    slides = math.tan(rim)
     if there == 0.0 or height <= 0.0:
-        return slides
+        return (0.0, slides), (0.0, slides)
     ratio = height / width
-    tips = cohesion * (1.0 + 2.0 * ratio) + pressure * math.tan(angle) * (1.0 + 0.64 * ratio * math.atan(1.0 / ratio))
+    tips = cohesion * (1.0 + 2.0 * ratio), math.tan(angle) * (1.0 + 0.64 * ratio * math.atan(1.0 / ratio))
     passive = math.tan(0.25 * math.pi + 0.5 * angle) ** 2
-    pushed = (0.5 * weight * height * height + pressure * height) * passive
-    pushed += 2.0 * cohesion * height * math.sqrt(passive)
-    return min(tips, slides + pushed / pitch)
+    pushed = 0.5 * weight * height * height * passive + 2.0 * cohesion * height * math.sqrt(passive)
+    return tips, (pushed / pitch, slides + height * passive / pitch)
+
+
+def lug_thrust(pressure: float, tips: tuple[float, float], sides: tuple[float, float]) -> float:
+    """Largest shear stress [Pa] under a pressure p [Pa]: the weaker of the two ways to fail of `lug_lines`."""
+    return min(tips[0] + pressure * tips[1], sides[0] + pressure * sides[1])

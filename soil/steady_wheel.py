@@ -36,10 +36,10 @@ from contracts.declared import In, PositiveLength, require_declared
 from contracts.errors import InputError
 from soil.carcass import RIGID, Carcass, RimShape, shape_under
 from soil.contour import Contour, PressureLaw, contour_of, hub_heights, integrated
-from soil.laws import lug_thrust, mobilised, slip_sinkage
+from soil.laws import lug_lines, lug_thrust, mobilised, slip_sinkage
 from soil.soil import Soil
 
-__all__ = ["WheelOnSoil", "WheelState", "standing_wheel", "steady_wheel", "towed_wheel"]
+__all__ = ["WheelOnSoil", "WheelState", "standing_rim", "standing_wheel", "steady_wheel", "towed_wheel"]
 
 FloatArray = NDArray[np.float64]
 _RELAXED, _MEMORY, _ROUNDS, _SETTLED = 0.5, 4, 100, 1e-8
@@ -76,7 +76,7 @@ class WheelOnSoil:
 
     @property
     def lug(self) -> tuple[float, float, float]:
-        """Height and pitch [m], and 1 if there are lugs, as `laws.lug_thrust` takes them."""
+        """Height and pitch [m], and 1 if there are lugs, as `laws.lug_lines` takes them."""
         there = self.lugs > 0 and self.lug_height > 0.0
         return self.lug_height, 2.0 * math.pi * self.radius / max(self.lugs, 1), 1.0 if there else 0.0
 
@@ -134,11 +134,16 @@ def steady_wheel(wheel: WheelOnSoil, soil: Soil, load: float, slip: float, gravi
     sunk = slip_sinkage(slip) ** soil.slip_sinkage
     top = soil.peak_rolling + soil.peak_slipping * max(slip, 0.0)
     law = PressureLaw(soil.modulus(wheel.width) / sunk**soil.exponent, soil.exponent, top)
-    return _state(wheel, soil, law, load, (slip, gravity))
+    return _state(wheel, soil, law, load, (slip, gravity))[0]
 
 
 def standing_wheel(wheel: WheelOnSoil, soil: Soil, load: float) -> WheelState:
     """The wheel pressed straight down under a load [N], without shear: the pressure that of the depth everywhere."""
+    return standing_rim(wheel, soil, load)[0]
+
+
+def standing_rim(wheel: WheelOnSoil, soil: Soil, load: float) -> tuple[WheelState, RimShape]:
+    """`standing_wheel` with the shape of its rim."""
     return _state(wheel, soil, PressureLaw(soil.modulus(wheel.width), soil.exponent, None), load, (0.0, 0.0))
 
 
@@ -165,7 +170,9 @@ def towed_wheel(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> 
     return steady_wheel(wheel, soil, load, slip, gravity)
 
 
-def _state(wheel: WheelOnSoil, soil: Soil, law: PressureLaw, load: float, driven: tuple[float, float]) -> WheelState:
+def _state(
+    wheel: WheelOnSoil, soil: Soil, law: PressureLaw, load: float, driven: tuple[float, float]
+) -> tuple[WheelState, RimShape]:
     """Shape and pressure that belong together under a load, and what follows; ``driven`` slip and gravity."""
     if not (math.isfinite(load) and load > 0.0):
         raise InputError("load of the wheel", f"{load:g} N", "must be above zero", "give e.g. 200 N", key="load")
@@ -186,7 +193,7 @@ def _state(wheel: WheelOnSoil, soil: Soil, law: PressureLaw, load: float, driven
         rule = "must find a shape of its rim on this soil"
         raise InputError("flexible wheel", f"{load:g} N on {soil.name}", rule, "give a smaller load", key="load")
     below = float(shape.at(np.zeros(1))[0][0])
-    return _told(wheel, contour, (height, below), _forces(wheel, soil, contour, driven), driven)
+    return _told(wheel, contour, (height, below), _forces(wheel, soil, contour, driven), driven), shape
 
 
 def _mixed(shapes: Sequence[FloatArray], residuals: Sequence[FloatArray]) -> FloatArray:
@@ -238,7 +245,8 @@ def _forces(
         return b * float((p * contour.along) @ w), 0.0, 0.0
     arc = np.hypot(contour.along, contour.down)
     numbers = soil.cohesion, soil.friction_angle, soil.density * gravity, soil.rim_angle
-    strength = np.array([lug_thrust(one, numbers, wheel.lug, b) for one in p.tolist()])
+    lines = lug_lines(numbers, wheel.lug, b)
+    strength = np.array([lug_thrust(one, *lines) for one in p.tolist()])
     sheared = integrated(contour, wheel.shear_radius / wheel.radius * arc - (1.0 - slip) * contour.along)
     tau = strength * np.array([mobilised(j, soil.shear_modulus)[0] for j in sheared.tolist()])
     return (

@@ -53,6 +53,7 @@ __all__ = [
     "brush_result",
     "brush_scratch",
     "contact_size",
+    "empty_result",
     "hub_axes",
     "wheel_answer",
 ]
@@ -111,8 +112,12 @@ class BrushScratch(NamedTuple):
 
 def brush_result(wheels: int, terrain: TerrainPieces) -> BrushResult:
     """Arrays for the results of n wheels."""
-    n_state = 2 * len(terrain.rows)
-    return BrushResult(np.zeros((wheels, 6)), np.zeros((wheels, n_state)), np.zeros((wheels, OUTPUT_SIZE)))
+    return empty_result(wheels, 2 * len(terrain.rows))
+
+
+def empty_result(wheels: int, states: int) -> BrushResult:
+    """Arrays for the results of n wheels with so many states each."""
+    return BrushResult(np.zeros((wheels, 6)), np.zeros((wheels, states)), np.zeros((wheels, OUTPUT_SIZE)))
 
 
 def brush_scratch(terrain: TerrainPieces) -> BrushScratch:

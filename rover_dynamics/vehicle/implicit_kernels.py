@@ -28,14 +28,14 @@ from rover_dynamics.multibody.small_matrices import product
 from rover_dynamics.multibody.tree_arrays import TreeMotion, tree_memory
 from rover_dynamics.multibody.tree_forces import bias_and_mass, needed_efforts
 from rover_dynamics.multibody.tree_kernels import move_tree, tree_motion
-from rover_dynamics.tires.brush_derivatives import brush_derivatives
-from rover_dynamics.tires.brush_force import BrushResult, HubMotions, brush_forces
+from rover_dynamics.tires.brush_force import BrushResult, HubMotions
+from rover_dynamics.vehicle.ground import tire_derivatives, tire_forces
 from rover_dynamics.vehicle.implicit_method import Known, Moment
 from rover_dynamics.vehicle.linearisation import changes, linearise
 from rover_dynamics.vehicle.motor_kernels import add_motor_torques
 from rover_dynamics.vehicle.system import Newton, System, Work
 
-__all__ = ["evaluate", "implicit_step"]
+__all__ = ["evaluate", "hub_motions", "implicit_step"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -87,7 +87,7 @@ def _tires(system: System, motion: TreeMotion, s: FloatArray, result: BrushResul
     """Motions of the hubs, and the tires' wrenches on all bodies; fills ``result``."""
     tires = system.tires
     hubs, wrenches = hub_motions(motion, tires.bodies), np.zeros((len(system.tree.body_links), 6))
-    brush_forces(hubs, s, tires.numbers, tires.pieces, result, tires.scratch)
+    tire_forces(hubs, s, tires, result)
     for i in range(len(tires.bodies)):
         for n in range(6):
             wrenches[tires.bodies[i], n] += result.wrench[i, n]
@@ -186,8 +186,7 @@ def implicit_step(
         other_length, due = changes(work.newton, dt, result.output)
         other_length = other_length or switched
         if due or iteration % _FRESH == _FRESH - 1:
-            memory = tires.scratch, tires.pair
-            brush_derivatives(hubs, after.s, tires.numbers, tires.pieces, work.derivatives, memory)
+            tire_derivatives(hubs, after.s, tires, work.derivatives)
             work.newton.made_for[1] = 0.0
             other_length, limit = True, method.tolerance
         if other_length:

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from contracts.terrain import TerrainPieces
 from rover_dynamics.multibody.tree_kernels import Tree
-from rover_dynamics.tires.brush_force import BrushResult, BrushScratch, brush_result
+from rover_dynamics.soil.field import SoilGround
+from rover_dynamics.tires.brush_force import BrushResult, BrushScratch, empty_result
 from rover_dynamics.tires.brush_settings import WheelNumbers
 from rover_dynamics.vehicle.motor_kernels import MotorNumbers
 
@@ -30,6 +31,7 @@ class Tires(NamedTuple):
     bodies : (n_w,) int, rows of the wheels' bodies
     numbers, pieces : of the wheels, of the terrain
     scratch, pair : working memory of `brush_derivatives`
+    soil : what they stand on instead of the terrain, or None
     """
 
     bodies: IntArray
@@ -37,6 +39,7 @@ class Tires(NamedTuple):
     pieces: TerrainPieces
     scratch: BrushScratch
     pair: BrushResult
+    soil: SoilGround | None
 
 
 class System(NamedTuple):
@@ -97,7 +100,7 @@ class Work(NamedTuple):
 
 def work_for(system: System) -> Work:
     """Working memory of a vehicle's steps."""
-    result = brush_result(len(system.tires.bodies), system.tires.pieces)
+    result = empty_result(len(system.tires.bodies), system.tires.pair.rate.shape[1])
     n_w, n_s = result.rate.shape
     n_f, n_v = len(system.free), int(system.tree.v_at[-1])
     newton = Newton(

@@ -17,12 +17,14 @@ from rover_dynamics.multibody.generalised_alpha import generalised_alpha
 from rover_dynamics.multibody.implicit_steps import ImplicitSteps
 from rover_dynamics.multibody.model import MultibodyModel
 from rover_dynamics.multibody.tree_kernels import tree_motion
+from rover_dynamics.soil.cells import keep_step
+from rover_dynamics.soil.field import Ruts, SoilBed, ruts_of
 from rover_dynamics.tires.brush_derivatives import derivative_result
-from rover_dynamics.tires.brush_force import BrushResult, brush_scratch
+from rover_dynamics.tires.brush_force import BrushResult, brush_scratch, empty_result
 from rover_dynamics.tires.brush_settings import BrushSettings, wheel_numbers
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters
 from rover_dynamics.vehicle.drive_control import DriveControl, Motoring
-from rover_dynamics.vehicle.implicit_kernels import evaluate, implicit_step
+from rover_dynamics.vehicle.implicit_kernels import evaluate, hub_motions, implicit_step
 from rover_dynamics.vehicle.implicit_method import Moment, rescaled
 from rover_dynamics.vehicle.joint_actions import JointActions, JointEffort
 from rover_dynamics.vehicle.motors import JointMotor
@@ -49,6 +51,7 @@ class Vehicle:
     wheels : names of the wheels' bodies; y of their frames is the axle
     terrain : the ground
     tire, settings : of all wheels
+    soil : what they stand on instead of the terrain, wheels of its own kind; or None
     efforts : torques and forces in joints
     motors, control : of the wheels, one each in their order or none, and what they are told
 
@@ -63,6 +66,7 @@ class Vehicle:
     terrain: Terrain
     tire: BrushTireParameters = THESIS_BRUSH
     settings: BrushSettings = field(default_factory=BrushSettings)
+    soil: SoilBed | None = None
     efforts: tuple[JointEffort, ...] = ()
     motors: tuple[JointMotor, ...] = ()
     control: DriveControl = field(default_factory=DriveControl)
@@ -101,6 +105,7 @@ class VehicleMotion:
     wrenches : (n, n_w, 6) float, on the hubs, world [N, N m]
     efforts : (n, n_d + n_m) float, of the drives, in the order of the model's, then of the motors [N m, N]
     steps, iterations, rejected : counts
+    ruts : what the wheels left in soil, or None
     """
 
     times: FloatArray
@@ -113,6 +118,7 @@ class VehicleMotion:
     steps: int
     iterations: int
     rejected: int
+    ruts: Ruts | None = None
 
 
 def drive_vehicle(vehicle: Vehicle, times: FloatArray, steps: ImplicitSteps | None = None) -> VehicleMotion:
@@ -161,8 +167,10 @@ class _Run:
         vehicle, actions = self.vehicle, self.actions
         pieces = vehicle.terrain.pieces()
         wheels = np.array([vehicle.model.number(name) for name in vehicle.wheels], dtype=np.int64)
+        soil = None if vehicle.soil is None else vehicle.soil.ground(len(wheels))
+        pair = derivative_result(pieces) if soil is None else empty_result(2, soil.states)
         numbers = wheel_numbers(vehicle.tire, vehicle.settings)
-        tires = Tires(wheels, numbers, pieces, brush_scratch(pieces), derivative_result(pieces))
+        tires = Tires(wheels, numbers, pieces, brush_scratch(pieces), pair, soil)
         gravity = np.array(vehicle.model.gravity, dtype=np.float64)
         tree, free, driven = actions.coordinates.tree, actions.free, actions.driven
         return System(tree, tires, gravity, free, driven, actions.driven_q, actions.motors)
@@ -171,6 +179,8 @@ class _Run:
         """State and consistent accelerations at t [s]; the method's own begin as these."""
         q, v = self.actions.start(t)
         s = np.zeros_like(self.result.rate)
+        if self.vehicle.soil is not None:
+            s[:] = self.vehicle.soil.standing()[1]
         known, free = self.actions.known(t), self.system.free
         _, _, h, M = evaluate(self.system, q, v, s, self.result)
         a = np.zeros(len(h))
@@ -202,13 +212,28 @@ class _Run:
     def _step(self, before: Moment, end: float, dt: float) -> tuple[float, Moment]:
         """Estimated error of a step, infinite if Newton's method fails, and the end of the step."""
         known = self.actions.known(end)
+        self._clock(dt)
         converged, iterations, error, after = implicit_step(self.system, before, known, dt, self.method, self.work)
         self.iterations += iterations
         if not converged or not np.isfinite(error):
             error = np.inf
         self.accepted += self.steps.accepts(error)
         self.rejected += not self.steps.accepts(error)
+        if self.steps.accepts(error):
+            self._keep_in_soil(after)
+        self._clock(0.0)
         return error, after
+
+    def _clock(self, dt: float) -> None:
+        """Tell the soil the length of the step under way [s]; 0 between steps."""
+        if self.system.tires.soil is not None:
+            self.system.tires.soil.field.clock[0] = dt
+
+    def _keep_in_soil(self, now: Moment) -> None:
+        """Let the soil remember the end of a step."""
+        if self.system.tires.soil is not None:
+            hubs = hub_motions(tree_motion(self.system.tree, now.q, now.v), self.system.tires.bodies)
+            keep_step(hubs, now.s, self.system.tires.soil, self.result)
 
     def _look(self, now: Moment, t: float, dt: float) -> None:
         """Show the motors' controller the end of a step."""
@@ -236,6 +261,7 @@ class _Run:
             steps=self.accepted,
             iterations=self.iterations,
             rejected=self.rejected,
+            ruts=None if self.system.tires.soil is None else ruts_of(self.system.tires.soil.field),
         )
 
     def _stopped(self, t: float) -> ConvergenceError:
