@@ -412,13 +412,20 @@ def rover(
     ] = None,
     rocks: Annotated[int | None, typer.Option(help="Seed of random rocks to drive on.", show_default=False)] = None,
     walk: Annotated[bool, typer.Option("--walk", help="Walk by legs and drives, beside the driven run.")] = False,
+    soil: Annotated[
+        str | None,
+        typer.Option(help="Drive on soil that keeps its ruts: a known one, or a soil's file.", show_default=False),
+    ] = None,
+    cell: Annotated[
+        str | None, typer.Option(help="Length of the soil's cells; 10 mm if left out.", show_default=False)
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of the time series.")] = Path("build/rover"),
     store: StoreOption = DEFAULT_STORE,
     animate: Annotated[bool, typer.Option("--animate", help="Write a page that plays it; about a minute.")] = False,
     names: Annotated[bool, typer.Option("--list", help="Show the scenarios.")] = False,
 ) -> None:
     """One scenario of the rover: its time series, and what it ends with."""
-    from workbench.commands.rover import RoverChoices, list_scenarios, run_rover
+    from workbench.commands.rover import RoverChoices, chosen_soil, list_scenarios, run_rover
 
     choices = RoverChoices(
         tire=tire,
@@ -429,6 +436,7 @@ def rover(
         start=start,
         rocks=rocks,
         walk=walk,
+        soil=chosen_soil(soil, cell),
         animate=animate,
     )
     raise typer.Exit(list_scenarios() if names else run_rover(scenario, out, choices, store))

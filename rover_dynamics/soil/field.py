@@ -30,7 +30,7 @@ __all__ = ["Ruts", "SoilBed", "SoilField", "SoilGround", "SoilNumbers", "ruts_of
 
 FloatArray = NDArray[np.float64]
 MOST_CELLS = 40_000_000
-"""Of a field; its arrays take 44 bytes a cell of address space."""
+"""Of a field; its arrays take 72 bytes a cell of address space."""
 ANGLES = 48
 """To each side of the lowest point, at which the rim's depth is looked at."""
 LEAST_SHARE = 0.005
@@ -76,8 +76,8 @@ class SoilField(NamedTuple):
     ----------
     x, y, cell : [m]
     deepest, carries_from, unloading : (n, m) float, z_u and z_0 [m] and k_u [N/m^3]; all zero where nothing pressed yet
-    ahead, aside : (n, m) float, how far a cell was sheared [m]
-    touched : (n, m) int, number of the step in which a wheel last pressed it; 0 for never
+    ahead, aside : (2, n, m) float, how far a cell was sheared in the last steps of even and odd number [m]
+    touched : (2, n, m) int, number of that step; 0 for none
     clock : (2,) float, length of the step under way [s] and number of the last step that was kept
     """
 
@@ -216,12 +216,16 @@ class SoilBed:
                 lag=self.lag,
             ),
             SoilField(
-                self.low[0] + 0.5 * self.cell,
-                self.low[1] + 0.5 * self.cell,
-                self.cell,
-                *(np.zeros(shape) for _ in range(5)),
-                np.zeros(shape, dtype=np.int64),
-                np.zeros(2),
+                x=self.low[0] + 0.5 * self.cell,
+                y=self.low[1] + 0.5 * self.cell,
+                cell=self.cell,
+                deepest=np.zeros(shape),
+                carries_from=np.zeros(shape),
+                unloading=np.zeros(shape),
+                ahead=np.zeros((2, *shape)),
+                aside=np.zeros((2, *shape)),
+                touched=np.zeros((2, *shape), dtype=np.int64),
+                clock=np.zeros(2),
             ),
             self.compliance,
             np.zeros(wheels),
@@ -231,7 +235,7 @@ class SoilBed:
 
 def ruts_of(field: SoilField) -> Ruts:
     """What a field remembers of being pressed; empty arrays if nothing was."""
-    rows, columns = (np.flatnonzero((field.touched > 0).any(axis=axis)) for axis in (1, 0))
+    rows, columns = (np.flatnonzero((field.deepest > 0.0).any(axis=axis)) for axis in (1, 0))
     if not rows.size:
         return Ruts(np.zeros(0), np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0)))
     i, j = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)

@@ -33,9 +33,7 @@ def tire_derivatives(hubs: HubMotions, state: FloatArray, tires: Tires, jacobian
 
 
 @compiled
-def _forces(
-    hubs: HubMotions, state: FloatArray, tires: Tires, soil: SoilGround | None, result: BrushResult
-) -> None:
+def _forces(hubs: HubMotions, state: FloatArray, tires: Tires, soil: SoilGround | None, result: BrushResult) -> None:
     if soil is None:  # known when it is compiled: the other branch is left out
         brush_forces(hubs, state, tires.numbers, tires.pieces, result, tires.scratch)
     else:

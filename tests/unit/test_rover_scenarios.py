@@ -17,7 +17,8 @@ from rover_dynamics.rover.scenarios.level_ground import SPEED, drive_forward
 from rover_dynamics.rover.scenarios.obstacles import wheels_passed
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.point_turn import tangents, turn_actuators
-from rover_dynamics.rover.scenarios.scenario import Tilt, run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import Tilt, run_scenario
+from rover_dynamics.rover.scenarios.scenario_series import scenario_series
 from rover_dynamics.rover.scenarios.slopes import largest_passed, velocity_loss
 from rover_dynamics.rover.scenarios.stability import overturned, smallest_tilt
 

@@ -19,7 +19,8 @@ from rover_dynamics.rover.rover_design import WheelDrive
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.ground import on_terrain, touching_height
-from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.scenario_series import scenario_series
 from rover_dynamics.vehicle.drive_control import Controller, DriveControl
 from rover_dynamics.vehicle.motors import Motor
 from workbench.questions.rover.tire_shapes import TireShapes

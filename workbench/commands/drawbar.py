@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import shlex
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,25 +14,20 @@ import numpy as np
 
 from contracts.errors import InputError
 from rover_dynamics.rover.planets import gravity_named
-from soil.carcass import RIGID, Carcass
-from workbench.commands.computing import computed, console, naming, read_and_warn, tell_kept, warn
-from workbench.execution.result_files import read_result
+from workbench.commands.computing import console, naming, read_and_warn, tell_kept
+from workbench.commands.soil_rim import check_soil_tire, rim_of
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
-from workbench.questions.kept import keep, kept, require_numbers, require_place
-from workbench.questions.soil.bench import Bench, bench_csv, carcass_of, run_bench, wheel_on_soil
-from workbench.questions.soil.graph import CARCASS_MODELS, carcass_name, carcass_tasks
+from workbench.questions.soil.bench import Bench, bench_csv, run_bench, wheel_on_soil
 from workbench.questions.soil.picture import bench_png
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import put_files
-from workbench.study.model import Study
 from workbench.study.reading import built_in_study
 from workbench.study.soil_file import soil_of
 from workbench.study.wheel_design import wheel_design
 
 __all__ = ["DrawbarChoices", "run_drawbar", "slips_of"]
 
-_TIRES = ("rigid", "brush", *CARCASS_MODELS)
 _SLIPS = "0:0.6:0.1"
 _MOST = 1000
 _FILES = ("drawbar.csv", "drawbar.png")
@@ -63,8 +57,7 @@ class DrawbarChoices:
 
 def run_drawbar(study_path: Path | None, choices: DrawbarChoices, out: Path, store: Path, computing: Computing) -> int:
     """Drive, print, write CSV and picture; 0."""
-    if choices.tire not in _TIRES:
-        raise InputError("tire", repr(choices.tire), "is not known", f"give {', '.join(_TIRES)}")
+    check_soil_tire(choices.tire)
     soil, gravity = soil_of(choices.soil), gravity_named(choices.gravity)
     load = choices.load
     slips = slips_of(choices.slip if choices.slip is not None or choices.towed is False else "")
@@ -75,7 +68,7 @@ def run_drawbar(study_path: Path | None, choices: DrawbarChoices, out: Path, sto
     with naming(path):
         design = wheel_design(study)
         typed = "" if study_path is None else f"{shlex.quote(str(study_path))} "
-        carcass = _carcass(study, (path, typed), choices.tire, (store, computing))
+        carcass = rim_of(study, choices.tire, (path, f"workbench drawbar {typed}"), (store, computing))
         bench = run_bench(wheel_on_soil(design, carcass), soil, load, slips, gravity, towed=choices.towed)
     _print(bench, choices.tire)
     title = f"{study.name} on {soil.name} under {load:g} N, g = {gravity:g} m/s²"
@@ -113,43 +106,10 @@ def slips_of(text: str | None) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _carcass(study: Study, given: tuple[Path, str], tire: str, where: tuple[Path, Computing]) -> Carcass:
-    """How the rim of the study's wheel gives way by a model: kept beside the study, else found and kept.
-
-    given : the study's file, and how the user named it
-    """
-    path, typed = given
-    if tire not in CARCASS_MODELS:
-        return RIGID
-    tasks, name = carcass_tasks(study, tire), carcass_name(tire)
-    record = kept(study, name, _read)
-    state = "stale" if record is None else record.state(tasks)
-    if record is not None and state != "stale":
-        if state == "older sources":
-            console.print(f"rim: kept record of {record.date[:10]}, by older sources of ours", soft_wrap=True)
-        return _read(record.found)
-    begun = time.monotonic()
-    entries = computed(path, tasks, *where)
-    found = read_result(entries[name].path)
-    try:
-        require_place(study, name)
-    except InputError as error:
-        warn(path, [f"the rim's compliance is not kept beside it: {error}"])
-    else:
-        again = f"workbench drawbar {typed}--tire {tire}"
-        keep(study, name, again, tasks, time.monotonic() - begun, found)
-    return _read(found)
-
-
-def _read(found: object) -> Carcass:
-    assert isinstance(found, dict)
-    require_numbers([*found["compliance"], found["load_N"], *(x for pair in found["curve"] for x in pair)])
-    return carcass_of(found)
-
-
 def _print(bench: Bench, tire: str) -> None:
-    words = {"rigid": "rigid wheel", "brush": "brush tire, whose rim is rigid in itself"}
-    console.print(f"{words.get(tire, bench.carcass)}; on {bench.soil}, {bench.load:g} N", soft_wrap=True)
+    console.print(
+        f"{'rigid wheel' if tire == 'rigid' else bench.carcass}; on {bench.soil}, {bench.load:g} N", soft_wrap=True
+    )
     columns = ("slip", "pull N", "torque Nm", "sunk mm", "effic.", "hub mm", "rigid N", "sunk mm ")
     shown = columns if bench.carcass != "rigid" else columns[:5]
     table = empty_table("", shown, texts=[])

@@ -17,19 +17,21 @@ from rover_dynamics.rover.rover_file import EXOMARS_ROVER, RoverDesign, read_rov
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS, scenario_named
 from rover_dynamics.rover.scenarios.ground import on_terrain, rocks_on_the_way
 from rover_dynamics.rover.scenarios.outcome import Outcome
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.scenario_series import scenario_series
 from rover_dynamics.rover.scenarios.walking import walked
 from workbench.commands.computing import read_and_warn, warn
+from workbench.commands.rover_soil import SoilChoice, on_chosen_soil, ruts_npz, ruts_png
 from workbench.commands.rover_tires import TireSource, check_tire, file_name, on_tires
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console, empty_table
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import new_files
-from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, series_file
+from workbench.report.series import MOTIONS_FOLDER, RUTS_FOLDER, SERIES_FOLDER
 from workbench.study.ancf_tire import tire_values
 from workbench.verdict.number_format import displayed
 
-__all__ = ["RoverChoices", "list_scenarios", "run_rover"]
+__all__ = ["RoverChoices", "chosen_soil", "list_scenarios", "run_rover"]
 
 
 def list_scenarios() -> int:
@@ -56,6 +58,7 @@ class RoverChoices:
     start : where on it the rover starts, x and y in the file's coordinates [m]; None for its origin
     rocks : seed of random rocks to drive on, or None
     walk : whether legs and drives walk it, see `rover_dynamics.rover.walking`
+    soil : that it drives on instead, or None
     animate : whether to write a page that plays the motion
     """
 
@@ -67,7 +70,15 @@ class RoverChoices:
     start: tuple[float, float] | None = None
     rocks: int | None = None
     walk: bool = False
+    soil: SoilChoice | None = None
     animate: bool = False
+
+
+def chosen_soil(soil: str | None, cell: str | None) -> SoilChoice | None:
+    """What ``--soil`` and ``--cell`` say; InputError for cells of no soil."""
+    if soil is None and cell is not None:
+        raise InputError("cell of the soil", cell, "is of no soil", "give --soil, or leave it out")
+    return None if soil is None else SoilChoice(soil=soil, cell=cell)
 
 
 def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -> int:
@@ -83,19 +94,22 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
     scenario, design = _chosen(name, choices, store)
     check_folder(out)
     stem = f"{scenario.name}_{file_name(choices.tire)}"
-    targets = (f"{SERIES_FOLDER}/{stem}.csv", f"{MOTIONS_FOLDER}/{stem}.npz", f"{scenario.name}.html")
-    check_targets(out, targets if choices.animate else targets[:2])
+    page, ruts = f"{scenario.name}.html", tuple(f"{RUTS_FOLDER}/{stem}.{ending}" for ending in ("npz", "png"))
+    targets = [f"{SERIES_FOLDER}/{stem}.csv", f"{MOTIONS_FOLDER}/{stem}.npz"]
+    targets += [page] * choices.animate + [*ruts] * (choices.soil is not None)
+    check_targets(out, targets)
     if scenario.tire_model.startswith("ancf") and scenario.tire_model != "ancf_wheel":
         scenario = _resumed(scenario, design, store)
     with console.status(f"{scenario.name}: {scenario.title}"):
         run = run_scenario(scenario, design)
         series = scenario_series(run)
-        file = f"{SERIES_FOLDER}/{series_file(series)}"
-        motion = f"{MOTIONS_FOLDER}/{Path(series_file(series)).stem}.npz"
-        page = f"{scenario.name}.html"
-        with new_files(out, "rover", [file, motion, page] if choices.animate else [file, motion]) as new:
+        file, motion = targets[:2]
+        with new_files(out, "rover", targets) as new:
             write_series(series, new.folder / file)
             _record(scenario, run, new.folder / motion)
+            if choices.soil is not None and run.motion.ruts is not None:
+                (new.folder / ruts[0]).write_bytes(ruts_npz(run.motion.ruts))
+                (new.folder / ruts[1]).write_bytes(ruts_png(run.motion.ruts, scenario.title))
             if choices.animate:
                 _animate(scenario, design, run, new.folder / page)
         if run.stopped is None:
@@ -105,7 +119,8 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
     if run.stopped is not None:
         raise RunError(f"{scenario.name}: {run.stopped}; {out / file} is partial")
     _print_outcomes(f"{design.name}: {scenario.title} ({scenario.source})", outcomes)
-    for what, path in [("series", out / file), *([("animation", out / page)] if choices.animate else [])]:
+    told = [("series", out / file)] + [("animation", out / page)] * choices.animate
+    for what, path in told + [("ruts", out / ruts[1])] * (choices.soil is not None):
         console.print(f"{what}: {path}", soft_wrap=True)
     return 0
 
@@ -164,7 +179,8 @@ def _animate(scenario: Scenario, design: RoverDesign, run: ScenarioRun, page: Pa
 
 def _chosen(name: str | None, choices: RoverChoices, store: Path) -> tuple[Scenario, RoverDesign]:
     """The scenario with the tires and on the ground asked for, and the rover."""
-    check_tire(choices.tire)
+    if choices.soil is None:
+        check_tire(choices.tire)
     if name is None:
         raise InputError("scenario", "", "is missing", f"give one of {', '.join(SCENARIOS)}")
     path = choices.rover or EXOMARS_ROVER
@@ -175,7 +191,14 @@ def _chosen(name: str | None, choices: RoverChoices, store: Path) -> tuple[Scena
     if choices.walk:
         walked(scenario).actuators(design)  # what cannot walk is refused before its tires are computed
     study = None if choices.study is None else read_and_warn(choices.study)
-    scenario = on_tires(scenario, choices.tire, TireSource(study=study, path=choices.study, store=store), design)
+    source = TireSource(study=study, path=choices.study, store=store)
+    if choices.soil is not None:
+        if choices.terrain is not None or choices.rocks is not None:
+            rule = "is level ground: slopes are scenarios of their own"
+            raise InputError("soil", f"{choices.soil.soil} and a terrain", rule, "give --soil, --terrain or --rocks")
+        driven = walked(scenario) if choices.walk else scenario
+        return on_chosen_soil(driven, choices.tire, source, choices.soil), design
+    scenario = on_tires(scenario, choices.tire, source, design)
     if choices.walk:
         scenario = walked(scenario)
     return _on_ground(scenario, design, choices), design

@@ -11,9 +11,10 @@ from contracts.errors import InputError
 from contracts.series import TimeSeries, series_text
 from workbench.charts.packing import file_link
 
-__all__ = ["MOTIONS_FOLDER", "SERIES_FOLDER", "is_ours", "series_file", "series_files", "series_links"]
+__all__ = ["MOTIONS_FOLDER", "RUTS_FOLDER", "SERIES_FOLDER", "is_ours", "series_file", "series_files", "series_links"]
 
 MOTIONS_FOLDER = "motions"
+RUTS_FOLDER = "ruts"
 SERIES_FOLDER = "series"
 _TIRES = ("ancf", "brush", "rigid")
 

@@ -18,11 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError, InputError
-from contracts.series import TimeSeries
 from contracts.terrain import Plane, Terrain
 from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.soil.field import SoilBed
 from rover_dynamics.tires.brush_force import BESIDE, DEEP
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, with_friction
@@ -30,6 +30,7 @@ from rover_dynamics.vehicle.motors import Motor, electrical_power
 from rover_dynamics.vehicle.vehicle import Vehicle, VehicleMotion, drive_vehicle
 
 __all__ = [
+    "LATERAL",
     "Judge",
     "Ride",
     "Scenario",
@@ -37,11 +38,10 @@ __all__ = [
     "Tilt",
     "run_scenario",
     "sampled",
-    "scenario_series",
 ]
 
 FloatArray = NDArray[np.float64]
-_PENETRATION, _LOAD, _SLIP, _PATCH, _TRACTIVE, _LATERAL, _MARK = 0, 1, 2, 4, 7, 8, 9
+_PENETRATION, _LOAD, _SLIP, _PATCH, _TRACTIVE, LATERAL, _MARK = 0, 1, 2, 4, 7, 8, 9
 """Columns of `rover_dynamics.tires.brush_force.OUTPUT_SIZE`."""
 
 
@@ -116,6 +116,11 @@ class ScenarioRun:
         return self.motion.tires[:, :, _SLIP : _SLIP + 2]
 
     @property
+    def sinkages(self) -> FloatArray:
+        """Of the wheels' lowest points below the undisturbed ground (n, n_w) [m]; on soil."""
+        return np.asarray(self.design.wheel_radius - self.deflections - self.wheels[:, :, 2])
+
+    @property
     def met(self) -> bool:
         """Whether the motion came to its end and misses no requirement."""
         return self.stopped is None and all(one.met is not False for one in self.scenario.judge(self))
@@ -184,6 +189,7 @@ class Scenario:
     ride : its vehicle's motion at its times; other tires than the brush have one of their own
     has_closed_forms : whether the brush tire's formulas are references of what is judged
     path : places (n, 2) [m] the wheels are to reach, or None for a scenario that has a ground of its own
+    soil : level soil of a rover's design instead of the terrain, with wheels of its own; or None
     study : more outcomes by more runs, a few seconds, or None
     search : how far the requirement could be raised, by bisection (up to a minute), or None
     composed : makes the run out of several, or None
@@ -209,6 +215,7 @@ class Scenario:
     ride: Ride = _on_brush_tires
     has_closed_forms: bool = True
     path: Callable[[RoverDesign], FloatArray] | None = None
+    soil: Callable[[RoverDesign], SoilBed] | None = None
     study: Study | None = None
     search: Study | None = None
     composed: Callable[[Scenario, RoverDesign], ScenarioRun] | None = None
@@ -230,7 +237,9 @@ class Scenario:
 
     def vehicle(self, design: RoverDesign) -> Vehicle:
         """The rover at the scenario's start; raises InputError for a brush tire that sinks in beyond its hub."""
-        height = self.height
+        height, soil = self.height, None if self.soil is None else self.soil(design)
+        if soil is not None:
+            height = soil.standing()[0] - design.wheel_radius
         if height is None:
             height = -design.static_load * math.cos(self.tilt.angle) / self.tire.radial_stiffness
             if -height >= design.wheel_radius:
@@ -245,7 +254,8 @@ class Scenario:
             tire=with_friction(self.tire, self.friction),
             settings=self.settings,
         )
-        return replace(vehicle, model=replace(vehicle.model, gravity=self.tilt.gravity(design.gravity)))
+        gravity = self.tilt.gravity(design.gravity)
+        return replace(vehicle, model=replace(vehicle.model, gravity=gravity), soil=soil)
 
     def times(self) -> FloatArray:
         """Samples from the start of the settling to the end [s]."""
@@ -318,25 +328,3 @@ def _within_curves(motion: VehicleMotion, scenario: Scenario, design: RoverDesig
     if motion.times[k] <= 0.0:
         raise ConvergenceError(message, [])
     return k, message
-
-
-def scenario_series(run: ScenarioRun) -> TimeSeries:
-    """First body and wheels against time."""
-    columns = {f"body_{axis}_m": run.place[:, k] for k, axis in enumerate("xyz")}
-    columns |= {f"body_v{axis}_m_s": run.motion.velocities[:, 0, k] for k, axis in enumerate("xyz")}
-    columns["body_lean_rad"] = run.lean
-    for k, leg in enumerate(run.design.legs):
-        outputs = run.motion.tires[:, k]
-        columns[f"{leg.name}_load_N"] = outputs[:, _LOAD]
-        columns[f"{leg.name}_deflection_m"] = outputs[:, _PENETRATION]
-        columns[f"{leg.name}_tractive_N"] = outputs[:, _TRACTIVE]
-        columns[f"{leg.name}_lateral_N"] = outputs[:, _LATERAL]
-    return TimeSeries(
-        scenario=run.scenario.name,
-        tire=run.scenario.tire_model,
-        time=run.motion.times,
-        columns=columns,
-        source=f"{run.design.name}: {run.scenario.title} ({run.scenario.source}); {run.scenario.tire_model} tire; "
-        "x forward, y left, z normal to the ground, world; tractive and lateral forces of the ground on the wheel",
-        partial=run.stopped is not None,
-    )

@@ -14,7 +14,8 @@ from contracts.series import write_series
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.ground import on_friction
-from rover_dynamics.rover.scenarios.scenario import run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import run_scenario
+from rover_dynamics.rover.scenarios.scenario_series import scenario_series
 from workbench.execution.result_files import FAILURE, write_result
 from workbench.questions.rover.brush import on_given_brush
 from workbench.questions.rover.motion_file import MOTION, write_motion

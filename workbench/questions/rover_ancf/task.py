@@ -20,7 +20,8 @@ from contracts.series import TimeSeries, write_series
 from rover_dynamics.flexible.account import COLUMNS, FlexibleAccount
 from rover_dynamics.flexible.flexible_system import FlexibleSystem
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.scenario_series import scenario_series
 from workbench.execution.result_files import write_result
 from workbench.questions.rover.close_look import write_close_look
 from workbench.questions.rover.motion_file import MOTION, write_motion

@@ -21,7 +21,8 @@ from rover_dynamics.rover.scenarios.catalogue import scenario_named
 from rover_dynamics.rover.scenarios.ground import on_friction, on_rigid_tires
 from rover_dynamics.rover.scenarios.needs import ending, smallest_friction, smallest_torque
 from rover_dynamics.rover.scenarios.readings import energy_of_drives
-from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario, scenario_series
+from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.scenario_series import scenario_series
 from rover_dynamics.vehicle.motors import Motor
 from workbench.execution.result_files import read_result, write_result
 from workbench.questions.rover.brush import on_given_brush

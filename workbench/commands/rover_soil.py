@@ -1,0 +1,96 @@
+"""``workbench rover --soil``: a scenario on soil on the wheels of a study, and the ruts it leaves.
+
+Verified by tests/end_to_end/test_rover_soil.py.
+"""
+
+from __future__ import annotations
+
+import io
+import shlex
+from dataclasses import dataclass, replace
+
+import numpy as np
+from matplotlib.figure import Figure
+from pydantic_core import PydanticCustomError
+
+from contracts.errors import InputError
+from contracts.text import for_matplotlib
+from rover_dynamics.rover.scenarios.on_soil import CELL, on_soil
+from rover_dynamics.rover.scenarios.scenario import Scenario
+from rover_dynamics.soil.field import Ruts
+from workbench.charts.palette import INK
+from workbench.charts.still_charts import png_bytes
+from workbench.commands.computing import naming, read_and_warn
+from workbench.commands.options import computing
+from workbench.commands.rover_tires import TireSource
+from workbench.commands.soil_rim import check_soil_tire, rim_of
+from workbench.questions.soil.bench import wheel_on_soil
+from workbench.study.model_parameters import rover_brush
+from workbench.study.quantities import to_si
+from workbench.study.reading import built_in_study
+from workbench.study.soil_file import soil_of
+from workbench.study.wheel_design import wheel_design
+
+__all__ = ["SoilChoice", "on_chosen_soil", "ruts_npz", "ruts_png"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SoilChoice:
+    """A soil by name or file, and the length of its cells, as a user typed it; None for the usual one."""
+
+    soil: str
+    cell: str | None = None
+
+
+def on_chosen_soil(scenario: Scenario, tire: str, source: TireSource, choice: SoilChoice) -> Scenario:
+    """The scenario on soil, on the wheels of the source's study, or of the built-in one.
+
+    Raises
+    ------
+    InputError
+        For a tire that does not know soil, an unknown soil, a cell that is no length, and what `on_soil` refuses.
+    """
+    check_soil_tire(tire)
+    soil, cell = soil_of(choice.soil), CELL if choice.cell is None else _length(choice.cell)
+    path = source.path or built_in_study()
+    study = source.study or read_and_warn(path)
+    typed = "" if source.path is None else f"{shlex.quote(str(source.path))} "
+    with naming(path):
+        where = source.store, computing(None, 1, None)
+        wheel = wheel_on_soil(wheel_design(study), rim_of(study, tire, (path, f"workbench drawbar {typed}"), where))
+        brush = rover_brush(study)
+    settling = brush.radial_damping / brush.radial_stiffness if tire == "brush" else None
+    return replace(on_soil(scenario, soil, wheel, cell=cell, settling=settling), tire_model=tire)
+
+
+def _length(text: str) -> float:
+    try:
+        return to_si(text, "m")
+    except PydanticCustomError as error:
+        told = error.context or {}
+        rule, hint = str(told.get("rule", error)), str(told.get("hint", "give e.g. 10 mm"))
+        raise InputError("cell of the soil", repr(text), rule, hint, key="cell") from error
+
+
+def ruts_npz(ruts: Ruts) -> bytes:
+    """A height field that ``workbench rover --terrain`` reads, with the largest depths beside it [m]."""
+    spacing = [float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (ruts.x, ruts.y)]
+    stream = io.BytesIO()
+    np.savez_compressed(
+        stream, heights=-ruts.depth, spacing=spacing, origin=[ruts.x[0], ruts.y[0]], deepest=ruts.deepest
+    )
+    return stream.getvalue()
+
+
+def ruts_png(ruts: Ruts, title: str) -> bytes:
+    """PNG: the ground from above, x ahead."""
+    length, width = (max(float(one[-1] - one[0]), 0.1) for one in (ruts.x, ruts.y))
+    figure = Figure(figsize=(9.0, min(max(9.0 * width / length, 2.0), 9.0) + 0.8), layout="constrained")
+    axes = figure.subplots()
+    image = axes.pcolormesh(ruts.x, ruts.y, 1e3 * ruts.depth.T, cmap="cividis_r", shading="nearest")
+    axes.set_aspect("equal")
+    axes.set_xlabel("x, ahead [m]")
+    axes.set_ylabel("y, left [m]")
+    axes.set_title(for_matplotlib(title), fontsize=10, color=INK, loc="left")
+    figure.colorbar(image, ax=axes, label="depth of the ground [mm]", shrink=0.8)
+    return png_bytes(figure)
