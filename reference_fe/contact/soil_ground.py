@@ -1,8 +1,10 @@
 """Ground of soil that presses by its depth, as Bekker's plate has it: on the level area of what lies in it.
 
-A point z deep feels k z^n dA_l upwards, dA_l the level part of its present area. That part follows from the places of
-the facet's own points and is put right between solves until it no longer moves the pressure by more than 1e-4, so that
-each solve has a symmetric tangent. Verified by tests/verification/test_fe_soil.py.
+A point z deep feels k z^n dA_l upwards, dA_l the level part of its present area: below zero where the face looks up, as
+a grouser's lee flank does, whose pocket of soil presses the rim above it as much upwards. All together is the area of
+the hole in the surface; with n = 1 it is Archimedes' law. That part follows from the places of the facet's own points
+and is put right between solves until it no longer moves the pressure by more than 1e-4, so that each solve has a
+symmetric tangent. Verified by tests/verification/test_fe_soil.py.
 """
 
 from __future__ import annotations
@@ -67,13 +69,17 @@ class SoilTerm(ObstacleTerm):
         super().__init__(contact, domain, V, young_modulus)
         self._soil = contact.modulus, contact.exponent
         self._slopes = _slopes(gauss_line(contact.gauss_points)[0])
-        self._undeformed = np.linalg.norm(self._areas(self._facets.positions), axis=-1)
+        areas = self._areas(self._facets.positions)
+        cells = domain.mesh.geometry.x[api.cell_nodes(domain.mesh)[self._facets.cells]][:, :, : areas.shape[2]]
+        outwards = self._facets.positions.mean(axis=1) - cells.mean(axis=1)
+        sense = np.sign(np.einsum("mi,mi->m", outwards, areas.mean(axis=1)))
+        self._undeformed = sense[:, None] * np.linalg.norm(areas, axis=-1)
         self._level_share = self._share(self._facets.positions)
 
     def augment(self) -> bool:
         """Put the level shares right; whether that changes what the soil does."""
         share = self._share(self._last_x)
-        pressed = self._out.pressure.sum(axis=-1) > 0.0
+        pressed = self._out.gap.min(axis=-1) < 0.0
         moved = float(np.abs(share - self._level_share)[pressed].max(initial=0.0))
         if self._comm.allreduce(moved, op=api.MPI.MAX) <= _SETTLED:
             return False
@@ -90,8 +96,8 @@ class SoilTerm(ObstacleTerm):
         self._level_share = np.array(state["level_share"])
 
     def _share(self, x: FloatArray) -> FloatArray:
-        """Level area over undeformed area at points (m, q, dim)."""
-        return np.asarray(np.abs(self._areas(x) @ self._normal) / self._undeformed)
+        """Level area over undeformed area at points (m, q, dim), positive where they look down."""
+        return np.asarray(-(self._areas(x) @ self._normal) / self._undeformed)
 
     def _areas(self, x: FloatArray) -> FloatArray:
         """Area vectors (m, q, dim) per unit of the facet's own coordinates: its points lie on a grid of Gauss points,

@@ -111,6 +111,9 @@ class WheelLoadCase:
             raise InputError("start of a travel", f"{1e3 * self.travel.start:g} mm", rule, "press it to there")
         if self.travel is not None and self.unload:
             raise InputError("unloading", "", "does not go with a travel of the hub", "ask for one of them")
+        if self.soil is not None and self.unload:
+            rule = "presses by its depth alone and would come back whole, where soil leaves a rut"
+            raise InputError("unloading", "on soil", rule, "ask for one of them")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
