@@ -4,9 +4,11 @@ A force f(theta) [N/rad] on the rim, towards the hub, moves it by
 
     w(theta) = int G(theta - theta') f(theta') d theta',    G(theta) = sum_m g_m cos(m theta)    [m/N],
 
-G the mean over what of the wheel faces the ground. The wheel pressed on rigid ground under a load N tells it: its patch
-is short, so that w = N G there. G is then a secant at that load; at another one it is as much stiffer or softer as the
-wheel's own curve. What G does not know: that the patch has a length, and that a spring here or there changes the shape.
+G the mean over what of the wheel faces the ground. Of a pressure p it is b p (R - w), whichever way the rim leans: the
+force conjugate to w, so that pressure alone makes no moment about the hub, as G is even. The wheel pressed on rigid
+ground under a load N tells it: its patch is short, so that w = N G there. G is then a secant at that load; at another
+one it is as much stiffer or softer as the wheel's own curve. What G does not know: that the patch has a length, and
+that a spring here or there changes the shape.
 
 Verified by tests/unit/test_soil_carcass.py.
 """

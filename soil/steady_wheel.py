@@ -117,6 +117,8 @@ class WheelState:
     efficiency: float
 
 
+type _Driven = tuple[float, float] | None
+"""Slip, and gravity [m/s^2]; None of a wheel that stands and does not shear."""
 _NEAR = 1e-4
 """How far a changed shape moves the hub, about [m]."""
 
@@ -127,10 +129,12 @@ def steady_wheel(wheel: WheelOnSoil, soil: Soil, load: float, slip: float, gravi
     Raises
     ------
     InputError
-        For a load that is not above zero or that buries the wheel, and a slip not in [-4, 1).
+        For a load that is not above zero or that buries the wheel, a slip not in [-4, 1) and a gravity below zero.
     """
     if not (math.isfinite(slip) and -4.0 <= slip < 1.0):
         raise InputError("slip", f"{slip:g}", "must lie in [-4, 1)", "0 rolls, 0.2 is usual for a drive", key="slip")
+    if not (math.isfinite(gravity) and gravity >= 0.0):
+        raise InputError("gravity", f"{gravity:g} m/s^2", "must be at least 0", "Mars has 3.711, Earth 9.81")
     sunk = slip_sinkage(slip) ** soil.slip_sinkage
     top = soil.peak_rolling + soil.peak_slipping * max(slip, 0.0)
     law = PressureLaw(soil.modulus(wheel.width) / sunk**soil.exponent, soil.exponent, top)
@@ -144,7 +148,7 @@ def standing_wheel(wheel: WheelOnSoil, soil: Soil, load: float) -> WheelState:
 
 def standing_rim(wheel: WheelOnSoil, soil: Soil, load: float) -> tuple[WheelState, RimShape]:
     """`standing_wheel` with the shape of its rim."""
-    return _state(wheel, soil, PressureLaw(soil.modulus(wheel.width), soil.exponent, None), load, (0.0, 0.0))
+    return _state(wheel, soil, PressureLaw(soil.modulus(wheel.width), soil.exponent, None), load, None)
 
 
 def towed_wheel(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> WheelState:
@@ -171,9 +175,9 @@ def towed_wheel(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> 
 
 
 def _state(
-    wheel: WheelOnSoil, soil: Soil, law: PressureLaw, load: float, driven: tuple[float, float]
+    wheel: WheelOnSoil, soil: Soil, law: PressureLaw, load: float, driven: _Driven
 ) -> tuple[WheelState, RimShape]:
-    """Shape and pressure that belong together under a load, and what follows; ``driven`` slip and gravity."""
+    """Shape and pressure that belong together under a load, and what follows."""
     if not (math.isfinite(load) and load > 0.0):
         raise InputError("load of the wheel", f"{load:g} N", "must be above zero", "give e.g. 200 N", key="load")
     wheel = replace(wheel, carcass=wheel.carcass.at(load))
@@ -184,7 +188,8 @@ def _state(
         height, contour = _carried(wheel, soil, law, (shape, load), (driven, height))
         if not wheel.carcass.compliance:
             break
-        force = wheel.width * contour.pressure * np.hypot(contour.along, contour.down) * contour.weight
+        radial = contour.along * np.cos(contour.angle) - contour.down * np.sin(contour.angle)
+        force = wheel.width * contour.pressure * radial * contour.weight
         residuals.append(np.concatenate(shape_under(wheel.carcass, contour.angle, force)) - shapes[-1])
         if np.abs(residuals[-1]).sum() < _SETTLED * wheel.radius:
             break
@@ -193,7 +198,8 @@ def _state(
         rule = "must find a shape of its rim on this soil"
         raise InputError("flexible wheel", f"{load:g} N on {soil.name}", rule, "give a smaller load", key="load")
     below = float(shape.at(np.zeros(1))[0][0])
-    return _told(wheel, contour, (height, below), _forces(wheel, soil, contour, driven), driven), shape
+    slip = 0.0 if driven is None else driven[0]
+    return _told(wheel, contour, (height, below), _forces(wheel, soil, contour, driven), slip), shape
 
 
 def _mixed(shapes: Sequence[FloatArray], residuals: Sequence[FloatArray]) -> FloatArray:
@@ -213,7 +219,7 @@ def _carried(
     soil: Soil,
     law: PressureLaw,
     asked: tuple[RimShape, float],
-    known: tuple[tuple[float, float], float],
+    known: tuple[_Driven, float],
 ) -> tuple[float, Contour]:
     """Height of the hub at which a rim of a shape carries a load, and the contour there; ``known`` what drives it and
     the height found before, 0 if none.
@@ -235,14 +241,12 @@ def _carried(
     return height, contour_of(wheel.radius, soil, law, shape, height)
 
 
-def _forces(
-    wheel: WheelOnSoil, soil: Soil, contour: Contour, driven: tuple[float, float]
-) -> tuple[float, float, float]:
-    """Load [N], pull [N] and torque [N m]; a gravity of 0 is for a wheel that stands and does not shear."""
-    slip, gravity = driven
+def _forces(wheel: WheelOnSoil, soil: Soil, contour: Contour, driven: _Driven) -> tuple[float, float, float]:
+    """Load [N], pull [N] and torque [N m]."""
     b, p, w = wheel.width, contour.pressure, contour.weight
-    if gravity == 0.0:
+    if driven is None:
         return b * float((p * contour.along) @ w), 0.0, 0.0
+    slip, gravity = driven
     arc = np.hypot(contour.along, contour.down)
     numbers = soil.cohesion, soil.friction_angle, soil.density * gravity, soil.rim_angle
     lines = lug_lines(numbers, wheel.lug, b)
@@ -261,13 +265,13 @@ def _told(
     contour: Contour,
     hub: tuple[float, float],
     forces: tuple[float, float, float],
-    driven: tuple[float, float],
+    slip: float,
 ) -> WheelState:
     """In numbers; ``hub`` is its height and how far the rim gives way below it."""
     load, pull, torque = forces
     works = pull > 0.0 and torque > 0.0
     return WheelState(
-        slip=driven[0],
+        slip=slip,
         load=load,
         drawbar_pull=pull,
         torque=torque,
@@ -277,5 +281,5 @@ def _told(
         entry=contour.ends[0],
         exit=contour.ends[1],
         largest_pressure=float(contour.pressure.max()),
-        efficiency=pull * (1.0 - driven[0]) * wheel.radius / torque if works else 0.0,
+        efficiency=pull * (1.0 - slip) * wheel.radius / torque if works else 0.0,
     )

@@ -93,6 +93,26 @@ def test_a_rim_that_stiffens_goes_over_into_the_rigid_one_in_first_order() -> No
     assert gains[0] > rigid.drawbar_pull
 
 
+def rim_at(soil: Soil, height: float) -> float:
+    """Load of the flexible wheel at rest with its hub so high: points every milliradian, damped steps, sums."""
+    angle = np.arange(-1.2, 1.2, 1e-3)
+    apart = np.cos(np.subtract.outer(angle, angle)[None] * np.arange(len(FLEXIBLE.compliance))[:, None, None])
+    influence = np.einsum("m,mij->ij", np.array(FLEXIBLE.compliance), apart)
+    w = np.zeros_like(angle)
+    for _ in range(200):
+        reach = WHEEL.radius - w
+        pressure = soil.modulus(WHEEL.width) * np.maximum(reach * np.cos(angle) - height, 0.0) ** soil.exponent
+        w += 0.2 * (influence @ (WHEEL.width * pressure * reach * 1e-3) - w)
+    x = (WHEEL.radius - w) * np.sin(angle)
+    return float(WHEEL.width * pressure @ np.gradient(x))
+
+
+@pytest.mark.parametrize("height", [0.125, 0.115])
+def test_a_flexible_wheel_at_rest_is_what_points_around_its_rim_give(height: float) -> None:
+    soil = soil_named("ding2011")
+    assert standing_wheel(WHEEL, soil, rim_at(soil, height)).hub_height == pytest.approx(height, abs=1e-6)
+
+
 def test_on_soil_as_hard_as_rock_the_rim_gives_way_as_on_rigid_ground() -> None:
     rock = replace(soil_named("ding2011"), frictional_modulus=2e11, cohesive_modulus=0.0, exponent=1.0)
     found = standing_wheel(WHEEL, rock, 100.0)
@@ -142,5 +162,7 @@ def test_what_cannot_be_is_refused() -> None:
     for load, slip, word in ((0.0, 0.1, "load"), (1e5, 0.1, "axle"), (80.0, 1.0, "slip"), (80.0, math.nan, "slip")):
         with pytest.raises(InputError, match=word):
             steady_wheel(SMOOTH, soil, load, slip, EARTH)
+    with pytest.raises(InputError, match="gravity"):
+        steady_wheel(SMOOTH, soil, 80.0, 0.1, -1.0)
     with pytest.raises(InputError, match="lugs"):
         WheelOnSoil(radius=0.1, width=0.1, lugs=-1)
