@@ -1,4 +1,4 @@
-"""Bodies whose natural frequencies have closed forms: a bar, a loaded column, a ring, two plates.
+"""Bodies whose natural frequencies have closed forms: bars free, stretched and on ground, a column, a ring, a plate.
 
 Each returns frequencies [Hz] found by `natural_modes` and those of the closed form (docs/theory/vibration.md, 2.11).
 Verified by tests/verification/test_fe_vibration.py.
@@ -11,10 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from contracts.materials import Material
 from contracts.mesh import TaggedMesh
 from contracts.modes import Modes
+from reference_fe.contact.obstacle import ObstacleContact
 from reference_fe.problem.domain import Domain
 from reference_fe.problem.static_problem import Discretisation, StaticProblem
 from reference_fe.problem.supports import Support
@@ -24,7 +26,7 @@ from reference_fe.verification.structured_hexahedra import block_mesh
 from reference_fe.vibration.body import Support as Holds
 from reference_fe.vibration.body import natural_modes
 
-__all__ = ["Compared", "bar", "cantilever_plate", "column", "free_ring"]
+__all__ = ["Compared", "bar", "cantilever_plate", "column", "free_ring", "stretched_bar", "waves_on_ground"]
 
 Array = NDArray[np.float64]
 STEEL = Material(
@@ -66,6 +68,50 @@ def bar(cells: int, *, density: float = STEEL.density, order: int = 2) -> Compar
     speed = np.sqrt(STEEL.young_modulus / STEEL.density)
     n = np.arange(1, count + 1)
     return Compared(found=modes.frequency[~modes.rigid], expected=0.5 * n * speed / length, modes=modes)
+
+
+def stretched_bar(stretch: float, cells: int = 16) -> Compared:
+    """Longitudinal modes of a bar held at both ends, stretched before to ``stretch`` times its length, nu = 0.
+
+    P = E (l^2 - 1) l / 2 of St. Venant and Kirchhoff's law at the stretch l has the slope E (3 l^2 - 1) / 2: undeformed
+    length and density with that modulus, f_n = n c / (2 L), exact in 3D.
+    """
+    mesh = block_mesh((cells, 1, 1), lambda X: X * [1.0, 0.1, 0.1])
+    ends = Support(faces=("x0",), components=(0,)), Support(faces=("x1",), components=(0,), value=(stretch - 1.0,))
+    sides = [Support(faces=(a, b), components=(k,)) for k, (a, b) in ((1, ("y0", "y1")), (2, ("z0", "z1")))]
+    problem = _problem(mesh, [*ends, *sides], STEEL, LINEAR)
+    for _ in solve_increments(NewtonSolver(problem, NewtonSettings()), [1.0], []):
+        pass
+    modes = _modes(problem, 3, STEEL.density)
+    speed = np.sqrt(0.5 * STEEL.young_modulus * (3.0 * stretch**2 - 1.0) / STEEL.density)
+    return Compared(found=modes.frequency, expected=0.5 * np.arange(1, 4) * speed, modes=modes)
+
+
+def waves_on_ground(component: int, *, grips: bool, cells: int = 8) -> Compared:
+    """Waves along an upright bar of 1 m, nu = 0, held at its top, pressed on ground of the penalty k = 1.5 E / L.
+
+    component : 2 for waves of length, 0 for shear, all else held: modulus C = E or E / 2, C b cos b + k L sin b = 0,
+    f = b c / (2 pi L), exact in 3D; in shear the ground holds what grips alone, else k = 0
+    """
+    penalty = 1.5 * STEEL.young_modulus
+    top = Support(faces=("z1",))
+    sides = [Support(faces=(a, b), components=(k,)) for k, (a, b) in ((0, ("x0", "x1")), (1, ("y0", "y1")))]
+    ground = ObstacleContact(faces=("z0",), normal=(0.0, 0.0, 1.0), distance_at_touch=0.0, stiffness=penalty, ramp=1e-9)
+    domain = Domain.from_tagged(block_mesh((1, 1, cells), lambda X: X * [0.1, 0.1, 1.0]))
+    problem = StaticProblem(domain, {"body": STEEL}, [top, *sides], contact=ground, discretisation=LINEAR)
+    for _ in solve_increments(NewtonSolver(problem, NewtonSettings()), [1e-6], []):
+        pass
+    unknowns = np.arange(problem.own_dofs)
+    held = np.union1d(unknowns[unknowns % 3 != component], problem.bcs[component].dof_indices()[0])
+    (term,) = problem.surfaces.terms
+    grip = term if grips else None
+    modes = natural_modes(problem, {"body": STEEL.density}, Holds(held=held.astype(np.int64)), 3, grips=grip)
+    modulus = STEEL.young_modulus * (1.0 if component == 2 else 0.5)
+    k = penalty if grips or component == 2 else 0.0
+    n = np.arange(3)
+    roots = [brentq(lambda b: modulus * b * np.cos(b) + k * np.sin(b), *ends) for ends in np.pi * np.c_[n + 0.4, n + 1]]
+    expected = np.array(roots) * np.sqrt(modulus / STEEL.density) / (2.0 * np.pi)
+    return Compared(found=modes.frequency, expected=expected, modes=modes)
 
 
 def column(share: float, cells: int = 8) -> Compared:

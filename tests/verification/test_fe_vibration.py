@@ -1,5 +1,5 @@
 """Claim: natural frequencies of solids are those of closed forms, with the order of quadratic cells, and prestress acts
-with its sign.
+with its sign, far beyond small strains too; ground that is touched holds by its penalty.
 
 Sources: f_n = n c / (2 L) of a bar, exact; rings of Hoppe 1871 (Love, art. 293); Barton 1951 for the square cantilever
 plate; the guided column, whose squared frequency falls in proportion to its load and is zero at Euler's. Tolerances:
@@ -22,7 +22,14 @@ from reference_fe.problem.supports import Support
 from reference_fe.solver.increments import solve_increments
 from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
-from reference_fe.verification.vibration import bar, cantilever_plate, column, free_ring
+from reference_fe.verification.vibration import (
+    bar,
+    cantilever_plate,
+    column,
+    free_ring,
+    stretched_bar,
+    waves_on_ground,
+)
 from reference_fe.vibration.body import Support as Held
 from reference_fe.vibration.body import natural_modes
 
@@ -85,6 +92,20 @@ def test_squared_frequency_falls_in_proportion_to_the_load(share: float) -> None
     assert abs(found.error[0]) < 1e-3
     assert found.modes.unstable == 0
     assert found.modes.rigid.sum() == 1  # it moves sideways as a whole
+
+
+@pytest.mark.parametrize("stretch", [0.8, 1.3])
+def test_a_bar_stretched_far_vibrates_with_the_slope_of_its_law(stretch: float) -> None:
+    found = stretched_bar(stretch)
+    assert (found.error > 0.0).all()
+    assert found.error.max() < 1e-4
+
+
+@pytest.mark.parametrize(("component", "grips"), [(2, False), (2, True), (0, False), (0, True)])
+def test_the_ground_holds_a_bar_as_stiffly_as_it_is_pressed(component: int, grips: bool) -> None:
+    """Normal to it by its penalty; along it as stiffly if it grips, else not at all."""
+    error = waves_on_ground(component, grips=grips).error
+    np.testing.assert_allclose(error, [0.0, 1e-4, 6.5e-4], atol=5e-5)  # of eight cells, with their fourth order
 
 
 def test_beyond_eulers_load_a_mode_grows() -> None:
