@@ -103,6 +103,18 @@ def test_ground_that_is_wound_up_presses_harder_in_front() -> None:
 
 
 @pytest.mark.parametrize("way", [Way.TURNING, Way.WIND_UP, Way.LEANING])
+def test_what_is_accepted_on_turned_ground_stays_as_it_is(way: Way) -> None:
+    """Its traction turns with the ground: kept in the ground's axes, 0.4 rad from the wheel's."""
+    term, u = pressed(way)
+    term.set_control(0.1 + 0.05 * 0.4)
+    before = term.evaluate(u, 0.0).force.copy()
+    term.accept()
+    after = term.evaluate(u, 0.0).force
+    assert np.abs(before[..., :2]).max() > 0.01
+    np.testing.assert_allclose(after, before, atol=1e-12)
+
+
+@pytest.mark.parametrize("way", [Way.TURNING, Way.WIND_UP, Way.LEANING])
 def test_with_a_lag_it_is_the_tangent_line(way: Way) -> None:
     term, u = pressed(way)
     term.set_control(0.1 + 0.05 * 1e-4)

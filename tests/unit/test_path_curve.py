@@ -31,9 +31,10 @@ def test_a_force_that_holds_the_hub_back_takes_work() -> None:
 
 
 def test_a_moment_takes_work_in_a_turn_though_others_came_first() -> None:
-    """Wound up by 0.1 against -3 N m, then leant by 0.2 against -2: about the axes that turned with the ground."""
-    turns = [HubPlace(radial=0.01), HubPlace(radial=0.01, wind_up=0.1)]
-    assert curve(turns, moment_left_Nm=-3.0).work[-1] == pytest.approx(0.3, rel=1e-12)
+    """Each way by 0.1 against -3 N m; leant by 0.2 against -2 where it was wound up: about axes that turned along."""
+    for turned, moment in (("leaning", "forward"), ("wind_up", "left"), ("turning", "up")):
+        turns = [HubPlace(radial=0.01), HubPlace(radial=0.01)._replace(**{turned: 0.1})]
+        assert curve(turns, **{f"moment_{moment}_Nm": -3.0}).work[-1] == pytest.approx(0.3, rel=1e-12)
     steps = np.linspace(0.0, 0.2, 201)
     both = [HubPlace(radial=0.01, wind_up=0.001, leaning=float(one)) for one in steps]
     assert curve(both, moment_forward_Nm=-2.0).work[-1] == pytest.approx(0.4, rel=1e-5)
