@@ -197,9 +197,13 @@ def _state(
     else:
         rule = "must find a shape of its rim on this soil"
         raise InputError("flexible wheel", f"{load:g} N on {soil.name}", rule, "give a smaller load", key="load")
+    forces = _forces(wheel, soil, contour, driven)
+    if forces[0] < (1.0 - _SETTLED) * load:
+        rule = f"must be below {forces[0]:.3g} N, where the wheel lies in the soil nearly up to its axle"
+        raise InputError("load of the wheel", f"{load:g} N", rule, "give firmer soil or a larger wheel", key="load")
     below = float(shape.at(np.zeros(1))[0][0])
     slip = 0.0 if driven is None else driven[0]
-    return _told(wheel, contour, (height, below), _forces(wheel, soil, contour, driven), slip), shape
+    return _told(wheel, contour, (height, below), forces, slip), shape
 
 
 def _mixed(shapes: Sequence[FloatArray], residuals: Sequence[FloatArray]) -> FloatArray:
@@ -221,8 +225,9 @@ def _carried(
     asked: tuple[RimShape, float],
     known: tuple[_Driven, float],
 ) -> tuple[float, Contour]:
-    """Height of the hub at which a rim of a shape carries a load, and the contour there; ``known`` what drives it and
-    the height found before, 0 if none.
+    """Height of the hub at which a rim of a shape carries a load, the lowest if none does, and the contour there.
+
+    known : what drives it and the height found before, 0 if none
     """
     from scipy.optimize import brentq
 
@@ -232,9 +237,8 @@ def _carried(
         return float(_forces(wheel, soil, contour_of(wheel.radius, soil, law, shape, height), driven)[0])
 
     low, high = hub_heights(wheel.radius, shape)
-    if (most := carried(low)) < load:
-        rule = f"must be below {most:.3g} N, where the wheel lies in the soil nearly up to its axle"
-        raise InputError("load of the wheel", f"{load:g} N", rule, "give firmer soil or a larger wheel", key="load")
+    if carried(low) < load:
+        return low, contour_of(wheel.radius, soil, law, shape, low)
     if low + _NEAR < last < high - _NEAR and carried(last - _NEAR) > load > carried(last + _NEAR):
         low, high = last - _NEAR, last + _NEAR
     height = float(brentq(lambda at: carried(at) - load, low, high, xtol=1e-12, rtol=1e-12))

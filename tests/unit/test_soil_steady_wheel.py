@@ -11,6 +11,7 @@ each take pull away.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -236,6 +237,19 @@ def test_lugs_pull() -> None:
     lugged = steady_wheel(replace(WHEEL, lug_height=0.003, lugs=24), soil, 200.0, 0.2, EARTH)
     bare = steady_wheel(WHEEL, soil, 200.0, 0.2, EARTH)
     assert lugged.drawbar_pull > bare.drawbar_pull + 1.0
+
+
+def test_the_load_that_a_flexible_wheel_is_told_to_stay_below_is_its_own() -> None:
+    """Not that of a shape on the way to it: the same whatever load is asked for, and just below it there is a state."""
+    soil, told = soil_named("jsc1a"), set[str]()
+    for load in (500.0, 700.0):
+        with pytest.raises(InputError, match="axle") as caught:
+            steady_wheel(WHEEL, soil, load, 0.8, EARTH)
+        told |= set(re.findall(r"below (\S+) N", str(caught.value)))
+    (most,) = told
+    assert steady_wheel(WHEEL, soil, 0.99 * float(most), 0.8, EARTH).load == pytest.approx(0.99 * float(most))
+    with pytest.raises(InputError, match="axle"):
+        steady_wheel(WHEEL, soil, 1.01 * float(most), 0.8, EARTH)
 
 
 def test_what_cannot_be_is_refused() -> None:
