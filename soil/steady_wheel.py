@@ -170,7 +170,7 @@ def towed_wheel(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> 
     if torque(low) > 0.0:
         rule = "takes torque even where it skids"
         raise InputError("towed wheel", f"{load:g} N on {soil.name}", rule, "give a smaller load", key="load")
-    slip = float(brentq(torque, low, 0.5, xtol=1e-10))
+    slip = float(brentq(torque, low, 0.0, xtol=1e-10))
     return steady_wheel(wheel, soil, load, slip, gravity)
 
 

@@ -219,6 +219,13 @@ def test_the_towed_wheel_takes_no_torque_and_resists() -> None:
     assert found.drawbar_pull < 0.0
 
 
+def test_a_load_that_buries_a_driven_wheel_may_be_towed() -> None:
+    soil, load = soil_named("fjs1"), 1350.0
+    with pytest.raises(InputError, match="axle"):
+        steady_wheel(SMOOTH, soil, load, 0.5, EARTH)
+    assert abs(towed_wheel(SMOOTH, soil, load, EARTH).torque) < 1e-6
+
+
 @pytest.mark.parametrize(
     "change",
     [{"shear_modulus": 0.114}, {"cohesion": 0.0}, {"friction_angle": 0.4}],
