@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import InputError
+from reference_fe.contact.soil_ground import SoilContact
 from reference_fe.problem.static_problem import StaticProblem
 
 __all__ = ["control_rate", "depends_on_the_way"]
@@ -51,10 +52,14 @@ def control_rate(problem: StaticProblem, control: float, body_residual: Array) -
 def depends_on_the_way(problem: StaticProblem) -> bool:
     """Whether equilibria depend on how they are reached: material with a memory, friction, multipliers of contact.
 
-    Verified by tests/verification/test_fe_arc_length.py and tests/verification/test_fe_limit_point.py.
+    And soil, whose level parts are put right between solves, which the tangent does not know.
+
+    Verified by tests/verification/test_fe_arc_length.py, tests/verification/test_fe_limit_point.py and
+    tests/verification/test_fe_soil.py.
     """
-    multipliers = problem.contact is not None and problem.contact.closes_gaps
-    return bool(problem.histories.remembered) or not problem.surfaces.symmetric or multipliers
+    contact = problem.contact
+    mended = isinstance(contact, SoilContact) or (contact is not None and contact.closes_gaps)
+    return bool(problem.histories.remembered) or not problem.surfaces.symmetric or mended
 
 
 def _prescribed(problem: StaticProblem) -> Array:

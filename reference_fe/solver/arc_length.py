@@ -94,8 +94,9 @@ def follow_path(
     Raises
     ------
     InputError
-        For material or contact with a memory (plastic flow, friction, multipliers): what they do depends on the way
-        there, which is not known before it is gone. For a first arc that is not above zero.
+        For material or contact with a memory (plastic flow, friction, multipliers), and soil, whose level parts are put
+        right between solves: what they do depends on the way there, which is not known before it is gone. For a first
+        arc that is not above zero.
     ConvergenceError
         When the arc falls below 1/1024 of the first, when ``history`` has ``attempt_limit`` attempts before the target
         is reached, or where the control parameter moves nothing; carries history.
@@ -103,7 +104,9 @@ def follow_path(
     problem = solver.problem
     if depends_on_the_way(problem):
         rule = "is followed along no path: what it does depends on the way there"
-        raise InputError("yielding material, friction or multipliers", "", rule, "leave them away, or drive the load")
+        raise InputError(
+            "yielding material, friction, multipliers or soil", "", rule, "leave them away, or drive the load"
+        )
     if first_arc is not None and not (np.isfinite(first_arc) and first_arc > 0.0):
         raise InputError("first arc", first_arc, "must be finite and > 0 m", "leave it out: it then goes by arc.first")
     problem.set_control(start)

@@ -2,8 +2,9 @@
 
 Claims: a flat plate of Bekker's test carries k z^n A, a tilted one the same on its level area; with n = 1 a block
 with its flanks is carried as Archimedes says; the tangent is the derivative of the force; a wheel with grousers at rest
-carries the same by both models, which share no code, to 1 %; soil as hard as rock is rigid ground. Sources: Bekker
-(1969) as docs/theory/soil.md 11.1 has it; each model by the other. Negative control: half the modulus carries less.
+carries the same by both models, which share no code, to 0.5 % (0.2 found; 1 without the plates' level part); soil as
+hard as rock is rigid ground. Sources: Bekker (1969) as docs/theory/soil.md 11.1 has it; each model by the other.
+Negative control: half the modulus carries less.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from ancf_reduced.wheel.mesh import build_ancf_wheel
 from ancf_reduced.wheel.static import WheelOnGround, press
 from contracts.errors import InputError
 from contracts.hub_travel import HubTravel, Way
+from contracts.materials import TI_6AL_4V
 from geometry.build import build_mesh
 from geometry.wheel import WheelDesign, exomars_hoops
 from reference_fe import dolfinx_api as api
@@ -27,6 +29,10 @@ from reference_fe.contact.obstacle import ObstacleTerm
 from reference_fe.contact.obstacles import HalfRoundRock
 from reference_fe.contact.soil_ground import SoilContact
 from reference_fe.problem.domain import Domain
+from reference_fe.problem.static_problem import StaticProblem
+from reference_fe.problem.supports import Support
+from reference_fe.solver.arc_length import ArcLength, follow_path
+from reference_fe.solver.newton import NewtonSettings, NewtonSolver
 from reference_fe.verification.structured_hexahedra import block_mesh
 from reference_fe.wheel.case import WheelLoadCase
 from reference_fe.wheel.pressed import solve_wheel
@@ -129,6 +135,15 @@ def test_the_tangent_is_the_derivative_of_the_force() -> None:
     np.testing.assert_allclose(stiffness @ direction, -(ahead - behind) / (2 * h), atol=1e-6 * MODULUS)
 
 
+def test_soil_is_followed_along_no_path() -> None:
+    """Its level parts would stay those of the beginning."""
+    domain = Domain.from_tagged(block_mesh((1, 1, 1), lambda X: X))
+    soil = SoilContact(faces=("z0",), normal=(0.0, 0.0, 1.0), distance_at_touch=0.0, modulus=MODULUS, exponent=EXPONENT)
+    problem = StaticProblem(domain, {"body": TI_6AL_4V}, [Support(faces=("z1",))], contact=soil)
+    with pytest.raises(InputError, match="or soil"):
+        list(follow_path(NewtonSolver(problem, NewtonSettings()), ArcLength(first=1e-3), []))
+
+
 def test_what_soil_does_not_know_is_refused() -> None:
     given = {
         "faces": ("z0",),
@@ -177,7 +192,7 @@ def plates(soil: tuple[float, float] | None) -> NDArray[np.float64]:
 @pytest.mark.slow
 def test_both_models_stand_alike_on_soil_and_softer_than_on_rigid_ground() -> None:
     found = plates(LAW)
-    assert np.abs(found / solid(LAW) - 1.0).max() < 0.01
+    assert np.abs(found / solid(LAW) - 1.0).max() < 5e-3
     assert (solid(LAW) < 0.9 * solid(None)).all()
 
 
