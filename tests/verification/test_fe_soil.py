@@ -135,6 +135,17 @@ def test_the_tangent_is_the_derivative_of_the_force() -> None:
     np.testing.assert_allclose(stiffness @ direction, -(ahead - behind) / (2 * h), atol=1e-6 * MODULUS)
 
 
+def test_what_a_failed_increment_goes_back_to_are_its_level_parts_too() -> None:
+    term, n = plate(0.02)
+    term.set_control(0.05)
+    u = 1e-3 * np.random.default_rng(3).standard_normal(n)
+    before, kept = pressed(term, u)[0], term.state()
+    assert term.augment()
+    assert np.abs(pressed(term, u)[0] - before).max() > 1e-4 * np.abs(before).max()
+    term.restore(kept)
+    np.testing.assert_array_equal(pressed(term, u)[0], before)
+
+
 def test_soil_is_followed_along_no_path() -> None:
     """Its level parts would stay those of the beginning."""
     domain = Domain.from_tagged(block_mesh((1, 1, 1), lambda X: X))
