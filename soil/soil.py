@@ -19,6 +19,8 @@ from contracts.errors import InputError
 __all__ = ["Soil", "known_soils", "soil_named", "usual_numbers", "with_ends_of_ranges"]
 
 _TABLE = Path(__file__).parent / "soils.toml"
+_STEEPEST = 5.0
+"""Largest power of Lyasko's factor: soil that a slip of 0.2 digs four times deeper."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,6 +83,9 @@ class Soil:
         if self.rim_friction > 1.0:
             rule = "must be at most 1: soil shears on soil before it holds the rim faster"
             raise InputError("soil rim friction", f"{self.rim_friction:g}", rule, "0.76 is usual", key="rim_friction")
+        if self.slip_sinkage > _STEEPEST:
+            rule = f"must be at most {_STEEPEST:g}"
+            raise InputError("slip sinkage", f"{self.slip_sinkage:g}", rule, "1 is Lyasko's", key="slip_sinkage")
         for key, (low, high) in self.ranges.items():
             if not low <= getattr(self, key) <= high:
                 value = f"{low:g} to {high:g}"

@@ -129,7 +129,8 @@ def steady_wheel(wheel: WheelOnSoil, soil: Soil, load: float, slip: float, gravi
     Raises
     ------
     InputError
-        For a load that is not above zero or that buries the wheel, a slip not in [-4, 1) and a gravity below zero.
+        For a load that is not above zero, that buries the wheel or hardly touches the soil, a slip not in [-4, 1) and a
+        gravity below zero.
     """
     if not (math.isfinite(slip) and -4.0 <= slip < 1.0):
         raise InputError("slip", f"{slip:g}", "must lie in [-4, 1)", "0 rolls, 0.2 is usual for a drive", key="slip")
@@ -170,7 +171,7 @@ def towed_wheel(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> 
     if torque(low) > 0.0:
         rule = "takes torque even where it skids"
         raise InputError("towed wheel", f"{load:g} N on {soil.name}", rule, "give a smaller load", key="load")
-    slip = float(brentq(torque, low, 0.0, xtol=1e-10))
+    slip = float(brentq(torque, low, 0.0, xtol=1e-10))  # at no slip the rim is longer than its way: torque >= 0
     return steady_wheel(wheel, soil, load, slip, gravity)
 
 
@@ -200,10 +201,16 @@ def _state(
     forces = _forces(wheel, soil, contour, driven)
     if forces[0] < (1.0 - _SETTLED) * load:
         rule = f"must be below {forces[0]:.3g} N, where the wheel lies in the soil nearly up to its axle"
-        raise InputError("load of the wheel", f"{load:g} N", rule, "give firmer soil or a larger wheel", key="load")
+        hint = "give firmer soil, a larger wheel or less slip"
+        raise InputError("load of the wheel", _on(load, soil, driven), rule, hint, key="load")
     below = float(shape.at(np.zeros(1))[0][0])
     slip = 0.0 if driven is None else driven[0]
     return _told(wheel, contour, (height, below), forces, slip), shape
+
+
+def _on(load: float, soil: Soil, driven: _Driven) -> str:
+    """A load in words."""
+    return f"{load:g} N on {soil.name}" + ("" if driven is None else f" at slip {driven[0]:.3g}")
 
 
 def _mixed(shapes: Sequence[FloatArray], residuals: Sequence[FloatArray]) -> FloatArray:
@@ -239,6 +246,10 @@ def _carried(
     low, high = hub_heights(wheel.radius, shape)
     if carried(low) < load:
         return low, contour_of(wheel.radius, soil, law, shape, low)
+    if (least := carried(high)) > load:
+        rule = f"must be above {least:.3g} N, where the wheel hardly touches the soil"
+        hint = "give e.g. 200 N, and check the soil's units"
+        raise InputError("load of the wheel", _on(load, soil, driven), rule, hint, key="load")
     if low + _NEAR < last < high - _NEAR and carried(last - _NEAR) > load > carried(last + _NEAR):
         low, high = last - _NEAR, last + _NEAR
     height = float(brentq(lambda at: carried(at) - load, low, high, xtol=1e-12, rtol=1e-12))

@@ -118,6 +118,15 @@ def test_a_soil_file_that_cannot_be_is_one_message(studies: Path, change: tuple[
     assert word in run.stderr
 
 
+def test_what_a_rigid_wheel_cannot_is_told_before_its_rim_is_computed(studies: Path) -> None:
+    (studies / "soft.toml").write_text(SOIL.replace("2.4074e6", "1e3").replace("15600", "0"), encoding="utf-8")
+    (studies / "new.toml").write_text((ROOT / "studies" / "first.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    run = drawbar("new.toml", "--soil", "soft.toml", "--store", "store", cwd=studies)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert run.stderr.startswith("workbench: error: load of the wheel = 200 N on soft at slip 0: must be below ")
+    assert not (studies / "store").exists()
+
+
 def test_the_kept_rim_names_no_place_of_this_machine() -> None:
     kept = (ROOT / "studies" / "exomars.kept" / "carcass_fe.json").read_text(encoding="utf-8")
     assert '"workbench drawbar --tire fe"' in kept

@@ -49,6 +49,7 @@ def test_the_rim_is_held_less_than_soil() -> None:
         ({"unloading_growth": 0.0}, "unloading"),
         ({"peak_slipping": 0.9}, "peak"),
         ({"rim_friction": 1.2}, "rim friction"),
+        ({"slip_sinkage": 1e300}, "slip sinkage"),
         ({"ranges": {"shear_modulus": (0.02, 0.03)}}, "range of shear_modulus"),
     ],
 )

@@ -219,11 +219,13 @@ def test_the_towed_wheel_takes_no_torque_and_resists() -> None:
     assert found.drawbar_pull < 0.0
 
 
-def test_a_load_that_buries_a_driven_wheel_may_be_towed() -> None:
-    soil, load = soil_named("fjs1"), 1350.0
-    with pytest.raises(InputError, match="axle"):
-        steady_wheel(SMOOTH, soil, load, 0.5, EARTH)
-    assert abs(towed_wheel(SMOOTH, soil, load, EARTH).torque) < 1e-6
+def test_a_wheel_is_towed_where_it_would_dig_itself_in_by_its_drive() -> None:
+    soil = replace(soil_named("ding2011"), ranges={}, frictional_modulus=1e5)
+    with pytest.raises(InputError, match=r"220 N on ding2011 at slip 0\.5: must be below"):
+        steady_wheel(SMOOTH, soil, 220.0, 0.5, EARTH)
+    found = towed_wheel(SMOOTH, soil, 220.0, EARTH)
+    assert abs(found.torque) < 1e-6
+    assert found.slip < 0.0
 
 
 @pytest.mark.parametrize(
@@ -261,7 +263,13 @@ def test_the_load_that_a_flexible_wheel_is_told_to_stay_below_is_its_own() -> No
 
 def test_what_cannot_be_is_refused() -> None:
     soil = soil_named("grc1")
-    for load, slip, word in ((0.0, 0.1, "load"), (1e5, 0.1, "axle"), (80.0, 1.0, "slip"), (80.0, math.nan, "slip")):
+    for load, slip, word in (
+        (0.0, 0.1, "load"),
+        (1e-300, 0.1, "hardly touches"),
+        (1e5, 0.1, "axle"),
+        (80.0, 1.0, "slip"),
+        (80.0, math.nan, "slip"),
+    ):
         with pytest.raises(InputError, match=word):
             steady_wheel(SMOOTH, soil, load, slip, EARTH)
     with pytest.raises(InputError, match="gravity"):

@@ -156,6 +156,26 @@ def test_a_soil_of_ones_own(tmp_path: Path) -> None:
         soil_of("nowhere")
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "word"),
+    [
+        ("cohesion", "0.25", r"cohesion = 0\.25 Pa: must lie in 1 to 1e\+07 Pa; 1 kPa is 1000 of it"),
+        ("density", "1.6", r"density = 1\.6 kg/m\^3: must lie in 100 to 20000"),
+        ("shear_modulus", "11.4", r"shear_modulus = 11\.4 m: must lie in 0\.0001 to 1 m; write it with its unit"),
+        ("shear_modulus", "[0.01, 11.4]", r"shear_modulus = 11\.4 m"),
+        ("unloading_growth", "1e300", "unloading_growth"),
+        ("source", '["a", "b"]', "source = .*must be a text"),
+    ],
+)
+def test_a_slip_of_the_unit_is_told(tmp_path: Path, key: str, value: str, word: str) -> None:
+    numbers = {"exponent": "1.0", "cohesive_modulus": "0", "frictional_modulus": "8e5", "cohesion": "1000"}
+    numbers |= {"friction_angle": '"45 deg"', "density": "1600", key: value}
+    lines = [f"{name} = {one}" for name, one in numbers.items()]
+    (tmp_path / "mine.toml").write_text("\n".join(lines), encoding="utf-8")
+    with pytest.raises(InputError, match=word):
+        soil_of("mine.toml", tmp_path)
+
+
 def test_the_lugs_are_the_design_s_grousers() -> None:
     found = wheel_on_soil(wheel_design(STUDY))
     assert (found.lugs, found.lug_height, found.radius) == (12, pytest.approx(0.003), pytest.approx(0.1425))

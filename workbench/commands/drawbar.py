@@ -67,8 +67,11 @@ def run_drawbar(study_path: Path | None, choices: DrawbarChoices, out: Path, sto
     check_targets(out, _FILES)
     with naming(path):
         design = wheel_design(study)
-        typed = "" if study_path is None else f"{shlex.quote(str(study_path))} "
-        carcass = rim_of(study, choices.tire, (path, f"workbench drawbar {typed}"), (store, computing))
+    bench = run_bench(wheel_on_soil(design), soil, load, slips, gravity, towed=choices.towed)
+    if choices.tire != "rigid":  # what a rigid wheel cannot do on this soil is said before minutes of computing
+        with naming(path):
+            typed = "" if study_path is None else f"{shlex.quote(str(study_path))} "
+            carcass = rim_of(study, choices.tire, (path, f"workbench drawbar {typed}"), (store, computing))
         bench = run_bench(wheel_on_soil(design, carcass), soil, load, slips, gravity, towed=choices.towed)
     _print(bench, choices.tire)
     title = f"{study.name} on {soil.name} under {load:g} N, g = {gravity:g} m/s²"
@@ -118,7 +121,7 @@ def _print(bench: Bench, tire: str) -> None:
         cells = (
             f"{a.slip:.3g}",
             f"{a.drawbar_pull:.1f}",
-            f"{a.torque + 0.0:.2f}",
+            f"{round(a.torque, 2) + 0.0:.2f}",  # no minus before nothing
             f"{1e3 * a.sinkage:.1f}",
             f"{a.efficiency:.2f}",
             f"{1e3 * a.deflection:.1f}",

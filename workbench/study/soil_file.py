@@ -30,8 +30,24 @@ from workbench.study.quantities import to_si
 __all__ = ["soil_of"]
 
 _ENDING = ".toml"
-_BY_EXPONENT = {"cohesive_modulus": (1e-3, 1e8), "frictional_modulus": (1e3, 1e10)}
-"""Numbers whose unit depends on the exponent, and what they can be [SI]: kilopascals are a usual slip."""
+_BY_EXPONENT = ("cohesive_modulus", "frictional_modulus")
+"""Numbers whose unit depends on the exponent."""
+_CAN_BE = {
+    "exponent": (0.05, 5.0),
+    "cohesive_modulus": (1e-3, 1e8),
+    "frictional_modulus": (1e3, 1e10),
+    "cohesion": (1.0, 1e7),
+    "density": (100.0, 2e4),
+    "shear_modulus": (1e-4, 1.0),
+    "unloading_stiffness": (1e3, 1e13),
+    "unloading_growth": (1e3, 1e15),
+}
+"""What numbers of any soil can be, where they are not zero [SI]: a slip of the unit leaves it."""
+_SLIPS = {"cohesive_modulus": "1 kPa is 1000 of it", "frictional_modulus": "1 kPa is 1000 of it"} | {
+    "cohesion": "1 kPa is 1000 of it",
+    "shear_modulus": "write it with its unit, like '18 mm'",
+}
+"""What slips of the unit are usual."""
 
 
 def soil_of(name: str, folder: Path = Path()) -> Soil:
@@ -63,8 +79,9 @@ def _from_file(path: Path) -> Soil:
     if missing := [one.name for one in fields(Soil) if one.name in rules and one.name not in numbers]:
         known = ", ".join(known_soils())
         raise InputError(f"soil file {path}", missing[0], "is missing", f"add it, or take a known soil ({known})")
+    source = _source(path, given)
     try:
-        return Soil(name=path.stem, source=_source(path, given), ranges=ranges, **numbers)
+        return Soil(name=path.stem, source=source, ranges=ranges, **numbers)
     except InputError as error:
         raise InputError(f"{path}: {error.what}", error.value, error.rule, error.hint, key=error.key) from error
 
@@ -84,14 +101,16 @@ def _number(path: Path, key: str, value: object, rule: In) -> float:
         raise InputError(
             what, repr(value), str(told.get("rule", error)), str(told.get("hint", "see its unit"))
         ) from error
-    low, high = _BY_EXPONENT.get(key, (-float("inf"), float("inf")))
+    low, high = _CAN_BE.get(key, (-float("inf"), float("inf")))
     if number and not low <= number <= high:
-        raise InputError(
-            f"{path}: {key}", f"{number:g} {rule.unit}", f"must lie in {low:g} to {high:g}", "1 kPa is 1000 of it"
-        )
+        limits = f"must lie in {low:g} to {high:g} {rule.unit}".rstrip()
+        hint = _SLIPS.get(key, "check its unit")
+        raise InputError(f"{path}: {key}", f"{number:g} {rule.unit}".rstrip(), limits, hint)
     return number
 
 
 def _source(path: Path, given: Mapping[str, Any]) -> str:
     source = given.get("source", "")
-    return " ".join(str(source).split()) or f"the file {path.name}"
+    if not isinstance(source, str):
+        raise InputError(f"{path}: source", source, "must be a text", 'write it like "my bevameter, June"')
+    return " ".join(source.split()) or f"the file {path.name}"
