@@ -11,9 +11,9 @@ from typing import Any
 from contracts.errors import InputError
 from workbench.study.obstacle_words import obstacle_table
 
-__all__ = ["chosen_obstacle", "on_obstacle"]
+__all__ = ["USED_BY", "chosen_obstacle", "on_obstacle"]
 
-_USED_BY = ("fe", "section", "ancf_wheel")
+USED_BY = ("fe", "section", "ancf_wheel")
 """Models that stand on what [fe] says."""
 
 
@@ -39,8 +39,8 @@ def chosen_obstacle(word: str | None, **sizes: str | None) -> dict[str, str] | N
 
 def on_obstacle(study: Mapping[str, Any], obstacle: Mapping[str, str], model: str) -> dict[str, Any]:
     """A study file's table whose [fe] has this obstacle; InputError for a model that does not stand on it."""
-    if model not in _USED_BY:
-        rule = f"does not stand on what --obstacle says; {', '.join(_USED_BY)} do"
+    if model not in USED_BY:
+        rule = f"does not stand on what --obstacle says; {', '.join(USED_BY)} do"
         raise InputError("model", model, rule, "leave out --obstacle")
     fe = study.get("fe")
     return dict(study) | ({"fe": dict(fe) | {"obstacle": dict(obstacle)}} if isinstance(fe, Mapping) else {})

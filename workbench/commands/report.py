@@ -22,7 +22,16 @@ from workbench.execution.terminal import empty_table
 from workbench.questions.study_graph import report_tasks
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.gate_summary import gate_markdown, gate_rows
-from workbench.report.outputs import curve_file, curve_links, field_files, junit, parts_file, publish, summary, to_json
+from workbench.report.outputs import (
+    beside_fields,
+    curve_file,
+    curve_links,
+    field_files,
+    junit,
+    publish,
+    summary,
+    to_json,
+)
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER
 from workbench.study.full import full_study
 from workbench.study.magnitudes import loosened, warnings_of
@@ -93,7 +102,7 @@ def run_report(
     gate = gate_of(study.name, verdict(found.checks, loosened(study)), found.checks, accepted)
     page = rendered_sections(content)
     texts: dict[str, str | bytes] = {
-        **parts_file(study, copies),
+        **beside_fields(study, copies),
         "report.pdf": document_pdf(page),
         "evidence.html": render(page, EVIDENCE),
         "report.html": render(page, REPORT),

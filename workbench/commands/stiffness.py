@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from contracts.curves import StiffnessCurve
@@ -20,7 +21,7 @@ from workbench.commands.computing import (
     tell_kept,
     warn,
 )
-from workbench.commands.obstacle import on_obstacle
+from workbench.commands.obstacle import USED_BY, on_obstacle
 from workbench.execution.result_files import early_ends, losses_of_stability
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
@@ -30,8 +31,9 @@ from workbench.questions.fe.unloading import Unloading, unloadings
 from workbench.questions.models.curves import stiffness_curves
 from workbench.questions.strength.yielding import PeakStress, peak_stresses
 from workbench.report.folders import check_folder, check_targets
-from workbench.report.outputs import field_files, parts_file, publish
+from workbench.report.outputs import beside_fields, field_files, publish
 from workbench.study.model import Study
+from workbench.study.obstacle_words import ground_words
 from workbench.study.strengths import yield_strengths
 
 __all__ = ["check_orientation", "run_stiffness"]
@@ -72,9 +74,12 @@ def run_stiffness(
         curves = stiffness_curves(study, model, folders)
         ways = {c.orientation_deg: c for c in curves if model == "fe" and c.orientation_deg is not None}
         back = unloadings(ways, folders)
+    if ground := ground_words(study.fe) if model in USED_BY else "":
+        curves = [replace(curve, source=f"{curve.source}, pressed on a {ground}") for curve in curves]
+        console.print(f"pressed on a {ground}", soft_wrap=True)
     peaks, fields = tuple(_peaks(study, curves)), field_files(entries)
     table = {f"{model}_peak_stress.csv": _peaks_csv(peaks)} if peaks else {}
-    texts = parts_file(study, fields) | table
+    texts = beside_fields(study, fields) | table
     every = [*curves, *(one.curve for one in back.values())]
     tell_kept(publish(out, f"stiffness {model}", texts, every, copies=fields))
     _print(model, curves, peaks)

@@ -20,6 +20,7 @@ from contracts.series import TimeSeries, write_series
 from contracts.text import for_json, one_line
 from workbench.execution.store import Entry
 from workbench.questions.fe.field_file import POINTS_FILE, PRESSURE_FILE
+from workbench.questions.fe.ground_file import GROUND_FILE, ground_text
 from workbench.questions.fe.parts_file import PARTS_FILE, parts_text
 from workbench.report.evidence import Evidence
 from workbench.report.placing import new_files
@@ -29,7 +30,7 @@ from workbench.study.strengths import yield_strengths
 from workbench.verdict.baseline import Change
 from workbench.verdict.status import overall_status
 
-__all__ = ["curve_file", "curve_links", "field_files", "junit", "parts_file", "publish", "summary", "to_json"]
+__all__ = ["beside_fields", "curve_file", "curve_links", "field_files", "junit", "publish", "summary", "to_json"]
 
 
 def curve_file(curve: StiffnessCurve) -> str:
@@ -69,11 +70,18 @@ def field_files(entries: Mapping[str, Entry]) -> dict[str, Path]:
     return found
 
 
-def parts_file(study: Study, files: Iterable[str]) -> dict[str, str]:
-    """``fields/parts.json`` -> its text, if there are fields among these files and parts that can yield."""
-    strengths = yield_strengths(study)
-    told = bool(strengths) and any(name.startswith("fields/") for name in files)
-    return {f"fields/{PARTS_FILE}": parts_text(strengths)} if told else {}
+def beside_fields(study: Study, files: Iterable[str]) -> dict[str, str]:
+    """``fields/parts.json``, ``fields/ground.json`` -> its text, if there are fields among these files, and parts that
+    can yield, or ground that is no level plane.
+    """
+    found = dict[str, str]()
+    if any(name.startswith("fields/") for name in files):
+        fe, strengths = study.fe, yield_strengths(study)
+        if strengths:
+            found[f"fields/{PARTS_FILE}"] = parts_text(strengths)
+        if fe.camber or fe.obstacle.shape != "plane":
+            found[f"fields/{GROUND_FILE}"] = ground_text(fe.obstacle.model_dump(mode="json"), fe.camber)
+    return found
 
 
 def publish(

@@ -5,11 +5,13 @@ Verified by tests/unit/test_workbench_obstacle_option.py and tests/unit/test_wor
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from contracts.errors import InputError
+from workbench.study.sections import FeSection
 
-__all__ = ["OBSTACLES", "obstacle_table", "obstacle_words"]
+__all__ = ["OBSTACLES", "ground_words", "obstacle_table", "obstacle_words"]
 
 OBSTACLES: Mapping[str, tuple[str, Mapping[str, str]]] = {
     "step": ("step", {"height": "height", "edge_radius": "edge_radius"}),
@@ -68,3 +70,12 @@ def obstacle_words(text: object) -> dict[str, str]:
         rule = "has more sizes than a height and a width"
         raise InputError("obstacle", repr(text), rule, "write e.g. 'cleat 20 mm x 12 mm'")
     return obstacle_table(word, dict(zip(("height", "width"), given, strict=False)))
+
+
+def ground_words(fe: FeSection) -> str:
+    """``cleat: height 20 mm, width 12 mm, ...`` of what [fe] presses on; nothing of a level plane."""
+    sizes = fe.obstacle.model_dump()
+    shape, yaw = sizes.pop("shape"), sizes.pop("yaw", 0.0)
+    told = [f"{name.replace('_', ' ')} {1e3 * value:g} mm" for name, value in sizes.items()]
+    told += [f"{name} {math.degrees(turn):g} deg" for name, turn in (("yaw", yaw), ("camber", fe.camber)) if turn]
+    return f"{shape.replace('_', ' ')}: {', '.join(told)}" if told else ""

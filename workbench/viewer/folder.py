@@ -14,8 +14,10 @@ from contracts.curves import StiffnessCurve, read_curve
 from contracts.errors import InputError
 from contracts.foreign_folder import read_json
 from contracts.series import TimeSeries, read_series
+from workbench.questions.fe.ground_file import GROUND_FILE, read_ground
 from workbench.questions.fe.parts_file import PARTS_FILE, read_parts
 from workbench.report.series import MOTIONS_FOLDER, SERIES_FOLDER, is_ours
+from workbench.viewer.ground import Ground
 from workbench.viewer.names import named_apart, plain
 
 __all__ = ["FieldFile", "ModesFile", "ReportFolder", "read_folder", "spoken"]
@@ -67,6 +69,7 @@ class ReportFolder:
     points : fields at the points of a curve, by (model, orientation)
     pressures : contact pressures at the nodes, by the same
     yield_strengths : of parts by name [Pa]; empty where nothing is told of them
+    ground : what the wheel of the fields stands on
     curves : by file name without its ending, such as ``fe_phi015``
     series : time series by (scenario, tire)
     motions : files of recorded motions by (scenario, tire)
@@ -83,6 +86,7 @@ class ReportFolder:
     points: Mapping[tuple[str, float], Path]
     pressures: Mapping[tuple[str, float], Path]
     yield_strengths: Mapping[str, float]
+    ground: Ground
     curves: Mapping[str, StiffnessCurve]
     series: Mapping[tuple[str, str], TimeSeries]
     motions: Mapping[tuple[str, str], Path]
@@ -118,7 +122,7 @@ def read_folder(path: Path) -> ReportFolder:
     study, status = _summary(summary) if next(inside.files("", summary.name), None) else ("", "")
     motions = {_named(one): one for one in inside.files(MOTIONS_FOLDER, "*_*.npz")}
     series = {_named(one): one for one in inside.files(SERIES_FOLDER, "*.csv") if is_ours(one.name)}
-    parts = next(inside.files("fields", PARTS_FILE), None)
+    parts, ground = (next(inside.files("fields", name), None) for name in (PARTS_FILE, GROUND_FILE))
     found = ReportFolder(
         path=path,
         study=study,
@@ -127,6 +131,7 @@ def read_folder(path: Path) -> ReportFolder:
         points=_by_orientation(inside.matches("fields", _POINTS, "_points.npz")),
         pressures=_by_orientation(inside.matches("fields", _PRESSURES, "_pressure.npz")),
         yield_strengths={} if parts is None else read_parts(parts),
+        ground=Ground() if ground is None else _ground(ground),
         curves={name: read_curve(one) for name, one in named_apart(inside.files("curves", "*.csv")).items()},
         series={names: read_series(one, *names) for names, one in series.items()},
         motions=motions,
@@ -168,6 +173,11 @@ def _modes_file(path: Path, m: re.Match[str]) -> ModesFile:
         path=path,
         table=path.with_suffix(".csv"),
     )
+
+
+def _ground(path: Path) -> Ground:
+    shape, terrain, camber = read_ground(path)
+    return Ground(shape=shape, terrain=terrain, camber=camber)
 
 
 def _by_orientation(matches: Iterable[tuple[Path, re.Match[str]]]) -> dict[tuple[str, float], Path]:

@@ -28,6 +28,8 @@ class Results:
         self.wheels: dict[tuple[str, float], WheelStage] = {}
         for key in dict.fromkeys((one.model, one.orientation) for one in folder.fields):
             files = [(one.load, one.path) for one in folder.fields if (one.model, one.orientation) == key]
-            self.wheels[key] = wheel_stage(key[1], files, folder.points.get(key), folder.pressures.get(key))
+            self.wheels[key] = wheel_stage(
+                key[1], files, folder.points.get(key), folder.pressures.get(key), folder.ground
+            )
         self.rovers = {key: RoverStage(path) for key, path in folder.motions.items()}
         self.modes = [ModesStage(file) for file in folder.modes]

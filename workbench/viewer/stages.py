@@ -22,6 +22,7 @@ from workbench.questions.fe.field_file import read_points, read_pressures
 from workbench.questions.rover.motion_file import RecordedMotion, read_motion
 from workbench.study.ancf_tire import drawn_tire
 from workbench.viewer.colours import ColourBar, colour_bar, rgb
+from workbench.viewer.ground import Ground
 from workbench.viewer.scene import Camera, Scene
 from workbench.viewer.wheel_body import WheelBody
 from workbench.viewer.wheel_file import read_fields
@@ -54,12 +55,14 @@ class WheelStage:
     loads : (n,) [N], the first one 0
     fields : (n,)
     orientation : what faces the ground [deg]
+    stands_on : that ground
     """
 
     body: WheelBody
     loads: tuple[float, ...]
     fields: tuple[WheelField, ...]
     orientation: float
+    stands_on: Ground = field(default_factory=Ground)
     _bars: dict[str, ColourBar] = field(default_factory=dict)
 
     def values(self, number: int, quantity: str) -> FloatArray:
@@ -97,7 +100,8 @@ class WheelStage:
 
     def places(self, number: int, points: WheelPoints) -> FloatArray:
         """Of points of the wheel (n, 3) [m], in true scale, the ground below."""
-        places: FloatArray = (points.places + points.displacement(self.fields[number])) @ upright(self.orientation).T
+        turned = self.stands_on.lean @ upright(self.orientation)
+        places: FloatArray = (points.places + points.displacement(self.fields[number])) @ turned.T
         return places
 
     def show(
@@ -123,11 +127,8 @@ class WheelStage:
         return first_look(float(np.abs(self.body.places).max()))
 
     def ground(self, number: int) -> Quads:
-        """A square under the lowest point of the whole wheel."""
-        places = self.places(number, self.body)
-        below, half = float(places[:, 2].min()) - 3e-4, 0.85 * float(np.abs(places).max())
-        corners = [(a * half, b * half, below) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-        return np.array(corners), np.array([[0, 1, 2, 3]])
+        """The piece of it that the whole wheel touches."""
+        return self.stands_on.under(self.places(number, self.body), self.body.faces[self.body.cells[:, 1] < 0])
 
 
 def upright(orientation: float) -> FloatArray:
@@ -146,6 +147,7 @@ def wheel_stage(
     files: Sequence[tuple[float, Path]],
     points: Path | None = None,
     pressures: Path | None = None,
+    ground: Ground | None = None,
 ) -> WheelStage:
     """Read the fields of one orientation [deg] at loads [N] in increasing order.
 
@@ -155,6 +157,7 @@ def wheel_stage(
     files : loads [N] with their files, one at least; the first gives the mesh
     points : fields at the points of the curve, which are shown with them
     pressures : contact pressures at loads
+    ground : what the wheel stands on; None is level
 
     Raises
     ------
@@ -185,6 +188,7 @@ def wheel_stage(
         loads=(0.0, *loads),
         fields=(still, *(shown[load] for load in loads)),
         orientation=orientation,
+        stands_on=ground or Ground(),
     )
 
 

@@ -110,6 +110,8 @@ class WheelTab:
         state.caption = f"{spoken(state.model)}, {state.orientation:g}° down, {state.moment}"
         if number == 0:
             state.caption += " (unloaded)"
+        if words := self.stage.stands_on.words:
+            state.caption += f", {words}"
         if state.probe:
             self._tell(state.probe["point"], state.probe["tag"])
         self.view.update()
