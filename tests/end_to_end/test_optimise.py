@@ -198,8 +198,9 @@ def test_a_band_that_no_wheel_has_ends_with_the_nearest(optimised: tuple[Path, s
         (
             "utilisation_at_60N",
             "utilisation_at_61N",
-            "optimise.against: is no number of the table; e.g. utilisation_at_60N",
+            "optimise.against = utilisation_at_61N: is no number of the table; e.g. utilisation_at_60N",
         ),
+        ('"wheel.tire.thickness', '"wheel.tire.thicknes', "thicknes = 0.65 mm: is not a known key; use thickness"),
         ("springs[0].thickness", "springs[7].thickness", "wheel.springs[7].thickness = 0.65 mm: names no key"),
         ("rounds = 0", 'confirm_step = "7 deg"', "optimise.confirm_step"),
         ('load = "60 N"', 'load = "60 mm"', "optimise.load"),
@@ -207,7 +208,7 @@ def test_a_band_that_no_wheel_has_ends_with_the_nearest(optimised: tuple[Path, s
 )
 def test_bad_input_is_one_message(tmp_path: Path, old: str, new: str, message: str) -> None:
     (tmp_path / "study.toml").write_text(_study().replace(old, new), encoding="utf-8")
-    checked = [("check", tmp_path / "study.toml")] if "confirm_step" in new else []
+    checked = [("check", tmp_path / "study.toml")] if "confirm_step" in new or "wheel.tire" in new else []
     for arguments in (*checked, _arguments(tmp_path, "out", "store")):
         ended = said(*arguments, folder=tmp_path)
         assert ended.returncode == 2

@@ -13,7 +13,7 @@ from pydantic import BaseModel
 
 from contracts.errors import StudyError
 from workbench.study.contact import PlaneSection
-from workbench.study.key_units import is_whole_number, unit_of
+from workbench.study.key_units import is_whole_number, parts_of, unit_of
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study_table
 from workbench.study.section import Section
@@ -180,6 +180,15 @@ def test_the_ground_is_varied_in_a_few_words_and_its_place_beside_it() -> None:
 def test_temperature_is_one_of_the_whole_wheel() -> None:
     cold, warm = _points(temperature=["-40 degC", "30 degC"], models=["fe"], base=False)
     assert (cold.temperature, warm.temperature) == (pytest.approx(233.15), pytest.approx(303.15))
+
+
+def test_a_name_within_a_key_may_have_quotes_as_in_toml() -> None:
+    quoted = 'materials."Ti-6Al-4V".young_modulus'
+    assert (
+        parts_of(quoted) == parts_of("materials.Ti-6Al-4V.young_modulus") == ["materials", "Ti-6Al-4V", "young_modulus"]
+    )
+    assert parts_of('materials."steel 1.4310".density')[1] == "steel 1.4310"
+    assert unit_of(quoted) == "Pa"
 
 
 def test_keys_may_be_written_without_quotes() -> None:

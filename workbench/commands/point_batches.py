@@ -79,7 +79,8 @@ class PointBatches:
             if name not in known:
                 near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
                 hint = f"e.g. {near[0]}" if near else f"one of {', '.join(known)}"
-                raise StudyError(self.path, f"{self.section}.{key}", "", "is no number of the table", hint)
+                shown = "" if key.endswith(name) else name
+                raise StudyError(self.path, f"{self.section}.{key}", shown, "is no number of the table", hint)
 
     def unusable_ends(self, sweep: SweepSection) -> list[str]:
         """Each end of a range and each value of a list that, the rest as it is, makes no wheel, and why."""

@@ -21,6 +21,7 @@ from workbench.study.section import Section
 __all__ = [
     "absent",
     "as_written",
+    "is_key",
     "is_table",
     "is_whole_number",
     "nameless",
@@ -32,12 +33,17 @@ __all__ = [
 
 _WRITTEN = {"m": (1e3, "mm"), "rad": (180.0 / math.pi, "deg"), "Pa": (1e-6, "MPa")}
 """SI unit -> what a number is multiplied by, and the unit that it has then."""
-_PART = re.compile(r"\[(\d{1,9})\]|([^.\[\]]+)")
+_PART = re.compile(r'\[(\d{1,9})\]|"([^"]+)"|([^.\[\]]+)')
 
 
 def parts_of(key: str) -> list[str | int]:
-    """``"wheel.springs[0].count"`` -> ``["wheel", "springs", 0, "count"]``."""
-    return [int(number) if number else name for number, name in _PART.findall(key)]
+    """``"wheel.springs[0].count"`` -> ``["wheel", "springs", 0, "count"]``; quotes may hold a name, as in TOML."""
+    return [int(number) if number else quoted or name for number, quoted, name in _PART.findall(key)]
+
+
+def is_key(key: str) -> bool:
+    """Whether a study may have the key."""
+    return bool(_types(key))
 
 
 def unit_of(key: str) -> str | None:

@@ -19,7 +19,7 @@ from pydantic_core import PydanticCustomError
 
 from contracts.errors import InputError, StudyError
 from workbench.study.full import steps_around
-from workbench.study.key_units import is_whole_number, parts_of
+from workbench.study.key_units import is_key, is_table, is_whole_number, nearest_key, parts_of
 from workbench.study.model import Study
 from workbench.study.obstacle_words import obstacle_words
 from workbench.study.own_mesh import materials_by_part
@@ -354,6 +354,10 @@ def _replated(ancf: Mapping[str, Any], value: Value) -> dict[str, Any]:
 def _set_key(path: Path, table: dict[str, Any], key: str, value: Value) -> None:
     """Put a value at a dotted key; tables that are not written in the file are made, lists are not made longer."""
     *parents, last = parts_of(key) or [0]
+    if is_table(parents) and not is_key(key):
+        near = nearest_key([*parents, last])
+        hint = f"use {near}, if that is meant" if near else "correct its spelling"
+        raise StudyError(path, key, value, "is not a known key", hint)
     at: Any = table
     for place, part in enumerate(parents):
         missing = isinstance(at, dict) and isinstance(part, str) and part not in at
