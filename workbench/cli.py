@@ -442,7 +442,7 @@ def rover(
     raise typer.Exit(list_scenarios() if names else run_rover(scenario, out, choices, store))
 
 
-@app.command()
+@app.command(cls=LongCommand)
 def drawbar(
     study: StudyOrBuiltIn = None,
     soil: Annotated[
@@ -508,7 +508,7 @@ def compare(
 
 @app.command()
 def view(
-    folder: Annotated[Path, typer.Argument(help="Folder of a report, or of `workbench rover`.", show_default=False)],
+    folder: Annotated[Path, typer.Argument(help="Folder of a report, stiffness, modes or rover.", show_default=False)],
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes one that is free.")] = 0,
     open_browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
 ) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from contracts.errors import InputError, StudyError
+from tests.end_to_end.small_study import said
 from workbench.commands.computing import naming, warn
 from workbench.execution.doctor import NEEDED
 from workbench.execution.errors import InterruptedRunError, RunError
@@ -73,6 +74,7 @@ print(Screen.told)
         (("modes", "none.toml"), "modes none.toml"),
         (("rover", "no_such_scenario"), "rover no_such_scenario"),
         (("calibrate", "none.toml"), "thickness none.toml"),
+        (("drawbar", "none.toml"), "drawbar none.toml"),
     ],
 )
 def test_a_long_command_says_at_once_what_it_is_about(arguments: tuple[str, ...], words: str) -> None:
@@ -90,6 +92,25 @@ def test_help_and_wrong_usage_are_not_announced() -> None:
         call = [sys.executable, "-c", SAID_ON_A_TERMINAL, "terminal", *arguments]
         ended = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True)
         assert ended.stdout.splitlines()[-1] == "[]"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("drawbar", "--soil", "grc1", "--soil=fjs1"), "workbench: error: --soil: is given twice, and counts once; "),
+        (("stiffness", "none.toml", "--load", "1", "--load", "2"), "workbench: error: --load: is given twice"),
+        (
+            ("stiffness", "none.toml", "--orientation", "1", "--orientation", "2"),
+            "workbench: error: none.toml: does not",
+        ),
+        (("drawbar", "none.toml", "--towed", "--towed"), "workbench: error: none.toml: does not exist"),
+    ],
+)
+def test_an_option_that_counts_once_is_given_once(arguments: tuple[str, ...], message: str) -> None:
+    ended = said(*arguments)
+    assert ended.returncode == 2
+    assert message in ended.stderr
+    assert ended.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("distribution", NEEDED)

@@ -77,9 +77,19 @@ class DefaultCommand(TyperGroup):
 class LongCommand(TyperCommand):
     """A command that takes a while to begin: on a terminal it says at once what it is about, before anything is loaded.
 
+    An option that counts once and is given twice is refused: of two soils or loads the last one alone would count.
     Nothing is said where standard error is no terminal: what reads it there gets warnings and errors alone.
     Verified by tests/unit/test_workbench_commands.py.
     """
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Refuse what is given twice."""
+        options = [one for one in self.params if one.param_type_name == "option"]
+        for names in (one.opts for one in options if not (one.multiple or getattr(one, "is_flag", False))):
+            given = [place for place, word in enumerate(args) if word.partition("=")[0] in names]
+            if len(given) > 1:
+                raise InputError(names[0], "", "is given twice, and counts once", "leave one of them out")
+        return super().parse_args(ctx, args)
 
     def invoke(self, ctx: Any) -> Any:
         """Say so, then do it."""
