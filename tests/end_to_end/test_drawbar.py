@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import csv
 import os
+import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from tests.end_to_end.small_study import tiny_study
 
 ROOT = Path(__file__).parents[2]
 SOIL = """
@@ -125,6 +128,21 @@ def test_what_a_rigid_wheel_cannot_is_told_before_its_rim_is_computed(studies: P
     assert (run.returncode, run.stdout) == (2, "")
     assert run.stderr.startswith("workbench: error: load of the wheel = 200 N on soft at slip 0: must be below ")
     assert not (studies / "store").exists()
+
+
+def test_a_rim_known_by_one_point_of_its_curve_is_used_and_said_to_be(studies: Path) -> None:
+    """The run ends at its first point, 27 N or more at 3 mm; the bench asks for 60 N."""
+    text = re.sub(r'max_load = "300 N"', 'max_load = "20 N"', tiny_study().replace('"20 N", "10 kN"', '"20 N"'))
+    (studies / "short.toml").write_text(text, encoding="utf-8")
+    options = ("--soil", "fjs1", "--load", "60", "--slip", "0.2", "--store", "store", "--out", "short")
+    run = drawbar("short.toml", *options, cwd=studies)
+    assert run.returncode == 0, run.stderr
+    (warning,) = run.stderr.splitlines()
+    assert re.match(
+        r"workbench: warning: short.toml: 60 N lies beyond the wheel's curves, which end at \d+\.\d N", warning
+    )
+    (row,) = rows(studies / "short" / "drawbar.csv")
+    assert float(row["deflection_m"]) > 1e-3
 
 
 def test_the_kept_rim_names_no_place_of_this_machine() -> None:

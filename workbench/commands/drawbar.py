@@ -14,7 +14,7 @@ import numpy as np
 
 from contracts.errors import InputError
 from rover_dynamics.rover.planets import gravity_named
-from workbench.commands.computing import console, naming, read_and_warn, tell_kept
+from workbench.commands.computing import console, naming, read_and_warn, tell_kept, warn
 from workbench.commands.soil_rim import check_soil_tire, rim_of
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
@@ -72,6 +72,9 @@ def run_drawbar(study_path: Path | None, choices: DrawbarChoices, out: Path, sto
         with naming(path):
             typed = "" if study_path is None else f"{shlex.quote(str(study_path))} "
             carcass = rim_of(study, choices.tire, (path, f"workbench drawbar {typed}"), (store, computing))
+        if carcass.curve and load > carcass.curve[-1][0]:
+            told = f"{load:g} N lies beyond the wheel's curves, which end at {carcass.curve[-1][0]:.3g} N"
+            warn(path, [f"{told}: the rim is taken as stiff as there; raise fe.max_load or fe.max_deflection"])
         bench = run_bench(wheel_on_soil(design, carcass), soil, load, slips, gravity, towed=choices.towed)
     _print(bench, choices.tire)
     title = f"{study.name} on {soil.name} under {load:g} N, g = {gravity:g} m/s²"

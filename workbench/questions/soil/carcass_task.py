@@ -56,7 +56,7 @@ def find(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progre
     source = f"{words} on rigid ground under {load:.0f} N at {len(found)} orientations"
     carcass = carcass_from_shapes([one[1:] for one in found], load, source)
     curves = [read_curve(needs[name] / CURVE) for _, name in inputs["curves"]]
-    told = [curve for curve in curves if len(curve.load) > 2 and curve.load[-1] >= 0.9 * load]
+    told = [curve for curve in curves if len(curve.load) > 1 and curve.load[-1] >= 0.9 * load]
     write_result(
         out,
         {
