@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 from contracts.errors import InputError
-from contracts.hub_travel import Way
+from contracts.hub_travel import HubPlace, Way
+from contracts.path_curve import PathCurve
+from contracts.travel_curve import WRENCH
+from workbench.commands.hub_path import off_the_ground
 from workbench.commands.travel import check_ways
 from workbench.questions.travel_start import APPROACH, asked_steps, hub_travel
 from workbench.questions.travels import FRICTION, path_tasks
@@ -78,3 +82,29 @@ def test_several_ways_are_a_curve_each() -> None:
     assert check_ways(["lateral", "all"]) == tuple(Way)
     with pytest.raises(InputError, match="'up': is not known"):
         check_ways(["lateral", "up"])
+
+
+@pytest.mark.parametrize(
+    ("load", "told"),
+    [
+        ([0.0, 30.0, 80.0, 40.0], []),
+        (
+            [0.0, 30.0, 0.0, 0.0],
+            ["fe 15 deg: the wheel is off the ground at 2 of its steps, first at radial 2 mm, leaning"],
+        ),
+    ],
+    ids=["pressed", "leaves"],
+)
+def test_a_wheel_that_leaves_the_ground_is_told(load: list[float], told: list[str]) -> None:
+    places = [
+        HubPlace(),
+        HubPlace(radial=2e-3),
+        HubPlace(radial=2e-3, leaning=-0.86),
+        HubPlace(radial=2e-3, leaning=-1.0),
+    ]
+    columns = dict.fromkeys(WRENCH, np.zeros(4)) | {"load_N": np.array(load)}
+    curve = PathCurve(model="fe", orientation_deg=15.0, places=np.array(places), columns=columns, source="made up")
+    found = off_the_ground(curve)
+    assert len(found) == len(told)
+    for one, start in zip(found, told, strict=True):
+        assert one == f"{start} -49.3 deg"

@@ -1,14 +1,18 @@
 """``workbench stiffness --path``: the hub of the wheel along a path over the ground, and what energy that takes.
 
-Verified by tests/end_to_end/test_hub_path.py.
+Verified by tests/end_to_end/test_hub_path.py and tests/unit/test_workbench_hub_path.py.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
+
+from contracts.hub_travel import HubPlace, Way
 from contracts.path_curve import PathCurve, write_path
 from workbench.commands.computing import (
     complain_of_early_ends,
@@ -17,6 +21,7 @@ from workbench.commands.computing import (
     naming,
     read_and_warn,
     tell_kept,
+    warn,
 )
 from workbench.commands.stiffness import check_orientation
 from workbench.execution.result_files import early_ends
@@ -29,7 +34,10 @@ from workbench.report.outputs import publish
 from workbench.study.hub_path import hub_path
 from workbench.study.orientation import degrees, orientation_name
 
-__all__ = ["run_path"]
+__all__ = ["off_the_ground", "run_path"]
+
+_NOTHING = 1e-6
+"""Share of the largest load that counts as none [-]."""
 
 
 def run_path(
@@ -59,8 +67,25 @@ def run_path(
     _print(curves)
     if curves:
         console.print(f"paths: {out / 'paths'}", soft_wrap=True)
+    warn(study_path, [told for curve in curves for told in off_the_ground(curve)])
     complain_of_early_ends(study_path, early_ends(folders))
     return 0
+
+
+def off_the_ground(curve: PathCurve) -> list[str]:
+    """Where the wheel leaves the ground after its first touch, in a sentence; none where it stays."""
+    load = curve.columns["load_N"]
+    off = np.flatnonzero(load[1:] <= _NOTHING * load.max()) + 1
+    if not len(off):
+        return []
+    place = dict(zip(HubPlace._fields, curve.places[off[0]].tolist(), strict=True))
+    words = [
+        f"{name} {math.degrees(value):.3g} deg" if Way(name).turns else f"{name} {1e3 * value:.3g} mm"
+        for name, value in place.items()
+        if value
+    ]
+    where = f"{curve.model} {curve.orientation_deg:g} deg: the wheel is off the ground at {len(off)} of its steps"
+    return [f"{where}, first at {', '.join(words)}"]
 
 
 def _texts(curves: Sequence[PathCurve]) -> dict[str, str]:
