@@ -42,6 +42,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path.mkdir()
     write_small_report(path)
     (path.parent / "mine.csv").write_text("deflection_mm,load_kN\n0,0\n20,0.15\n", encoding="utf-8")
+    (path.parent / "fe_phi000").write_text("deflection_m,load_N\n0,0\n0.02,999\n", encoding="utf-8")
+    (path.parent / "long.csv").write_text("deflection_m,load_N\n" + "0,0\n" * 300_000, encoding="utf-8")
     (path.parent / "bad.csv").write_text("x,y\n0,0\n1,1\n", encoding="utf-8")
     return path
 
@@ -214,6 +216,7 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
         cut = until_changed(page, hidden)
         page.locator("#cut-step").fill("100")  # nothing is left before the eye
         page.locator("#cut-text", has_text="y = 50.0 mm").wait_for()
+        caption(page, "200 N: nothing left of it")
         until_changed(page, cut)
         page.select_option("#cut-axis", "")
         page.click("#all-parts")
@@ -257,6 +260,12 @@ def test_a_colleague_looks_at_results(folder: Path, address: str) -> None:
 
         page.set_input_files("#own-curve", folder.parent / "bad.csv")
         page.locator("#message", has_text="bad.csv").wait_for()
+        page.set_input_files("#own-curve", folder.parent / "long.csv")
+        page.locator("#message", has_text="long.csv: is empty, or larger than 1 MB").wait_for()
+        page.set_input_files("#own-curve", folder.parent / "fe_phi000")  # takes no place of a curve of the folder
+        page.locator("#chart .legend", has_text="fe_phi000 (yours)").wait_for()
+        page.locator("#curves label", has_text="fe_phi000 (yours)").click()
+        page.locator("#chart .legend", has_text="fe_phi000 (yours)").wait_for(state="detached")
         page.set_input_files("#own-curve", folder.parent / "mine.csv")
         page.locator("#chart .legend", has_text="mine.csv").wait_for()
         page.locator("#curves label", has_text="FE 0°").click()

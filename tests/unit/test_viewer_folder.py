@@ -54,7 +54,7 @@ def test_curves_are_grouped_by_model_and_variants_of_it() -> None:
 
 
 def test_folders_without_results_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="holds no results; give the folder"):
+    with pytest.raises(InputError, match="holds no fields, curves, series, motions or modes to show; give the folder"):
         read_folder(tmp_path)
     with pytest.raises(InputError, match="does not exist"):
         read_folder(tmp_path / "nowhere")

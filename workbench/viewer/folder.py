@@ -143,7 +143,7 @@ def read_folder(path: Path) -> ReportFolder:
         left_out=tuple(dict.fromkeys(inside.left_out)),
     )
     if not (found.fields or found.curves or found.series or found.motions or found.modes):
-        raise InputError("report folder", path, "holds no results", _HINT)
+        raise InputError("report folder", path, "holds no fields, curves, series, motions or modes to show", _HINT)
     return found
 
 

@@ -165,8 +165,11 @@ class Session:
         state.figure = curves_chart(chosen, self.own, shown)
 
     def add_curve(self, name: str, text: str) -> None:
-        """Overlay a user's curve; one that cannot be used is refused in words."""
+        """Overlay a user's curve; one that cannot be used is refused in words. A large file comes as no text."""
         state = self.state
+        if not text:
+            state.message = f"{plain(name)}: is empty, or larger than 1 MB; give fewer points"
+            return
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "curve.csv"
             path.write_text(text, encoding="utf-8")
@@ -176,7 +179,7 @@ class Session:
             except InputError as error:
                 state.message = f"{plain(name)}: {plain(error.rule)}; {plain(error.hint)}"
                 return
-        name = plain(name)
+        name = plain(name) + " (yours)" * (plain(name) in self.folder.curves)
         full = name not in self.own and len(self.own) >= _MOST_OWN
         state.message = f"{name}: {_MOST_OWN} curves are enough; reload the page to begin anew" if full else ""
         if full:

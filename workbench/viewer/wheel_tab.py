@@ -112,6 +112,8 @@ class WheelTab:
             state.caption += " (unloaded)"
         if words := self.stage.stands_on.words:
             state.caption += f", {words}"
+        if not len(self._surface.quads):
+            state.caption += ": nothing left of it"
         if state.probe:
             self._tell(state.probe["point"], state.probe["tag"])
         self.view.update()
