@@ -246,6 +246,25 @@ def test_gates_are_tolerances_that_checks_are_moved_by() -> None:
     assert GATES.keys() <= ToleranceSection.model_fields.keys()
 
 
+@pytest.mark.parametrize(
+    ("obstacle", "beyond"),
+    [
+        ({"shape": "cleat", "height": 0.02, "width": 0.02, "edge_radius": 0.005, "position": 0.25}, True),
+        ({"shape": "cleat", "height": 0.02, "width": 0.30, "edge_radius": 0.005, "position": 0.25}, False),
+        ({"shape": "step", "height": 0.02, "edge_radius": 0.005, "position": -0.15}, True),
+        ({"shape": "step", "height": 0.02, "edge_radius": 0.005, "position": 0.14}, False),
+        ({"shape": "half_round_rock", "radius": 0.1, "position": 0.24}, False),
+    ],
+)
+def test_an_obstacle_that_misses_the_wheel_is_told(obstacle: dict[str, Any], beyond: bool) -> None:
+    """The built-in wheel's grousers reach 145.5 mm."""
+    path = built_in_study()
+    table = tomllib.loads(path.read_text(encoding="utf-8"))
+    table["fe"]["obstacle"] = obstacle
+    told = [line for line in warnings_of(study_of(path, table)) if "lies beyond the wheel, which reaches 145.5" in line]
+    assert len(told) == beyond
+
+
 def test_numbers_of_the_command_line_have_the_same_limits() -> None:
     require_possible("target", 8250.0, "reference.slope.value")
     with pytest.raises(InputError, match=r"target = 1e300 N/m: must lie between 1 N/m and 1e9 N/m"):

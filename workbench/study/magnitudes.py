@@ -22,9 +22,10 @@ from workbench.study.key_units import nameless
 from workbench.study.laws import other_law
 from workbench.study.model import DATA, Study
 from workbench.study.off_soil import without_soil
-from workbench.study.own_mesh import material_names
+from workbench.study.own_mesh import material_names, own_mesh
 from workbench.study.quantities import to_si
 from workbench.study.sections import ToleranceSection
+from workbench.study.wheel_design import wheel_design
 
 __all__ = [
     "GATES",
@@ -145,12 +146,27 @@ def _idle(study: Study) -> Iterator[str]:
         yield f"[ancf_wheel] has no effect: its model does not have {lacking}; remove it, or the other"
     if study.soil is not None and (odd := without_soil(study)) is not None:
         yield f"[soil] has no effect: {odd[0]} {odd[2]}; {odd[3]}"
+    if own_mesh(study) is None:
+        yield from _beyond_the_wheel(study)
     if study.input_uncertainty is not None and (other := other_law(study)) is not None:
         yield f"[input_uncertainty] has no effect: the section model that samples it does not have {' = '.join(other)}"
     tires = study.ancf is not None and study.ancf.thesis_preset and study.brush is not None
     if study.of_the_thesis and not (tires and len(study.parametric.springs) > 1):
         needs = "[ancf] with thesis_preset, [brush] and two sets of springs"
         yield f"reference.thesis_words judges no stiffness: the thesis' words need {needs}"
+
+
+def _beyond_the_wheel(study: Study) -> Iterator[str]:
+    """An obstacle that lies too far ahead of the hub, or behind it, for the wheel to touch it."""
+    obstacle = study.fe.obstacle
+    if not (ahead := getattr(obstacle, "position", 0.0)):
+        return
+    wheel = wheel_design(study)
+    reach = wheel.tire.outer_radius + (0.0 if wheel.grousers is None else wheel.grousers.height)
+    half = getattr(obstacle, "radius", 0.5 * getattr(obstacle, "width", 0.0))
+    if abs(ahead) - half > reach:
+        rule = f"lies beyond the wheel, which reaches {1e3 * reach:g} mm from its hub: it stands on level ground"
+        yield f"fe.obstacle.position = {1e3 * ahead:g} mm: the {obstacle.shape.replace('_', ' ')} {rule}"
 
 
 def _asked(study: Study, tolerance: str) -> bool:
