@@ -75,7 +75,11 @@ def test_six_components_stand_in_every_curve(folder: Path) -> None:
         (["--travel", "lateral", "--model", "brush"], "has no hub that could be moved"),
         (["--travel", "lateral", "--load", "0"], "load = 0 N: must lie between 0.1 N and fe.max_load, 300 N"),
         (["--travel", "lateral", "--load", "inf"], "load = inf N: must lie between"),
-        (["--travel", "lateral", "--load", "290", "--orientation", "15"], "lies outside the curve"),
+        (
+            ["--travel", "lateral", "--load", "290", "--orientation", "15"],
+            "lies outside the curve without friction, which",
+        ),
+        (["--matrix", "--load", "290", "--orientation", "15"], "turning_small_phi015, "),
         (["--load", "50"], "load = 50 N: is where the hub's travel begins; give --travel or --matrix"),
     ],
 )

@@ -228,14 +228,17 @@ def test_a_failure_is_one_message_and_keeps_finished_results(
 
 
 def test_a_failure_stops_only_what_needs_it(tmp_path: Path) -> None:
-    """Two tasks fail, one waits for a failed one in vain, the others finish; both failures are told."""
+    """Three tasks fail, one waits for a failed one in vain, the others finish; what two say alike is told once."""
     bad = [Task(name=n, function=f"{PROBE}:refuse", inputs={}, cost=9.0) for n in ("bad", "worse")]
+    bad.append(Task(name="broken", function=f"{PROBE}:crash", inputs={}, cost=9.0))
     tasks = [*bad, _sum(tmp_path, "a", 1.0), _sum(tmp_path, "b", 1.0, ("bad",)), _sum(tmp_path, "c", 2.0, ("a",))]
     recorder = Recorder()
-    with pytest.raises(RunError, match=r"task (bad|worse) failed: .*; task (bad|worse) failed: "):
+    with pytest.raises(RunError, match=r"tasks (bad, worse|worse, bad) failed: load = -1 N: ") as caught:
         run_tasks(tasks, Store(tmp_path / "store"), recorder, Computing(workers=1))
+    assert "task broken failed: unexpected ZeroDivisionError" in str(caught.value)
+    assert str(caught.value).count("press harder") == 1
     assert [name for kind, name in recorder.events if kind == "computed"] == ["a", "c"]
-    assert {name for kind, name in recorder.events if kind == "failed"} == {"bad", "worse"}
+    assert {name for kind, name in recorder.events if kind == "failed"} == {"bad", "worse", "broken"}
     assert _runs(tmp_path) == ["a", "c"]
 
 

@@ -76,8 +76,18 @@ def run_tasks(
     """
     ended = run_all(tasks, store, listener, computing)
     if ended.failures:
-        raise RunError("; ".join(ended.failures.values()))
+        raise RunError("; ".join(_told_once(ended.failures)))
     return ended.entries
+
+
+def _told_once(failures: Mapping[str, str]) -> list[str]:
+    """Messages of failed tasks by name; what several say alike is told once, of all of them."""
+    alike: dict[str, list[str]] = {}
+    for name, told in failures.items():
+        alike.setdefault(told.removeprefix(f"task {name} "), []).append(name)
+    return [
+        failures[names[0]] if len(names) == 1 else f"tasks {', '.join(names)} {told}" for told, names in alike.items()
+    ]
 
 
 def run_all(tasks: Sequence[Task], store: Store, listener: Listener, computing: Computing | None = None) -> Ended:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from contracts.curves import read_curve
+from contracts.errors import InputError
 from contracts.hub_travel import HubTravel, Way
 from workbench.questions.model_curves import CURVE
 
@@ -23,8 +24,13 @@ def hub_travel(inputs: Mapping[str, Any], needs: Mapping[str, Path]) -> HubTrave
     asked = inputs["travel"]
     if "path" in asked:
         return _through(asked)
-    curve = read_curve(needs[inputs["curve"]] / CURVE)
-    return HubTravel.along(way=Way(asked["way"]), start=curve.deflection_at(asked["load"]), steps=tuple(asked["steps"]))
+    curve, load = read_curve(needs[inputs["curve"]] / CURVE), asked["load"]
+    if load > (most := float(curve.load.max())):
+        rule = (
+            f"lies outside the curve without friction, which ends at {most:.4g} N, {1e3 * curve.deflection[-1]:.3g} mm"
+        )
+        raise InputError("load", f"{load:g} N", rule, "give less load, or raise fe.max_deflection")
+    return HubTravel.along(way=Way(asked["way"]), start=curve.deflection_at(load), steps=tuple(asked["steps"]))
 
 
 def asked_steps(asked: Mapping[str, Any]) -> int:
