@@ -27,6 +27,7 @@ from workbench.questions.soil.graph import at_rest_orientation, carcass_tasks, s
 from workbench.questions.soil.measured import REFINEMENTS, measured, refinements
 from workbench.questions.soil.question import SOIL
 from workbench.questions.soil.results import AtRest, Held, HeldRefinement, OnSoil
+from workbench.study.model import stated
 from workbench.study.reading import built_in_study, read_study
 from workbench.study.soil_file import soil_of
 from workbench.study.wheel_design import wheel_design
@@ -76,6 +77,20 @@ def test_a_study_with_soils_asks_for_the_bench_and_both_models_at_rest() -> None
     assert at_rest_orientation(STUDY) == pytest.approx(15.0 + math.degrees(wheel_design(STUDY).grousers.phase))  # type: ignore[union-attr]
     assert not SOIL.applies(STUDY.model_copy(update={"soil": None}))
     json.dumps([task.inputs for task in by_name.values()])
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"soils": ("grc1", "fjs1", "grc1")}, "soil.soils = grc1: is the name of two of them; leave one out"),
+        ({"load": 2500.0}, r"load of the wheel = 2500 N on grc1 at slip 0\.6: must be below"),
+    ],
+)
+def test_what_no_bench_can_do_is_told_before_anything_is_computed(change: dict[str, object], message: str) -> None:
+    given = {"soils": ("grc1", "fjs1"), "load": 200.0} | change
+    study = STUDY.model_copy(update={"soil": stated(STUDY.soil, "soil").model_copy(update=given)})
+    with pytest.raises(InputError, match=message):
+        soil_tasks(study)
 
 
 def test_the_reports_own_curves_tell_the_rim() -> None:

@@ -6,6 +6,7 @@ Verified by tests/unit/test_workbench_soil.py.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -13,11 +14,13 @@ from typing import Any
 
 from contracts.errors import InputError
 from rover_dynamics.rover.planets import gravity_named
-from soil.soil import Soil
+from soil.soil import Soil, with_ends_of_ranges
+from soil.steady_wheel import steady_wheel
 from workbench.execution.task import Task
 from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks
 from workbench.questions.fe.foresight import foreseen
 from workbench.questions.fe.graph import fe_curve_tasks, fe_inputs, fe_task, without_end, without_fields
+from workbench.questions.soil.bench import wheel_on_soil
 from workbench.questions.travels import WORKING_LOAD
 from workbench.questions.wheel.graph import MESH, coarse_across, mesh_task, wheel_inputs, wheel_meshes
 from workbench.study.ancf_wheel import without_ancf_wheel
@@ -53,14 +56,27 @@ def carcass_name(model: str) -> str:
 
 
 def soils_of(study: Study) -> tuple[Soil, ...]:
-    """The soils of [soil]; files lie beside the study's."""
+    """The soils of [soil]; files lie beside the study's.
+
+    Raises
+    ------
+    InputError
+        As `workbench.study.soil_file.soil_of`, and for two of one name.
+    """
     folder = Path() if study.kept is None else study.kept.parent
-    return tuple(soil_of(name, folder) for name in stated(study.soil, "soil").soils)
+    found = tuple(soil_of(name, folder) for name in stated(study.soil, "soil").soils)
+    for name, count in Counter(one.name for one in found).items():
+        if count > 1:
+            raise InputError("soil.soils", name, "is the name of two of them", "leave one out, or rename its file")
+    return found
 
 
 def soil_tasks(study: Study) -> list[Task]:
-    """What the report asks of a study with [soil]."""
+    """What the report asks of a study with [soil]; InputError for a soil that buries the rigid wheel at some slip."""
     section, soils = stated(study.soil, "soil"), soils_of(study)
+    wheel, gravity = wheel_on_soil(wheel_design(study)), gravity_named("mars")
+    for one in (end for soil in soils for end in with_ends_of_ranges(soil)):
+        steady_wheel(wheel, one, section.load, SLIPS[-1], gravity)
     bench = Task(
         name=BENCH,
         function="workbench.questions.soil.bench_task:drive",
@@ -69,7 +85,7 @@ def soil_tasks(study: Study) -> list[Task]:
             "soils": [asdict(one) for one in soils],
             "load": section.load,
             "slips": list(SLIPS),
-            "gravity": gravity_named("mars"),
+            "gravity": gravity,
             "carcass": carcass_name("fe"),
         },
         needs=(carcass_name("fe"),),
