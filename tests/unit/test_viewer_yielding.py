@@ -66,6 +66,10 @@ def test_strengths_are_known_by_the_tags_of_the_parts(tmp_path: Path) -> None:
     assert found.yield_strengths == STRENGTHS
     assert found.strengths_of("fe", 30.0) == {1: STRENGTHS["hub"], 2: STRENGTHS["tire"]}
     assert found.strengths_of("fe", 45.0) == {}
+    held = STRENGTHS | {"outer_hub": 900e6}  # rigid, and so without a stress in the curve
+    (tmp_path / "fields" / PARTS_FILE).write_text(parts_text(held), encoding="utf-8")
+    assert read_folder(tmp_path).parts_of("fe", 30.0) == ("hub", "tire", "outer_hub")
+    assert read_folder(tmp_path).strengths_of("fe", 30.0)[3] == 900e6
     (tmp_path / "fields" / PARTS_FILE).unlink()
     assert read_folder(tmp_path).strengths_of("fe", 30.0) == {}
 

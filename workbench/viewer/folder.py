@@ -99,11 +99,14 @@ class ReportFolder:
         return {tag: self.yield_strengths[name] for tag, name in names if name in self.yield_strengths}
 
     def parts_of(self, model: str, orientation: float) -> tuple[str, ...]:
-        """Names of the parts with a stress in the curve beside the fields, in the order of their tags 1, 2, ..."""
+        """Names of the parts in the order of their tags 1, 2, ...: those with a stress in the curve beside the fields,
+        behind them those that are held rigid, of which the parts' strengths alone are told.
+        """
         for name, curve in self.curves.items():
             if re.fullmatch(rf"{re.escape(model)}_phi0*{orientation:g}", name):
                 found = (re.fullmatch(r"max_von_mises_(.+)_Pa", column) for column in curve.columns)
-                return tuple(match[1] for match in found if match)
+                stressed = tuple(match[1] for match in found if match)
+                return (*stressed, *(name for name in self.yield_strengths if name not in stressed))
         return ()
 
 
