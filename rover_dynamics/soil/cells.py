@@ -174,10 +174,11 @@ def _wheel(
                 output[4 + q] += area * pressure * r[q]
             output[1] += area * pressure
             thrust += area * shear * a
-            _add_harmonics(rate, cosine, sine, area * pressure)
+            conjugate = area * radius / math.hypot(x_rate, z_rate)
+            _add_harmonics(rate, cosine, sine, conjugate * pressure)
             if jacobian.shape[0]:
                 add_derivatives(
-                    (r, t, normal, e, (cosine, sine, area)),
+                    (r, t, normal, e, (cosine, sine, area, conjugate)),
                     (shear, by, share_within * stiffness, pressure if yields else 0.0),
                     (a, b, field.clock[0] * share_within * kept + n.lag),
                     ground,

@@ -22,7 +22,7 @@ MOST_SLIP = 0.9
 
 @compiled
 def add_derivatives(
-    axes: tuple[Vector, Vector, Vector, Vector, Vector],
+    axes: tuple[Vector, Vector, Vector, Vector, tuple[float, float, float, float]],
     laws_of: tuple[float, Vector, float, float],
     sheared: Vector,
     ground: SoilGround,
@@ -33,12 +33,13 @@ def add_derivatives(
 
     Parameters
     ----------
-    axes : lever, tangent, normal, axle; cosine and sine of the place on the rim and area [m^2]
+    axes : lever, tangent, normal, axle; cosine and sine of the place on the rim, area, and that which moves the rim
+        towards the hub [m^2]
     laws_of : shear stress over way, `_shear`'s derivatives, dp/dz, and p where the soil yields, else 0
     sheared : ahead and aside, lag included [m], and how much of it a unit of sliding speed adds [s]
     sigma : slip along the contact [-]
     """
-    r, t, normal, e, (cosine, sine, area) = axes
+    r, t, normal, e, (cosine, sine, area, conjugate) = axes
     shear, (rising, by_pressure, way), stiffness, yielding = laws_of
     a, b, by_speed = sheared
     n, count = ground.numbers, (jacobian.shape[0] - 8) // 2
@@ -50,20 +51,20 @@ def add_derivatives(
         dp = -stiffness * by_motion[q] / normal[2]
         for m in range(6):
             jacobian[m, q] += on_wrench[m] * dp
-        _add_rates(jacobian, q, (cosine, sine), area * dp)
+        _add_rates(jacobian, q, (cosine, sine), conjugate * dp)
     c, d = 1.0, 0.0
     for k in range(count):
         for column, value in ((12 + k, c), (12 + count + k, d)):
             dp = -stiffness * value / normal[2]
             for m in range(6):
                 jacobian[m, column] += on_wrench[m] * dp
-            _add_rates(jacobian, column, (cosine, sine), area * dp)
+            _add_rates(jacobian, column, (cosine, sine), conjugate * dp)
         c, d = c * cosine - d * sine, d * cosine + c * sine
     if 0.0 < sigma < 1.0:
         dp = -yielding * n.exponent * n.slip_sinkage * (1.0 / (1.0 + sigma) + 0.5 / (1.0 - 0.5 * sigma))
         for m in range(6):
             jacobian[m, 12 + 2 * count] += on_wrench[m] * dp
-        _add_rates(jacobian, 12 + 2 * count, (cosine, sine), area * dp)
+        _add_rates(jacobian, 12 + 2 * count, (cosine, sine), conjugate * dp)
     over = 1.0 / max(way, 1e-12)
     x, y = a * over, b * over
     ahead_too = by_speed - (by_speed - n.lag) * min(max(sigma, 0.0), MOST_SLIP)  # what comes from upwind grows as well
