@@ -1,10 +1,10 @@
 """Cost of the rover on soil that keeps its ruts, against real time and against the number of touched cells.
 
-``make bench NAME=soil`` prints the table and writes ``build/bench/soil.json``. Straight path at 70 m/h for 20 s after 5 s
-of settling, ten outputs a second, on rigid wheels, on brush tires and on wheels whose rim gives way as the built-in
+``make bench NAME=soil`` prints the table and writes ``build/bench/soil.json``. Straight path at 70 m/h for 20 s after 5
+s of settling, ten outputs a second, on rigid wheels, on brush tires and on wheels whose rim gives way as the built-in
 wheel's does (three harmonics), with cells of 20, 10 and 5 mm; and once more on a field of sixteen times the area.
-Processor time of one thread, the shorter of two runs, compilation left out. Touched cells: those under all six wheels at
-the end of a step, mean over a few. Aim: five times faster than real time with cells of 10 mm.
+Processor time of one thread, the shorter of two runs, compilation left out. Touched cells: those under all six wheels
+at the end, from the lengths of their contacts. Aim: five times faster than real time with cells of 10 mm.
 """
 
 from __future__ import annotations

@@ -471,6 +471,37 @@ def drawbar(
     raise typer.Exit(run_drawbar(study, choices, out, store, computing(workers, 1, None)))
 
 
+@app.command(cls=LongCommand)
+def climb(
+    study: StudyOrBuiltIn = None,
+    soil: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="A known soil or a soil's file; may be given several times. Those of the study if left out.",
+            show_default=False,
+        ),
+    ] = None,
+    tire: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="rigid, brush, fe or ancf_wheel; may be given several times. rigid and fe if left out.",
+            show_default=False,
+        ),
+    ] = None,
+    angle: Annotated[
+        str | None, typer.Option(help="Slopes A:B:STEP in degrees; 0:25:5 if left out.", show_default=False)
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of climb.csv and climb.png.")] = Path("build/climb"),
+    store: StoreOption = DEFAULT_STORE,
+    workers: Workers = None,
+) -> None:
+    """The rover on slopes of soil, up, down and across: slip, torque, energy a metre; kept for the report."""
+    from workbench.commands.climb import ClimbChoices, run_climb
+
+    choices = ClimbChoices(soils=tuple(soil or ()), tires=tuple(tire or ()), angle=angle)
+    raise typer.Exit(run_climb(study, choices, out, store, computing(workers, 1, None)))
+
+
 @app.command()
 def compare(
     curve: Annotated[

@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import shlex
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -18,20 +19,21 @@ from contracts.text import for_matplotlib
 from rover_dynamics.rover.scenarios.on_soil import CELL, on_soil
 from rover_dynamics.rover.scenarios.scenario import Scenario
 from rover_dynamics.soil.field import Ruts
+from soil.steady_wheel import WheelOnSoil
 from workbench.charts.palette import INK
 from workbench.charts.still_charts import png_bytes
 from workbench.commands.computing import naming, read_and_warn
 from workbench.commands.options import computing
 from workbench.commands.rover_tires import TireSource
 from workbench.commands.soil_rim import check_soil_tire, rim_of
-from workbench.questions.soil.bench import wheel_on_soil
-from workbench.study.model_parameters import rover_brush
+from workbench.execution.runner import Computing
+from workbench.questions.soil.held_climbs import rim_and_settling
+from workbench.study.model import Study
 from workbench.study.quantities import to_si
 from workbench.study.reading import built_in_study
 from workbench.study.soil_file import soil_of
-from workbench.study.wheel_design import wheel_design
 
-__all__ = ["SoilChoice", "on_chosen_soil", "ruts_npz", "ruts_png"]
+__all__ = ["SoilChoice", "on_chosen_soil", "ruts_npz", "ruts_png", "wheel_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,10 +59,18 @@ def on_chosen_soil(scenario: Scenario, tire: str, source: TireSource, choice: So
     typed = "" if source.path is None else f"{shlex.quote(str(source.path))} "
     with naming(path):
         where = source.store, computing(None, 1, None)
-        wheel = wheel_on_soil(wheel_design(study), rim_of(study, tire, (path, f"workbench drawbar {typed}"), where))
-        brush = rover_brush(study)
-    settling = brush.radial_damping / brush.radial_stiffness if tire == "brush" else None
+        wheel, settling = wheel_of(study, tire, (path, f"workbench drawbar {typed}"), where)
     return replace(on_soil(scenario, soil, wheel, cell=cell, settling=settling), tire_model=tire)
+
+
+def wheel_of(
+    study: Study, tire: str, given: tuple[Path, str], where: tuple[Path, Computing]
+) -> tuple[WheelOnSoil, float | None]:
+    """A study's wheel by a tire of `soil_rim.SOIL_TIRES`, and the time in which its rim settles [s], None for usual.
+
+    given, where : as `soil_rim.rim_of` has them
+    """
+    return rim_and_settling(study, tire, rim_of(study, tire, given, where))
 
 
 def _length(text: str) -> float:

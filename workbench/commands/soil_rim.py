@@ -16,8 +16,8 @@ from workbench.execution.runner import Computing
 from workbench.questions.kept import keep, kept, require_numbers, require_place
 from workbench.questions.soil.bench import carcass_of
 from workbench.questions.soil.graph import CARCASS_MODELS, carcass_name, carcass_tasks
+from workbench.questions.soil.held_climbs import brush_rim
 from workbench.study.model import Study
-from workbench.study.model_parameters import rover_brush
 
 __all__ = ["SOIL_TIRES", "check_soil_tire", "rim_of"]
 
@@ -39,8 +39,7 @@ def rim_of(study: Study, tire: str, given: tuple[Path, str], where: tuple[Path, 
     if tire == "rigid":
         return RIGID
     if tire == "brush":
-        brush = rover_brush(study)
-        return Carcass(compliance=(0.0, 1.0 / brush.radial_stiffness), source="brush tire, a rigid circle on a spring")
+        return brush_rim(study)
     path, command = given
     tasks, name = carcass_tasks(study, tire), carcass_name(tire)
     record = kept(study, name, _read)

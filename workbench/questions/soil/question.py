@@ -9,14 +9,16 @@ import math
 from collections.abc import Sequence
 
 from contracts.records import Check
+from workbench.questions.kept import OF_ANOTHER
 from workbench.questions.question import Question
+from workbench.questions.soil.climb import STUCK, Climbs
 from workbench.questions.soil.figures import soil_figures
 from workbench.questions.soil.graph import soil_tasks
 from workbench.questions.soil.measured import QUANTITIES
 from workbench.questions.soil.results import REQUIRED_SLOPE, OnSoil, read_on_soil
 from workbench.study.model import Study
 from workbench.study.off_soil import without_soil
-from workbench.verdict.rules import Claim, at_least, at_most
+from workbench.verdict.rules import Claim, at_least, at_most, undecided
 
 __all__ = ["SOIL"]
 
@@ -31,7 +33,11 @@ def _checks(study: Study, results: OnSoil) -> Sequence[Check]:
     if "ancf_wheel" in results.at_rest.curves:
         found.append(_models(study, results))
     found += [_bench(study, results, number) for number in (0, 1)]
-    return [*found, *(_climbs(results, number) for number in range(len(results.benches)))]
+    found += [_climbs(results, number) for number in range(len(results.benches))]
+    if results.climbs is None:
+        return found
+    rover = [_rover(climbs) for climbs in results.climbs.best.values()]
+    return [*found, *([undecided(one, OF_ANOTHER) for one in rover] if results.climbs.state == "stale" else rover)]
 
 
 def _held(results: OnSoil, number: int) -> Check:
@@ -85,6 +91,18 @@ def _climbs(results: OnSoil, number: int) -> Check:
     return at_least(claim, lambda: math.degrees(results.slope(bench)), math.degrees(REQUIRED_SLOPE))
 
 
+def _rover(climbs: Climbs) -> Check:
+    claim = Claim(
+        id=f"soil.rover_{climbs.soil}",
+        title=f"Slope that the rover climbs on {climbs.soil} with a slip below {STUCK:g}",
+        quantity="slope",
+        unit="deg",
+        role="finding",
+        source="mission requirements, Samarini 2020, section 1: slopes of 25 degrees",
+    )
+    return at_least(claim, lambda: climbs.steepest, math.degrees(REQUIRED_SLOPE))
+
+
 SOIL = Question(
     name="soil",
     title="On soil",
@@ -94,5 +112,5 @@ SOIL = Question(
     checks=_checks,
     figures=lambda study, results: soil_figures(results.benches, results.held),
     applies=lambda study: study.soil is not None and without_soil(study) is None,
-    budget=340,
+    budget=400,
 )

@@ -16,6 +16,7 @@ from workbench.execution.result_files import read_result
 from workbench.questions.model_curves import CURVE
 from workbench.questions.soil.bench import Bench
 from workbench.questions.soil.graph import AT_REST, BENCH, MEASURED, at_rest_orientation
+from workbench.questions.soil.held_climbs import HeldClimbs, held_climbs
 from workbench.study.model import Study
 
 __all__ = ["REQUIRED_SLOPE", "AtRest", "Held", "HeldRefinement", "OnSoil", "read_on_soil"]
@@ -81,11 +82,12 @@ class AtRest:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OnSoil:
-    """Benches by soil, the laws beside a test, the wheel at rest."""
+    """Benches by soil, the laws beside a test, the wheel at rest, and the rover's slopes, if there is a record."""
 
     benches: tuple[Bench, ...]
     held: Held
     at_rest: AtRest
+    climbs: HeldClimbs | None = None
 
     def slope(self, bench: Bench, *, rigid: bool = False) -> float:
         """Steepest slope [rad] a wheel of this pull climbs with its load: tan = largest pull over load."""
@@ -117,4 +119,5 @@ def read_on_soil(study: Study, folders: Mapping[str, Path]) -> OnSoil:
             refinements=tuple(HeldRefinement(**one) for one in held["refinements"]),
         ),
         at_rest=at_rest,
+        climbs=held_climbs(study),
     )

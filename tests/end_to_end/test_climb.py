@@ -1,0 +1,48 @@
+"""``workbench climb`` as a user runs it."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tests.end_to_end.small_study import run
+from workbench.study.reading import built_in_study
+
+
+@pytest.mark.slow
+def test_slopes_are_driven_kept_and_drawn(tmp_path: Path) -> None:
+    study = tmp_path / "mine.toml"
+    shutil.copy(built_in_study(), study)
+    asked = ("climb", study, "--soil", "ding2011", "--tire", "rigid", "--angle", "0:20:20")
+    ended = run(*asked, "--out", tmp_path / "out", "--store", tmp_path / "store")
+    assert ended.returncode == 0, ended.stderr
+    with (tmp_path / "out" / "climb.csv").open(encoding="utf-8") as stream:
+        rows = {(row["direction"], row["angle_deg"]): row for row in csv.DictReader(stream)}
+    assert len(rows) == 6
+    assert float(rows["up", "0"]["slip"]) < 0.2 < 0.6 < float(rows["up", "20"]["slip"])
+    assert float(rows["down", "20"]["torque_N_m"]) < 0.0 < float(rows["up", "20"]["torque_N_m"])
+    assert float(rows["across", "20"]["drift"]) < -0.05
+    assert (tmp_path / "out" / "climb.png").is_file()
+    assert (tmp_path / "mine.kept" / "climb.json").is_file()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--angle", "a"], "angle = 'a': must be A:B:STEP"),
+        (["--angle", "0:60:5"], "at most 40 degrees"),
+        (["--angle", "0:nan:5"], "must be A:B:STEP"),
+        (["--tire", "ancf"], "tire on soil = 'ancf'"),
+        (["--soil", "moon"], "soil = 'moon'"),
+        (["--soil", "fjs1", "--soil", "fjs1"], "are two of one name"),
+    ],
+)
+def test_what_cannot_be_is_refused(tmp_path: Path, arguments: list[str], told: str) -> None:
+    study = tmp_path / "mine.toml"
+    shutil.copy(built_in_study(), study)
+    ended = run("climb", study, *arguments, "--out", tmp_path / "out", "--store", tmp_path / "store")
+    assert (ended.returncode, ended.stderr.count("\n")) == (2, 1), ended.stderr
+    assert told in ended.stderr

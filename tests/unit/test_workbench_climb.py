@@ -1,0 +1,96 @@
+"""The rover's slopes on soil: what a record says, when it is of another study, and what its drives are given.
+
+Claims: the steepest slope lies between two drives, by a line; a record follows the study, its soils and its rim; the
+task tells slip and energy of the drive it makes. Negative controls: a rover that slips from the start climbs nothing; a
+changed wheel makes the record stale.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+
+from soil.carcass import RIGID
+from soil.soil import soil_named
+from soil.steady_wheel import WheelOnSoil
+from workbench.questions.kept import keep
+from workbench.questions.soil.climb import RECORD, Climb, Climbs, climb_tasks, climbs_of, found_of
+from workbench.questions.soil.held_climbs import held_climbs, rim_and_settling
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study, read_study
+
+
+def climbs(slips: list[float | None], soil: str = "ding2011") -> Climbs:
+    """Upwards at 0, 5, 10 degrees."""
+    rows = tuple(
+        Climb(angle_deg=5.0 * k, slip=s, energy=None if s is None or s >= 1.0 else 100.0) for k, s in enumerate(slips)
+    )
+    return Climbs(soil=soil, tire="rigid", direction="up", rows=rows)
+
+
+@pytest.mark.parametrize(
+    ("slips", "steepest"),
+    [([0.0, 0.2, 1.0], 7.5), ([0.0, 0.1, 0.2], 10.0), ([0.7, 0.8, 0.9], 0.0), ([0.0, None, 0.1], 0.0)],
+)
+def test_the_steepest_slope_lies_between_two_drives(slips: list[float | None], steepest: float) -> None:
+    assert climbs(slips).steepest == pytest.approx(steepest)
+
+
+def test_a_record_is_read_as_it_was_kept() -> None:
+    both = (climbs([0.0, 0.2, 1.1]), climbs([0.0, None, None], "grc1"))
+    assert climbs_of(found_of(both)) == both
+    assert both[0].at(5.0) == both[0].rows[1]
+    assert both[0].at(6.0) is None
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Study:
+    copy = tmp_path / "mine.toml"
+    copy.write_text(built_in_study().read_text(encoding="utf-8"), encoding="utf-8")
+    return read_study(copy)
+
+
+def test_a_record_of_a_changed_wheel_is_stale(study: Study) -> None:
+    assert held_climbs(study) is None
+    found = (climbs([0.0, 0.2, 1.1]),)
+    angles = [math.radians(row.angle_deg) for row in found[0].rows]
+    tasks = climb_tasks([soil_named("ding2011")], {"rigid": rim_and_settling(study, "rigid", RIGID)}, angles, 0.01)
+    keep(study, RECORD, "workbench climb", tasks, 1.0, found_of(found))
+    held = held_climbs(study)
+    assert held is not None
+    assert held.state == "current"
+    assert held.best["ding2011"].steepest == pytest.approx(5.0 + 5.0 * 0.4 / 0.9)
+    assert study.kept is not None
+    file = study.kept.with_suffix(".toml")
+    text = file.read_text(encoding="utf-8")
+    assert 'height = "3 mm"' in text
+    file.write_text(text.replace('height = "3 mm"', 'height = "4 mm"'), encoding="utf-8")
+    other = held_climbs(read_study(file))
+    assert other is not None
+    assert other.state == "stale"
+
+
+@pytest.mark.slow
+def test_a_drive_tells_slip_and_energy(tmp_path: Path) -> None:
+    from workbench.execution.result_files import read_result
+    from workbench.questions.soil.climb_task import climb
+
+    wheel = WheelOnSoil(radius=0.1425, width=0.12)
+    (task,) = [
+        one
+        for one in climb_tasks([soil_named("ding2011")], {"rigid": (wheel, None)}, [math.radians(5.0)], 0.02)
+        if one.inputs["direction"] == "up"
+    ]
+    assert climb(task.inputs, {}, tmp_path, lambda share: None) == 1
+    (row,) = read_result(tmp_path)["rows"]
+    found = Climb(**row)
+    assert found.slip is not None
+    assert found.energy is not None
+    assert 0.03 < found.slip < 0.4
+    assert abs(found.drift or 0.0) < 1e-3
+    weight = 6.0 * 198.0 * math.sin(math.radians(5.0))
+    assert found.energy > weight / (1.0 - found.slip)  # lifting alone, at this slip
+    assert asdict(found)["sinkage"] > 0.01

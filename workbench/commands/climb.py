@@ -1,0 +1,155 @@
+"""``workbench climb``: the rover on slopes of soils, up, down and across, kept beside the study for its report.
+
+Verified by tests/end_to_end/test_climb.py.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import shlex
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+from contracts.errors import InputError
+from rover_dynamics.rover.scenarios.on_soil import CELL
+from workbench.commands.computing import console, naming, read_and_warn, tell_kept, warn
+from workbench.commands.rover_soil import wheel_of
+from workbench.commands.soil_rim import check_soil_tire
+from workbench.execution.progress import RunDisplay
+from workbench.execution.result_files import read_result
+from workbench.execution.runner import Computing, run_tasks
+from workbench.execution.store import Store
+from workbench.execution.terminal import empty_table
+from workbench.questions.kept import keep, replaced, require_place
+from workbench.questions.soil.climb import RECORD, STUCK, Climb, Climbs, climb_tasks, climbs_of, found_of
+from workbench.questions.soil.climb_picture import climb_png
+from workbench.report.folders import check_folder, check_targets
+from workbench.report.placing import put_files
+from workbench.study.model import Study
+from workbench.study.reading import built_in_study
+from workbench.study.soil_file import soil_of
+
+__all__ = ["ClimbChoices", "run_climb"]
+
+_FILES = ("climb.csv", "climb.png")
+_TIRES, _SOILS, _ANGLES = ("rigid", "fe"), ("ding2011", "fjs1", "grc1"), "0:25:5"
+_STEEPEST, _MOST = 40.0, 100
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClimbChoices:
+    """What a user may choose: soils (those of the study if none), tires, and slopes ``A:B:STEP`` in degrees."""
+
+    soils: tuple[str, ...] = ()
+    tires: tuple[str, ...] = ()
+    angle: str | None = None
+
+
+def run_climb(study_path: Path | None, choices: ClimbChoices, out: Path, store: Path, computing: Computing) -> int:
+    """Drive, print, keep, write table and picture; goes on where it stopped. 0 also where the rover gets stuck."""
+    tires = tuple(dict.fromkeys(choices.tires)) or _TIRES
+    for tire in tires:
+        check_soil_tire(tire)
+    angles = _angles(choices.angle or _ANGLES)
+    path = study_path or built_in_study()
+    study, begun = read_and_warn(path), time.monotonic()
+    soils = [soil_of(name) if choices.soils else soil_of(name, path.parent) for name in _soils(study, choices)]
+    if len({one.name for one in soils}) < len(soils):
+        raise InputError("soil", ", ".join(one.name for one in soils), "are two of one name", "rename a file")
+    check_folder(out)
+    check_targets(out, _FILES)
+    again = _again(study_path, choices)
+    with naming(path):
+        require_place(study, RECORD)
+        wheels = {tire: wheel_of(study, tire, (path, "workbench drawbar "), (store, computing)) for tire in tires}
+        tasks = climb_tasks(soils, wheels, angles, CELL)
+        warn(path, replaced(study, RECORD, again, tasks))
+        with RunDisplay(console, tasks) as display:
+            entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
+    of = [(soil.name, tire) for soil in soils for tire in tires]
+    found = found_of(
+        [
+            Climbs(
+                soil=task.inputs["soil"]["name"],
+                tire=tire,
+                direction=task.inputs["direction"],
+                rows=tuple(Climb(**row) for row in read_result(entries[task.name].path)["rows"]),
+            )
+            for task, tire in zip(tasks, (tire for _, tire in of for _ in range(3)), strict=True)
+        ]
+    )
+    seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
+    record = keep(study, RECORD, again, tasks, seconds, found)
+    climbs = climbs_of(found)
+    _print(climbs)
+    title = f"{study.name}: the rover at 70 m/h on slopes of soil"
+    files = {_FILES[0]: _table(climbs).encode(), _FILES[1]: climb_png(climbs, title)}
+    tell_kept(put_files(out, files, "climb"))
+    console.print(f"drives: {out / _FILES[0]}, {out / _FILES[1]}", soft_wrap=True)
+    console.print(f"kept for the report: {record}", soft_wrap=True)
+    return 0
+
+
+def _soils(study: Study, choices: ClimbChoices) -> Sequence[str]:
+    return choices.soils or (_SOILS if study.soil is None else study.soil.soils)
+
+
+def _angles(text: str) -> tuple[float, ...]:
+    """Slopes [rad] of ``A:B:STEP`` or one number, in degrees."""
+    try:
+        parts = [float(one) for one in text.split(":")]
+    except ValueError:
+        parts = []
+    if len(parts) not in (1, 3) or not all(math.isfinite(one) for one in parts):
+        raise InputError("angle", repr(text), "must be A:B:STEP or a number, in degrees", f"{_ANGLES} is usual")
+    first, last, step = parts if len(parts) == 3 else (parts[0], parts[0], 1.0)
+    if not (0.0 <= first <= last <= _STEEPEST and step > 0.0 and (last - first) / step < _MOST):
+        rule = f"must rise from 0 or more to at most {_STEEPEST:g} degrees"
+        raise InputError("angle", repr(text), rule, f"{_ANGLES} is usual")
+    count = int((last - first) / step + 1e-9) + 1
+    return tuple(math.radians(round(first + k * step, 9)) for k in range(count))
+
+
+def _again(study_path: Path | None, choices: ClimbChoices) -> str:
+    """What makes the record anew, as a user types it."""
+    study = [] if study_path is None else [shlex.quote(str(study_path))]
+    soils = [f"--soil {shlex.quote(one)}" for one in choices.soils]
+    tires = [f"--tire {one}" for one in choices.tires]
+    angle = [] if choices.angle is None else [f"--angle {choices.angle}"]
+    return " ".join(["workbench climb", *study, *soils, *tires, *angle])
+
+
+def _print(climbs: Sequence[Climbs]) -> None:
+    columns = ("soil", "tire", "way", "steepest", "slip at", "drift", "torque", "energy")
+    table = empty_table(f"slopes with less slip than {STUCK:g}; the rest at the last slope", columns, texts=columns[:3])
+    for one in climbs:
+        last = one.rows[-1]
+        told = [f"{one.steepest:.1f} deg"] + [last.stopped or "-"] * 4
+        if last.slip is not None:
+            energy = "-" if last.energy is None else f"{last.energy:.0f} J/m"
+            told[1:] = [
+                f"{last.angle_deg:g} deg: {last.slip:.2f}",
+                f"{last.drift:.2f}",
+                f"{last.torque:.2f} N m",
+                energy,
+            ]
+        table.add_row(one.soil, one.tire, one.direction, *told)
+    console.print(table)
+
+
+def _table(climbs: Sequence[Climbs]) -> str:
+    stream = io.StringIO()
+    names = [one.name for one in fields(Climb) if one.name != "stopped"]
+    units = {"slip": "slip", "drift": "drift", "torque": "torque_N_m", "energy": "energy_J_m", "sinkage": "sinkage_m"}
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["soil", "tire", "direction", *(units.get(name, name) for name in names), "stopped"])
+    for one in climbs:
+        for row in one.rows:
+            numbers = [getattr(row, name) for name in names]
+            shown = ["" if value is None else f"{value:.6g}" for value in numbers]
+            writer.writerow([one.soil, one.tire, one.direction, *shown, row.stopped])
+    return stream.getvalue()

@@ -1,0 +1,131 @@
+"""The rover on slopes of soil: what is asked, what a record of ``workbench climb`` holds.
+
+Verified by tests/unit/test_workbench_climb.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from soil.carcass import Carcass
+from soil.soil import Soil
+from soil.steady_wheel import WheelOnSoil
+from workbench.execution.task import Task
+from workbench.questions.kept import require_numbers
+
+__all__ = ["DIRECTIONS", "RECORD", "STUCK", "Climb", "Climbs", "climb_tasks", "climbs_of", "found_of"]
+
+RECORD = "climb"
+Direction = Literal["up", "down", "across"]
+DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
+STUCK = 0.6
+"""Slip from which on a rover counts as stuck: the wheel's pull on the bench grows no more."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Climb:
+    """One drive on a slope.
+
+    Attributes
+    ----------
+    angle_deg : of the slope
+    slip : of the rover: its speed ahead over that of its rims, from 1 [-]; above 1 it slides back
+    drift : speed to the left over that of its rims [-]
+    torque : mean of all drives [N m]
+    energy : of the drives a metre of way [J/m]; None where it does not come ahead
+    sinkage : deepest of a wheel [m]
+    stopped : why there is no number, else empty
+    """
+
+    angle_deg: float
+    slip: float | None = None
+    drift: float | None = None
+    torque: float | None = None
+    energy: float | None = None
+    sinkage: float | None = None
+    stopped: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Climbs:
+    """All drives on one soil and tire towards one direction, by angle."""
+
+    soil: str
+    tire: str
+    direction: str
+    rows: tuple[Climb, ...]
+
+    @property
+    def steepest(self) -> float:
+        """Slope up to which the slip stays below `STUCK` [deg], between two drives by a line; 0 if it does on none."""
+        found, before = 0.0, None
+        for row in self.rows:
+            if row.slip is None:
+                break
+            if row.slip >= STUCK:
+                if before is not None and before.slip is not None:
+                    share = (STUCK - before.slip) / (row.slip - before.slip)
+                    found = before.angle_deg + share * (row.angle_deg - before.angle_deg)
+                break
+            found, before = row.angle_deg, row
+        return found
+
+    def at(self, angle_deg: float) -> Climb | None:
+        """The drive at an angle [deg], if there is one."""
+        return next((row for row in self.rows if abs(row.angle_deg - angle_deg) < 1e-6), None)
+
+
+def climb_tasks(
+    soils: Sequence[Soil],
+    wheels: Mapping[str, tuple[WheelOnSoil, float | None]],
+    angles: Sequence[float],
+    cell: float,
+) -> list[Task]:
+    """A task for each soil, tire and direction; ``wheels`` by tire, with the time in which its rim settles [s]."""
+    return [
+        Task(
+            name=f"climb_{soil.name}_{tire}_{direction}",
+            function="workbench.questions.soil.climb_task:climb",
+            inputs={
+                "soil": asdict(soil),
+                "wheel": {name: getattr(wheel, name) for name in ("radius", "width", "lug_height", "lugs")},
+                "carcass": _values(wheel.carcass),
+                "settling": settling,
+                "direction": direction,
+                "angles": list(angles),
+                "cell": cell,
+            },
+            cost=4.0 * len(angles),
+        )
+        for soil in soils
+        for tire, (wheel, settling) in wheels.items()
+        for direction in DIRECTIONS
+    ]
+
+
+def _values(carcass: Carcass) -> dict[str, Any]:
+    """As `workbench.questions.soil.bench.carcass_of` reads it."""
+    return {
+        "compliance": list(carcass.compliance),
+        "curve": [list(pair) for pair in carcass.curve],
+        "load_N": carcass.load,
+        "source": carcass.source,
+    }
+
+
+def found_of(climbs: Sequence[Climbs]) -> dict[str, Any]:
+    """For the record."""
+    return {"climbs": [asdict(one) for one in climbs]}
+
+
+def climbs_of(found: Mapping[str, Any]) -> tuple[Climbs, ...]:
+    """From a record; raises what `kept` turns into a message."""
+    climbs = tuple(Climbs(**(one | {"rows": tuple(Climb(**row) for row in one["rows"])})) for one in found["climbs"])
+    numbers = (value for one in climbs for row in one.rows for value in asdict(row).values())
+    require_numbers([value for value in numbers if isinstance(value, int | float)])
+    assert all(one.rows and np.all(np.diff([row.angle_deg for row in one.rows]) > 0.0) for one in climbs)
+    return climbs
