@@ -20,7 +20,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from benchmarks.output.run import Run, add_option  # noqa: E402
+from benchmarks.output.run import Run  # noqa: E402
 from rover_dynamics.rover.rover_file import read_rover  # noqa: E402
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS  # noqa: E402
 from rover_dynamics.rover.scenarios.on_soil import on_soil  # noqa: E402
@@ -77,8 +77,8 @@ def touched(vehicle: Vehicle, motion: VehicleMotion) -> float:
 def main() -> None:
     """Measure, print, write."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    add_option(parser)
-    options, run, rows = parser.parse_args(), Run("soil"), list[dict[str, object]]()
+    parser.parse_args()
+    run, rows = Run("soil"), list[dict[str, object]]()
     cases = [(name, rim, cell, 0.0) for name, rim in RIMS.items() for cell in CELLS]
     cases.append(("flexible rims, 16 times the field", RIMS["flexible rims"], 0.01, 5.0))
     for name, rim, cell, wider in cases:
@@ -96,7 +96,7 @@ def main() -> None:
         rows += [{"case": case, "metric": m, "unit": u, "ours": v, "peer": None, "ratio": None} for m, v, u in numbers]
         aim = "" if cell != CELLS[1] else f"  aim {AIM:g}: {'met' if faster >= AIM else 'missed'}"
         print(f"{case:<46}" + "".join(f"{value:>10.3g} {unit:<3}" for _, value, unit in numbers) + aim, flush=True)
-    for path in run.write(rows, keep=options.record):
+    for path in run.write(rows, keep=False):
         print(f"written: {path}")
 
 
