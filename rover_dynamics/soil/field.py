@@ -6,8 +6,8 @@ carries nothing [m], how far it was sheared ahead and aside in the wheel's axes 
 has been left by its wheel begins to shear anew. Depths count from the undisturbed surface, z = 0, downwards.
 
 The arrays span the whole field, but the system gives memory to pages that are written only. Method: the Soil Contact
-Model as Project Chrono's class reference of ``SCMTerrain`` has it (Bekker, Mohr, Janosi, an elastic stiffness); Krenn and
-Hirzinger (2009), from memory. Equations: docs/theory/soil.md 11.4. Verified by tests/unit/test_rover_soil_cells.py.
+Model as Project Chrono's class reference of ``SCMTerrain`` has it (Bekker, Mohr, Janosi, an elastic stiffness); Krenn
+and Hirzinger (2009), from memory. Equations: docs/theory/soil.md 11.4. Verified by tests/unit/test_rover_soil_cells.py.
 """
 
 from __future__ import annotations
