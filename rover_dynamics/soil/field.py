@@ -26,9 +26,11 @@ from soil.laws import lug_lines
 from soil.soil import Soil
 from soil.steady_wheel import WheelOnSoil, standing_rim
 
-__all__ = ["Ruts", "SoilBed", "SoilField", "SoilGround", "SoilNumbers", "ruts_of"]
+__all__ = ["CELL", "Ruts", "SoilBed", "SoilField", "SoilGround", "SoilNumbers", "ruts_of"]
 
 FloatArray = NDArray[np.float64]
+CELL = 0.01
+"""Of the soil, if not said otherwise [m]."""
 MOST_CELLS = 40_000_000
 """Of a field; its arrays take 72 bytes a cell of address space."""
 ANGLES = 48
@@ -158,7 +160,7 @@ class SoilBed:
     gravity: Annotated[float, In("m/s^2", above=0.0)]
     low: tuple[float, float]
     high: tuple[float, float]
-    cell: Annotated[float, In("m", above=0.0)] = 0.01
+    cell: Annotated[float, In("m", above=0.0)] = CELL
     settling: Annotated[float, In("s", above=0.0)] = 0.1
     lag: Annotated[float, In("s", least=0.0)] = 0.05
 

@@ -1,6 +1,6 @@
 """Charts as pictures. The one module that imports matplotlib; needs no display.
 
-Verified by tests/unit/test_workbench_compared_page.py.
+Verified by tests/unit/test_workbench_compared_page.py and tests/end_to_end/test_rover_soil.py.
 """
 
 from __future__ import annotations
@@ -10,16 +10,27 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib import get_data_path
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
 from contracts.text import for_matplotlib
 from workbench.charts.palette import INK, MODEL_COLOURS
 
-__all__ = ["Axes", "blank_figure", "curve_axes", "font_folder", "png_bytes", "red_green_blue", "stacked_axes"]
+__all__ = [
+    "Axes",
+    "blank_figure",
+    "curve_axes",
+    "font_folder",
+    "ground_png",
+    "png_bytes",
+    "red_green_blue",
+    "stacked_axes",
+]
 
 
 def stacked_axes(heights: Sequence[float], size: tuple[float, float]) -> tuple[Figure, list[Any]]:
@@ -66,6 +77,20 @@ def red_green_blue(name: str) -> tuple[float, float, float, float]:
 def font_folder() -> Path:
     """Where matplotlib's DejaVu fonts lie."""
     return Path(get_data_path()) / "fonts" / "ttf"
+
+
+def ground_png(x: NDArray[np.float64], y: NDArray[np.float64], depth: NDArray[np.float64], title: str) -> bytes:
+    """PNG of ruts from above, x ahead: depths (n, m) [m] at x (n,) and y (m,) [m]."""
+    length, width = (max(float(np.ptp(one)), 0.1) for one in (x, y))
+    figure = Figure(figsize=(9.0, min(max(9.0 * width / length, 2.0), 9.0) + 0.8), layout="constrained")
+    axes = figure.subplots()
+    image = axes.pcolormesh(x, y, 1e3 * depth.T, cmap="cividis_r", shading="nearest")
+    axes.set_aspect("equal")
+    axes.set_xlabel("x, ahead [m]")
+    axes.set_ylabel("y, left [m]")
+    axes.set_title(for_matplotlib(title), fontsize=10, color=INK, loc="left")
+    figure.colorbar(image, ax=axes, label="depth of the ground [mm]", shrink=0.8)
+    return png_bytes(figure)
 
 
 def png_bytes(figure: Figure) -> bytes:

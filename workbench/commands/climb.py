@@ -15,7 +15,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 from contracts.errors import InputError
-from rover_dynamics.rover.scenarios.on_soil import CELL
+from rover_dynamics.soil.field import CELL
 from workbench.commands.computing import console, naming, read_and_warn, tell_kept, warn
 from workbench.commands.rover_soil import wheel_of
 from workbench.commands.soil_rim import check_soil_tire

@@ -21,7 +21,7 @@ from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_s
 from rover_dynamics.rover.scenarios.scenario_series import scenario_series
 from rover_dynamics.rover.scenarios.walking import walked
 from workbench.commands.computing import read_and_warn, warn
-from workbench.commands.rover_soil import SoilChoice, on_chosen_soil, ruts_npz, ruts_png
+from workbench.commands.rover_soil import SoilChoice, on_chosen_soil, ruts_npz
 from workbench.commands.rover_tires import TireSource, check_tire, file_name, on_tires
 from workbench.execution.errors import RunError
 from workbench.execution.terminal import console, empty_table
@@ -107,9 +107,11 @@ def run_rover(name: str | None, out: Path, choices: RoverChoices, store: Path) -
         with new_files(out, "rover", targets) as new:
             write_series(series, new.folder / file)
             _record(scenario, run, new.folder / motion)
-            if choices.soil is not None and run.motion.ruts is not None:
-                (new.folder / ruts[0]).write_bytes(ruts_npz(run.motion.ruts))
-                (new.folder / ruts[1]).write_bytes(ruts_png(run.motion.ruts, scenario.title))
+            if choices.soil is not None and (left := run.motion.ruts) is not None:
+                from workbench.charts.still_charts import ground_png
+
+                (new.folder / ruts[0]).write_bytes(ruts_npz(left))
+                (new.folder / ruts[1]).write_bytes(ground_png(left.x, left.y, left.depth, scenario.title))
             if choices.animate:
                 _animate(scenario, design, run, new.folder / page)
         if run.stopped is None:

@@ -11,17 +11,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 from pydantic_core import PydanticCustomError
 
 from contracts.errors import InputError
-from contracts.text import for_matplotlib
-from rover_dynamics.rover.scenarios.on_soil import CELL, on_soil
+from rover_dynamics.rover.scenarios.on_soil import on_soil
 from rover_dynamics.rover.scenarios.scenario import Scenario
-from rover_dynamics.soil.field import Ruts
+from rover_dynamics.soil.field import CELL, Ruts
 from soil.steady_wheel import WheelOnSoil
-from workbench.charts.palette import INK
-from workbench.charts.still_charts import png_bytes
 from workbench.commands.computing import naming, read_and_warn
 from workbench.commands.options import computing
 from workbench.commands.rover_tires import TireSource
@@ -33,7 +29,7 @@ from workbench.study.quantities import to_si
 from workbench.study.reading import built_in_study
 from workbench.study.soil_file import soil_of
 
-__all__ = ["SoilChoice", "on_chosen_soil", "ruts_npz", "ruts_png", "wheel_of"]
+__all__ = ["SoilChoice", "on_chosen_soil", "ruts_npz", "wheel_of"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,17 +86,3 @@ def ruts_npz(ruts: Ruts) -> bytes:
         stream, heights=-ruts.depth, spacing=spacing, origin=[ruts.x[0], ruts.y[0]], deepest=ruts.deepest
     )
     return stream.getvalue()
-
-
-def ruts_png(ruts: Ruts, title: str) -> bytes:
-    """PNG: the ground from above, x ahead."""
-    length, width = (max(float(one[-1] - one[0]), 0.1) for one in (ruts.x, ruts.y))
-    figure = Figure(figsize=(9.0, min(max(9.0 * width / length, 2.0), 9.0) + 0.8), layout="constrained")
-    axes = figure.subplots()
-    image = axes.pcolormesh(ruts.x, ruts.y, 1e3 * ruts.depth.T, cmap="cividis_r", shading="nearest")
-    axes.set_aspect("equal")
-    axes.set_xlabel("x, ahead [m]")
-    axes.set_ylabel("y, left [m]")
-    axes.set_title(for_matplotlib(title), fontsize=10, color=INK, loc="left")
-    figure.colorbar(image, ax=axes, label="depth of the ground [mm]", shrink=0.8)
-    return png_bytes(figure)

@@ -15,14 +15,12 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import energy_of_drives
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun
-from rover_dynamics.soil.field import SoilBed
+from rover_dynamics.soil.field import CELL, SoilBed
 from soil.soil import Soil
 from soil.steady_wheel import WheelOnSoil
 
-__all__ = ["CELL", "on_soil"]
+__all__ = ["on_soil"]
 
-CELL = 0.01
-"""Of the soil, if not said otherwise [m]."""
 MARGIN, ASIDE = 1.0, 0.25
 """A field beyond the wheels' places [m], and more by this share of the way, along which slopes turn a rover."""
 _LAST, _STRAIGHT = 5.0, 0.98

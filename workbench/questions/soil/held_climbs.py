@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rover_dynamics.rover.scenarios.on_soil import CELL
+from rover_dynamics.soil.field import CELL
 from soil.carcass import RIGID, Carcass
 from soil.steady_wheel import WheelOnSoil
 from workbench.execution.task import Task
