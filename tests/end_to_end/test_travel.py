@@ -79,7 +79,7 @@ def test_six_components_stand_in_every_curve(folder: Path) -> None:
             ["--travel", "lateral", "--load", "290", "--orientation", "15"],
             "lies outside the curve without friction, which",
         ),
-        (["--matrix", "--load", "290", "--orientation", "15"], "turning_small_phi015, "),
+        (["--matrix", "--load", "290", "--orientation", "15"], "turning_small_phi015"),
         (["--load", "50"], "load = 50 N: is where the hub's travel begins; give --travel or --matrix"),
     ],
 )

@@ -80,7 +80,7 @@ def test_every_family_is_of_a_check_that_the_report_makes() -> None:
         *("fe.initial_tangent", "fe.deflection_at_*N", "fe.band"),
         *("fe.mirror_symmetry", "user_*.relative_l2", "rover.mission_*", "rover_ancf.mission_*", "rover_mission.*"),
         *("rover_mission.torque", "rover_mission.rock", "rover.exudyn_*", "traverse.*", "traverse.*_strength"),
-        *("rover_ancf.straight_energy", "rover_ancf.straight_momentum"),
+        *("rover_ancf.straight_energy", "rover_ancf.straight_momentum", "soil.rover_*"),
     }
     unused = [f.ids[0] for f in families() if not any(f.match(id, q) is not None for id, q, _ in SHIPPED)]
     assert set(unused) <= elsewhere

@@ -112,5 +112,5 @@ SOIL = Question(
     checks=_checks,
     figures=lambda study, results: soil_figures(results.benches, results.held),
     applies=lambda study: study.soil is not None and without_soil(study) is None,
-    budget=400,
+    budget=340,
 )
