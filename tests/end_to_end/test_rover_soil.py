@@ -39,6 +39,15 @@ def test_a_drive_on_a_soil_of_ones_own(tmp_path: Path) -> None:
     assert (out / "ruts" / "straight_brush.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("how", [("traction",), ("straight", "--walk")])
+def test_what_is_not_driven_by_its_speed_tells_no_slip(tmp_path: Path, how: tuple[str, ...]) -> None:
+    ended = run("rover", *how, "--tire", "rigid", "--soil", "fjs1", "--cell", "20 mm", "--out", tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert "deepest rut" in ended.stdout
+    assert "slip of the rover" not in " ".join(ended.stdout.split())
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [

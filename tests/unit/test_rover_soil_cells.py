@@ -168,6 +168,19 @@ def test_derivatives_are_those_of_the_forces(wheel: WheelOnSoil) -> None:
     assert D[0, [2, 7], 13] == pytest.approx(difference, rel=0.12)
 
 
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_slip_and_rolling_follow_along_the_contact(way: float) -> None:
+    """Both ways: a wheel at a slip of 0.3 tends to it within the length of its contact."""
+    hub = moving(at_rest(0.125), 0.0, way * ROLLS / 0.7, (way * SPEED, 0.0, 0.0))
+    length = math.sqrt(0.1425**2 - 0.125**2)
+    for sigma, rho in ((0.0, 0.0), (0.3, way), (0.5, 0.2)):
+        rates = answer(BED, BED.ground(1), hub, np.array([0.0, 0.0, sigma, rho])).rate[0]
+        assert rates[2] * length == pytest.approx(SPEED / 0.7 * (0.3 - sigma), abs=1e-12)
+        assert rates[3] * length == pytest.approx(SPEED / 0.7 * (way - rho), abs=1e-12)
+    stands = answer(BED, BED.ground(1), moving(at_rest(0.125), 0.0, 0.0, (0.0,) * 3), np.array([0.0, 0.0, 0.4, 1.0]))
+    assert not stands.rate[0, 2:].any()
+
+
 def test_a_hub_beside_the_field_is_marked() -> None:
     hub = moving(at_rest(0.12, 0.75), 0.0, 0.0, (0.0, 0.0, 0.0))
     assert answer(BED, BED.ground(1), hub, np.zeros(4)).output[0, 9] == BESIDE

@@ -19,13 +19,14 @@ from rover_dynamics.soil.field import CELL
 from workbench.commands.computing import console, naming, read_and_warn, tell_kept, warn
 from workbench.commands.rover_soil import wheel_of
 from workbench.commands.soil_rim import check_soil_tire
+from workbench.commands.steps import steps_of
 from workbench.execution.progress import RunDisplay
 from workbench.execution.result_files import read_result
 from workbench.execution.runner import Computing, run_tasks
 from workbench.execution.store import Store
 from workbench.execution.terminal import empty_table
 from workbench.questions.kept import keep, replaced, require_place
-from workbench.questions.soil.climb import RECORD, STUCK, Climb, Climbs, climb_tasks, climbs_of, found_of
+from workbench.questions.soil.climb import DIRECTIONS, RECORD, STUCK, Climb, Climbs, climb_tasks, climbs_of, found_of
 from workbench.questions.soil.climb_picture import climb_png
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.placing import put_files
@@ -65,12 +66,12 @@ def run_climb(study_path: Path | None, choices: ClimbChoices, out: Path, store: 
     again = _again(study_path, choices)
     with naming(path):
         require_place(study, RECORD)
-        wheels = {tire: wheel_of(study, tire, (path, "workbench drawbar "), (store, computing)) for tire in tires}
+        wheels = {tire: wheel_of(study, tire, study_path, (store, computing)) for tire in tires}
         tasks = climb_tasks(soils, wheels, angles, CELL)
         warn(path, replaced(study, RECORD, again, tasks))
         with RunDisplay(console, tasks) as display:
             entries = run_tasks(tasks, Store(store, study=path.stem), display, computing)
-    of = [(soil.name, tire) for soil in soils for tire in tires]
+    of_tire = [tire for _ in soils for tire in tires for _ in DIRECTIONS]
     found = found_of(
         [
             Climbs(
@@ -79,7 +80,7 @@ def run_climb(study_path: Path | None, choices: ClimbChoices, out: Path, store: 
                 direction=task.inputs["direction"],
                 rows=tuple(Climb(**row) for row in read_result(entries[task.name].path)["rows"]),
             )
-            for task, tire in zip(tasks, (tire for _, tire in of for _ in range(3)), strict=True)
+            for task, tire in zip(tasks, of_tire, strict=True)
         ]
     )
     seconds = max(time.monotonic() - begun, sum(e.wall_s for e in entries.values()) / (computing.workers or 1))
@@ -100,18 +101,11 @@ def _soils(study: Study, choices: ClimbChoices) -> Sequence[str]:
 
 def _angles(text: str) -> tuple[float, ...]:
     """Slopes [rad] of ``A:B:STEP`` or one number, in degrees."""
-    try:
-        parts = [float(one) for one in text.split(":")]
-    except ValueError:
-        parts = []
-    if len(parts) not in (1, 3) or not all(math.isfinite(one) for one in parts):
-        raise InputError("angle", repr(text), "must be A:B:STEP or a number, in degrees", f"{_ANGLES} is usual")
-    first, last, step = parts if len(parts) == 3 else (parts[0], parts[0], 1.0)
-    if not (0.0 <= first <= last <= _STEEPEST and step > 0.0 and (last - first) / step < _MOST):
-        rule = f"must rise from 0 or more to at most {_STEEPEST:g} degrees"
+    found = steps_of(text, "angle", _ANGLES, _MOST)
+    if not 0.0 <= found[0] <= found[-1] <= _STEEPEST:
+        rule = f"must lie in 0 to {_STEEPEST:g} degrees"
         raise InputError("angle", repr(text), rule, f"{_ANGLES} is usual")
-    count = int((last - first) / step + 1e-9) + 1
-    return tuple(math.radians(round(first + k * step, 9)) for k in range(count))
+    return tuple(math.radians(one) for one in found)
 
 
 def _again(study_path: Path | None, choices: ClimbChoices) -> str:

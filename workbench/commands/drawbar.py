@@ -5,17 +5,14 @@ Verified by tests/end_to_end/test_drawbar.py.
 
 from __future__ import annotations
 
-import math
-import shlex
 from dataclasses import dataclass
 from pathlib import Path
-
-import numpy as np
 
 from contracts.errors import InputError
 from rover_dynamics.rover.planets import gravity_named
 from workbench.commands.computing import console, naming, read_and_warn, tell_kept, warn
 from workbench.commands.soil_rim import check_soil_tire, rim_of
+from workbench.commands.steps import steps_of
 from workbench.execution.runner import Computing
 from workbench.execution.terminal import empty_table
 from workbench.questions.soil.bench import Bench, bench_csv, run_bench, wheel_on_soil
@@ -70,8 +67,7 @@ def run_drawbar(study_path: Path | None, choices: DrawbarChoices, out: Path, sto
     bench = run_bench(wheel_on_soil(design), soil, load, slips, gravity, towed=choices.towed)
     if choices.tire != "rigid":  # what a rigid wheel cannot do on this soil is said before minutes of computing
         with naming(path):
-            typed = "" if study_path is None else f"{shlex.quote(str(study_path))} "
-            carcass = rim_of(study, choices.tire, (path, f"workbench drawbar {typed}"), (store, computing))
+            carcass = rim_of(study, choices.tire, study_path, (store, computing))
         if carcass.curve and load > carcass.curve[-1][0]:
             told = f"{load:g} N lies beyond the wheel's curves, which end at {carcass.curve[-1][0]:.3g} N"
             warn(path, [f"{told}: the rim is taken as stiff as there; raise fe.max_load or fe.max_deflection"])
@@ -96,17 +92,7 @@ def slips_of(text: str | None) -> tuple[float, ...]:
     if text == "":
         return ()
     given = _SLIPS if text is None else text
-    parts = given.split(":")
-    try:
-        numbers = [float(one) for one in parts]
-    except ValueError:
-        numbers = []
-    if len(numbers) not in (1, 3) or not all(math.isfinite(one) for one in numbers):
-        raise InputError("slip", repr(given), "must be A:B:STEP or a number", f"{_SLIPS} is usual")
-    first, last, step = (numbers * 3)[:3] if len(numbers) == 1 else numbers
-    if len(numbers) == 3 and not (step > 0.0 and last >= first and (last - first) / step < _MOST):
-        raise InputError("slip", repr(given), f"must rise by a step > 0, {_MOST} at most", f"{_SLIPS} is usual")
-    found = [first] if len(numbers) == 1 else np.arange(first, last + 0.5 * step, step).round(12).tolist()
+    found = steps_of(given, "slip", _SLIPS, _MOST)
     if found[0] < -1.0 or found[-1] >= 1.0:
         raise InputError("slip", repr(given), "must lie in [-1, 1)", "0 rolls, 1 spins on the spot")
     return tuple(found)

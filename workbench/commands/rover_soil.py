@@ -6,7 +6,6 @@ Verified by tests/end_to_end/test_rover_soil.py.
 from __future__ import annotations
 
 import io
-import shlex
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -52,21 +51,20 @@ def on_chosen_soil(scenario: Scenario, tire: str, source: TireSource, choice: So
     soil, cell = soil_of(choice.soil), CELL if choice.cell is None else _length(choice.cell)
     path = source.path or built_in_study()
     study = source.study or read_and_warn(path)
-    typed = "" if source.path is None else f"{shlex.quote(str(source.path))} "
     with naming(path):
         where = source.store, computing(None, 1, None)
-        wheel, settling = wheel_of(study, tire, (path, f"workbench drawbar {typed}"), where)
+        wheel, settling = wheel_of(study, tire, source.path, where)
     return replace(on_soil(scenario, soil, wheel, cell=cell, settling=settling), tire_model=tire)
 
 
 def wheel_of(
-    study: Study, tire: str, given: tuple[Path, str], where: tuple[Path, Computing]
+    study: Study, tire: str, study_path: Path | None, where: tuple[Path, Computing]
 ) -> tuple[WheelOnSoil, float | None]:
     """A study's wheel by a tire of `soil_rim.SOIL_TIRES`, and the time in which its rim settles [s], None for usual.
 
-    given, where : as `soil_rim.rim_of` has them
+    study_path, where : as `soil_rim.rim_of` has them
     """
-    return rim_and_settling(study, tire, rim_of(study, tire, given, where))
+    return rim_and_settling(study, tire, rim_of(study, tire, study_path, where))
 
 
 def _length(text: str) -> float:

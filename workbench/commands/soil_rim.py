@@ -5,6 +5,7 @@ Verified by tests/end_to_end/test_drawbar.py.
 
 from __future__ import annotations
 
+import shlex
 import time
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from workbench.questions.soil.bench import carcass_of
 from workbench.questions.soil.graph import CARCASS_MODELS, carcass_name, carcass_tasks
 from workbench.questions.soil.held_climbs import brush_rim
 from workbench.study.model import Study
+from workbench.study.reading import built_in_study
 
 __all__ = ["SOIL_TIRES", "check_soil_tire", "rim_of"]
 
@@ -30,17 +32,17 @@ def check_soil_tire(name: str) -> None:
         raise InputError("tire on soil", repr(name), "is not known there", f"give {', '.join(SOIL_TIRES)}")
 
 
-def rim_of(study: Study, tire: str, given: tuple[Path, str], where: tuple[Path, Computing]) -> Carcass:
+def rim_of(study: Study, tire: str, study_path: Path | None, where: tuple[Path, Computing]) -> Carcass:
     """The rim of the study's wheel by a model; the brush tire's keeps its circle and shifts against the hub.
 
-    given : the study's file, and the command that makes the record, without its tire
+    study_path : as the user named it; None for the built-in study
     where : store, and how tasks are run
     """
     if tire == "rigid":
         return RIGID
     if tire == "brush":
         return brush_rim(study)
-    path, command = given
+    path = study_path or built_in_study()
     tasks, name = carcass_tasks(study, tire), carcass_name(tire)
     record = kept(study, name, _read)
     state = "stale" if record is None else record.state(tasks)
@@ -56,7 +58,8 @@ def rim_of(study: Study, tire: str, given: tuple[Path, str], where: tuple[Path, 
     except InputError as error:
         warn(path, [f"the rim's compliance is not kept beside it: {error}"])
     else:
-        keep(study, name, f"{command}--tire {tire}", tasks, time.monotonic() - begun, found)
+        typed = "" if study_path is None else f"{shlex.quote(str(study_path))} "
+        keep(study, name, f"workbench drawbar {typed}--tire {tire}", tasks, time.monotonic() - begun, found)
     return _read(found)
 
 

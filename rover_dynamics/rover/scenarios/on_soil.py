@@ -15,6 +15,7 @@ from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import energy_of_drives
 from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun
+from rover_dynamics.rover.scenarios.walking import WALKED
 from rover_dynamics.soil.field import CELL, SoilBed
 from soil.soil import Soil
 from soil.steady_wheel import WheelOnSoil
@@ -87,7 +88,8 @@ def _told(run: ScenarioRun) -> tuple[Outcome, ...]:
         Outcome(quantity="deepest rut", value=1e3 * float(ruts.depth.max()) if ruts is not None else 0.0, unit="mm"),
     ]
     ahead = R[0, :2, 0]
-    if float(R[-1, :2, 0] @ ahead) < _STRAIGHT:
+    by_wheels = run.torques("drive").shape[1] == len(run.design.legs) and not run.scenario.name.endswith(WALKED)
+    if not by_wheels or float(R[-1, :2, 0] @ ahead) < _STRAIGHT:
         return tuple(found)
     late = times >= times[-1] - _LAST
     rolled = float(np.trapezoid(run.spins[late], times[late], axis=0).mean()) * run.design.wheel_radius

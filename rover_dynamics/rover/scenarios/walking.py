@@ -25,7 +25,7 @@ from rover_dynamics.rover.scenarios.scenario import Scenario, ScenarioRun, run_s
 from rover_dynamics.rover.scenarios.slopes import ALLOWED_LOSS, steady, steepest
 from rover_dynamics.rover.walking import Gait, walking_actuators
 
-__all__ = ["WALKS", "deployment_speeds", "walked"]
+__all__ = ["WALKED", "WALKS", "deployment_speeds", "walked"]
 
 FloatArray = NDArray[np.float64]
 SLOPES = ("slope_up", "slope_down", "slope_across")
@@ -33,6 +33,8 @@ WALKS = ("straight", *SLOPES, "step", "crevasse")
 """What can be walked: what is driven straight ahead."""
 RAMP = 2.5
 """Half the time in which the driven rover reaches its speed [s]: what it is behind 70 m/h."""
+WALKED = "_walk"
+"""Behind the name of a scenario that is walked."""
 
 
 def walked(scenario: Scenario, gait: Gait | None = None) -> Scenario:
@@ -56,7 +58,7 @@ def walked(scenario: Scenario, gait: Gait | None = None) -> Scenario:
     on_slope = scenario.name in SLOPES
     return replace(
         scenario,
-        name=f"{scenario.name}_walk",
+        name=f"{scenario.name}{WALKED}",
         title=f"{scenario.title}; walked instead, {gait.stride:g} m in {gait.period:g} s",
         lasts=cycles * gait.period,
         every=0.1,

@@ -98,7 +98,7 @@ def _rover(climbs: Climbs) -> Check:
         quantity="slope",
         unit="deg",
         role="finding",
-        source="mission requirements, Samarini 2020, section 1: slopes of 25 degrees",
+        source=f"mission requirements, Samarini 2020, section 1: slopes of 25 degrees; on tire {climbs.tire}",
     )
     return at_least(claim, lambda: climbs.steepest, math.degrees(REQUIRED_SLOPE))
 
