@@ -37,6 +37,13 @@ def moving(
     return HubMotions(np.array([place]), R[None].copy(), np.array([velocity]), spin * R[None, :, 1].copy())
 
 
+def turned(hub: HubMotions, R: FloatArray) -> HubMotions:
+    """The same wheel turned about the origin."""
+    return HubMotions(
+        hub.position @ R.T, (R @ hub.rotation[0])[None].copy(), hub.velocity @ R.T, hub.angular_velocity @ R.T
+    )
+
+
 def driven(
     bed: SoilBed,
     slip: float,
@@ -46,8 +53,13 @@ def driven(
     drift: float = 0.0,
     start: tuple[float, float] = (0.0, 0.0),
     ground: SoilGround | None = None,
+    turn: FloatArray | None = None,
 ) -> Drive:
-    """Drive a wheel; ``drift`` is its speed to the left over that ahead [-], ``ground`` one that was driven on."""
+    """Drive a wheel; ``drift`` is its speed to the left over that ahead [-], ``ground`` one that was driven on.
+
+    With ``turn`` (3, 3) the ground is level ground turned about the origin, and so is the wheel; what is told
+    is told in axes that turn with it.
+    """
     ground = bed.ground(1) if ground is None else ground
     states, load = ground.states, bed.load
     height, state = bed.standing()[0], bed.standing()[1][None].copy()
@@ -62,7 +74,11 @@ def driven(
         x, y = np.array(start) + k * step * (ahead + drift * left)
         for _ in range(60):
             hub = moving((x, y, height), heading, spin, (*(SPEED * (ahead + drift * left)), 0.0))
+            if turn is not None:
+                hub = turned(hub, turn)
             soil_forces(hub, state, ground, found)
+            if turn is not None:
+                found.wrench[0] = np.concatenate([turn.T @ found.wrench[0, :3], turn.T @ found.wrench[0, 3:]])
             residual = np.concatenate([[found.wrench[0, 2] - load], found.rate[0, :free]])
             if abs(residual[0]) < 1e-6 * load and np.abs(residual[1:]).max() * bed.settling < 1e-9:
                 break
@@ -70,6 +86,9 @@ def driven(
                 height -= 5e-4
                 continue
             soil_derivatives(hub, state, ground, D, pair)
+            if turn is not None:
+                D[0, :3] = turn.T @ D[0, :3]
+                D[0, :, :3] = D[0, :, :3] @ turn
             rows_of, columns = [2, *range(6, 6 + free)], [2, *range(12, 12 + free)]
             change = -np.linalg.solve(D[0][np.ix_(rows_of, columns)], residual)
             change *= min(1.0, 0.003 / np.abs(change).max())
@@ -77,6 +96,8 @@ def driven(
             state[0, :free] += change[1:]
         keep_step(hub, state, ground, found)
         force, moment = found.wrench[0, :3], found.wrench[0, 3:]
+        if turn is not None:
+            force, moment = turn.T @ force, turn.T @ moment
         rows.append((k * step, height, force[:2] @ ahead, -moment[:2] @ left, force[:2] @ left))
     ground.field.clock[0] = 0.0
     return Drive(*np.array(rows).T, ground, state[0])

@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 from rover_dynamics.soil.column import pressure_of, remember, shear_stress, sheared_way, within
 from rover_dynamics.soil.derivatives import add_derivatives, finish_derivatives
 from rover_dynamics.soil.field import SoilField, SoilGround, SoilNumbers
+from rover_dynamics.soil.lie import lie_below, lies_higher
 from rover_dynamics.soil.rim import BULGE, LEAST_COSINE, falling_off, rim_over, share_of_depth
 from rover_dynamics.tires.brush_compiled import Vector, along, compiled, cross, dot, over_length, vector
 from rover_dynamics.tires.brush_force import BESIDE, BrushResult, HubMotions, hub_axes
@@ -59,7 +60,7 @@ def soil_forces(hubs: HubMotions, state: FloatArray, ground: SoilGround, result:
     state : (n, 2 m + 2) float, a_k and b_k of m harmonics [m], sigma and rho [-]
     ground : soil, wheels and field
     result : overwritten; outputs as `rover_dynamics.tires.brush_force.OUTPUT_SIZE` has them: way the rim gives below
-        the hub, load along z, slips, centre of pressure, force along the wheel's heading and to its left
+        the hub, load out of the ground, slips, centre of pressure, force along the wheel's heading and to its left
     """
     nothing = np.zeros((0, 0))
     for i in range(hubs.position.shape[0]):
@@ -121,24 +122,28 @@ def _wheel(
     n, field = ground.numbers, ground.field
     wrench, rate, output = found
     wrench[:], rate[:], output[:] = 0.0, 0.0, 0.0
-    heading = over_length((e[1], -e[0], 0.0))
-    left, down = (-heading[1], heading[0], 0.0), cross(e, heading)
+    lie = lie_below(p, n.radius, field)
+    up, height, slopes = lie
+    heading = over_length(cross(e, up))
+    left, down, leans = cross(up, heading), cross(e, heading), dot(e, up)
     spin, ahead = dot(omega, e), dot(v, heading)
     rolls = abs(n.radius * spin)
     output[2], output[3] = (n.radius * spin - ahead) / max(rolls, SLOWEST), dot(v, left) / max(rolls, SLOWEST)
-    length = math.sqrt(max(n.radius * n.radius - p[2] * p[2], SHORTEST * SHORTEST))
+    length = math.sqrt(max(n.radius * n.radius - height * height, SHORTEST * SHORTEST))
     rate[-2] = (rolls - math.copysign(ahead, ahead * spin) - rolls * state[-2]) / length
     rate[-1] = (n.radius * spin - rolls * state[-1]) / length
     modulus = n.modulus / (_slip_sinkage(state[-2]) ** (n.slip_sinkage * n.exponent))
     depths = ground.depths[i]
-    falls = falling_off(p[2], state, n, ground.rut[i], depths)
-    (begin, end), inside = _cells(p, (e, heading), n, field)
+    falls = falling_off(height, state, n, ground.rut[i], depths)
+    foot = along(p, -height, up)
+    (begin, end), inside = _cells(foot, height, (leans, heading), n, field)
     output[9] = 0.0 if inside else BESIDE
-    thrust, turning, widest = 0.0, along(omega, -spin, e), 0.5 * (n.width + field.cell) + abs(e[2]) * BULGE * n.radius
+    thrust, turning, widest = 0.0, along(omega, -spin, e), 0.5 * (n.width + field.cell) + abs(leans) * BULGE * n.radius
     for row in range(begin[0], end[0]):
         for column in range(begin[1], end[1]):
             dx, dy = field.x + row * field.cell - p[0], field.y + column * field.cell - p[1]
-            s, side = dx * heading[0] + dy * heading[1], dx * left[0] + dy * left[1]
+            place = dx, dy, slopes[0] * dx + slopes[1] * dy - slopes[2]
+            s, side = dot(place, heading), dot(place, left)
             if abs(side) > widest:
                 continue
             depth, slope, radius = rim_over(s, state, n.radius)
@@ -149,21 +154,22 @@ def _wheel(
             cosine, sine = depth / radius, s / radius
             x_rate, z_rate = radius * cosine - slope * sine, -radius * sine - slope * cosine
             begins = field.carries_from[row, column]
-            reached, share_within = within(
-                -(p[2] + depth * down[2] + across * e[2]) - begins, z_rate / x_rate * field.cell
-            )
+            lower = lies_higher(row, column, place, lie, p, field) - height - depth * dot(down, up) - across * leans
+            reached, share_within = within(lower - begins, z_rate / x_rate * field.cell)
             if share_within == 0.0:
                 continue
             z = begins + reached
             first = modulus * (z * share_of_depth(sine, z, state[-1], falls, depths)) ** n.exponent
             pressure, stiffness, yields = pressure_of(z, first, n, field, (row, column))
-            r = along(along((s * heading[0], s * heading[1], 0.0), depth, down), across, e)
+            r = along(along(along((0.0, 0.0, 0.0), s, heading), depth, down), across, e)
             t = _tangent(heading, down, x_rate, z_rate)
             normal = cross(t, e)
-            area = share * field.cell * field.cell / normal[2]
+            facing = dot(normal, up)
+            area = share * field.cell * field.cell / (facing * up[2])
             slides = along(along(v, 1.0, cross(turning, r)), -n.shear_radius * spin, t)
             sliding = dot(slides, t), dot(slides, e)
-            j, k, kept = sheared_way(slides, (sliding[0], sliding[1], share_within), field, (row, column))
+            over = along(slides, -dot(slides, up), up)
+            j, k, kept = sheared_way(over, (sliding[0], sliding[1], share_within), field, (row, column))
             a, b = j + n.lag * sliding[0], k + n.lag * sliding[1]
             shear, by = shear_stress(math.sqrt(a * a + b * b), pressure, n)
             force = along(along(along((0.0, 0.0, 0.0), pressure, normal), -shear * a, t), -shear * b, e)
@@ -178,7 +184,7 @@ def _wheel(
             _add_harmonics(rate, cosine, sine, conjugate * pressure)
             if jacobian.shape[0]:
                 add_derivatives(
-                    (r, t, normal, e, (cosine, sine, area, conjugate)),
+                    (r, t, normal, e, (cosine, sine, area, conjugate, facing)),
                     (shear, by, share_within * stiffness, pressure if yields else 0.0),
                     (a, b, field.clock[0] * share_within * kept + n.lag),
                     ground,
@@ -188,8 +194,8 @@ def _wheel(
             if keeps:
                 remember((row, column), (z, pressure, yields), (j, k), n, field)
     if keeps:
-        ground.rut[i] = _rut_ahead((p, heading, left), math.copysign(falls[0], state[-1]), n, field)
-    _finish((p, e, heading, left), n.shear_radius * thrust, wrench, output)
+        ground.rut[i] = _rut_ahead((foot, heading, left), math.copysign(falls[0], state[-1]), n, field)
+    _finish((p, e, heading, left), up, n.shear_radius * thrust, wrench, output)
     _follow(rate, state, ground)
     if jacobian.shape[0]:
         finish_derivatives((heading, e), (rolls, spin, length), ground, jacobian)
@@ -205,20 +211,20 @@ def _tangent(heading: Vector, down: Vector, along_x: float, along_z: float) -> V
 
 @compiled
 def _cells(
-    p: Vector, axes: tuple[Vector, Vector], n: SoilNumbers, field: SoilField
+    foot: Vector, height: float, axes: tuple[float, Vector], n: SoilNumbers, field: SoilField
 ) -> tuple[tuple[tuple[int, int], tuple[int, int]], bool]:
     """First row and column below a wheel, and those behind the last; whether the field has all of them."""
-    e, heading = axes
+    leans, heading = axes
     largest = BULGE * n.radius
-    ahead = math.sqrt(max(largest * largest - max(p[2], 0.0) ** 2, 0.0))
+    ahead = math.sqrt(max(largest * largest - max(height, 0.0) ** 2, 0.0))
     if ahead == 0.0:
         return ((0, 0), (0, 0)), True
-    aside = 0.5 * n.width + abs(e[2]) * largest + field.cell
+    aside = 0.5 * n.width + abs(leans) * largest + field.cell
     x = ahead * abs(heading[0]) + aside * abs(heading[1])
     y = ahead * abs(heading[1]) + aside * abs(heading[0])
     rows, columns = field.deepest.shape
-    i, k = math.ceil((p[0] - x - field.x) / field.cell), math.ceil((p[1] - y - field.y) / field.cell)
-    m, q = int((p[0] + x - field.x) / field.cell) + 1, int((p[1] + y - field.y) / field.cell) + 1
+    i, k = math.ceil((foot[0] - x - field.x) / field.cell), math.ceil((foot[1] - y - field.y) / field.cell)
+    m, q = int((foot[0] + x - field.x) / field.cell) + 1, int((foot[1] + y - field.y) / field.cell) + 1
     inside = i >= 0 and k >= 0 and m <= rows and q <= columns
     return ((max(i, 0), max(k, 0)), (min(m, rows), min(q, columns))), inside
 
@@ -226,14 +232,14 @@ def _cells(
 @compiled
 def _rut_ahead(axes: tuple[Vector, Vector, Vector], entry: float, n: SoilNumbers, field: SoilField) -> float:
     """Depth at which the ground begins to carry, mean over the width just ahead of the first contact [m]."""
-    p, heading, left = axes
+    foot, heading, left = axes
     total, count = 0.0, 0
     way = math.copysign(1.0, entry)
     for step in range(4):
         for across in range(-2, 3):
             s, side = n.radius * math.sin(entry) + way * (0.5 + step) * field.cell, 0.2 * across * n.width
-            row = round((p[0] + s * heading[0] + side * left[0] - field.x) / field.cell)
-            column = round((p[1] + s * heading[1] + side * left[1] - field.y) / field.cell)
+            row = round((foot[0] + s * heading[0] + side * left[0] - field.x) / field.cell)
+            column = round((foot[1] + s * heading[1] + side * left[1] - field.y) / field.cell)
             if 0 <= row < field.deepest.shape[0] and 0 <= column < field.deepest.shape[1]:
                 total += field.carries_from[row, column]
                 count += 1
@@ -260,7 +266,7 @@ def _follow(rate: FloatArray, state: FloatArray, ground: SoilGround) -> None:
 
 @compiled
 def _finish(
-    axes: tuple[Vector, Vector, Vector, Vector], about_axle: float, wrench: FloatArray, output: FloatArray
+    axes: tuple[Vector, Vector, Vector, Vector], up: Vector, about_axle: float, wrench: FloatArray, output: FloatArray
 ) -> None:
     """Moment about the axle, and outputs that are sums over the cells; ``axes`` place, axle, heading and left."""
     p, e, heading, left = axes
@@ -270,4 +276,4 @@ def _finish(
         wrench[3 + q] += (about_axle - moment) * e[q]
         output[4 + q] = p[q] + output[4 + q] / carried
     force = vector(wrench)
-    output[1], output[7], output[8] = force[2], dot(force, heading), dot(force, left)
+    output[1], output[7], output[8] = dot(force, up), dot(force, heading), dot(force, left)

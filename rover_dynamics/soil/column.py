@@ -53,8 +53,8 @@ def sheared_way(slides: Vector, sliding: Vector, field: SoilField, cell: tuple[i
     """How far the soil below a piece of rim is sheared, ahead and aside [m], and the share of a step's way in that.
 
     The rim takes along what it sheared, so that j is that of the rim's own piece: it comes from the cell that the rim
-    slides from, upwind and implicit. ``sliding`` ahead and aside [m/s], and the share of the cell that carries, which
-    is all that is sheared while a wheel comes over it.
+    slides from, upwind and implicit. ``slides`` over the ground in the world's axes, ``sliding`` ahead and aside [m/s],
+    and the share of the cell that carries, which is all that is sheared while a wheel comes over it.
     """
     j, k = field.clock[0] * sliding[2] * sliding[0], field.clock[0] * sliding[2] * sliding[1]
     whole, per_cell = 1.0, field.clock[0] / field.cell

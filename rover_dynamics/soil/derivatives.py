@@ -22,7 +22,7 @@ MOST_SLIP = 0.9
 
 @compiled
 def add_derivatives(
-    axes: tuple[Vector, Vector, Vector, Vector, tuple[float, float, float, float]],
+    axes: tuple[Vector, Vector, Vector, Vector, tuple[float, float, float, float, float]],
     laws_of: tuple[float, Vector, float, float],
     sheared: Vector,
     ground: SoilGround,
@@ -33,13 +33,13 @@ def add_derivatives(
 
     Parameters
     ----------
-    axes : lever, tangent, normal, axle; cosine and sine of the place on the rim, area, and that which moves the rim
-        towards the hub [m^2]
+    axes : lever, tangent, normal, axle; cosine and sine of the place on the rim, area, that which moves the rim
+        towards the hub [m^2], and the part of the normal out of the ground
     laws_of : shear stress over way, `_shear`'s derivatives, dp/dz, and p where the soil yields, else 0
     sheared : ahead and aside, lag included [m], and how much of it a unit of sliding speed adds [s]
     sigma : slip along the contact [-]
     """
-    r, t, normal, e, (cosine, sine, area, conjugate) = axes
+    r, t, normal, e, (cosine, sine, area, conjugate, facing) = axes
     shear, (rising, by_pressure, way), stiffness, yielding = laws_of
     a, b, by_speed = sheared
     n, count = ground.numbers, (jacobian.shape[0] - 8) // 2
@@ -48,14 +48,14 @@ def add_derivatives(
     turned = cross(r, normal)
     by_motion = (*normal, *turned)
     for q in range(6):
-        dp = -stiffness * by_motion[q] / normal[2]
+        dp = -stiffness * by_motion[q] / facing
         for m in range(6):
             jacobian[m, q] += on_wrench[m] * dp
         _add_rates(jacobian, q, (cosine, sine), conjugate * dp)
     c, d = 1.0, 0.0
     for k in range(count):
         for column, value in ((12 + k, c), (12 + count + k, d)):
-            dp = -stiffness * value / normal[2]
+            dp = -stiffness * value / facing
             for m in range(6):
                 jacobian[m, column] += on_wrench[m] * dp
             _add_rates(jacobian, column, (cosine, sine), conjugate * dp)

@@ -1,4 +1,4 @@
-"""Level soil as a field of cells that remember how they were pressed and sheared; only touched cells cost.
+"""Soil as a field of cells that remember how they were pressed and sheared; only touched cells cost.
 
 A cell is a column of soil that one wheel at a time presses, by the laws of `soil.laws`. What it remembers is the
 largest depth z_u [m], the line along which it unloads and reloads, p = k_u (z - z_0) with z_0 the depth at which it
@@ -13,7 +13,7 @@ and Hirzinger (2009), from memory. Equations: docs/theory/soil.md 11.4. Verified
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from contracts.declared import In, require_declared
 from contracts.errors import InputError
+from contracts.terrain import Plane, Terrain
 from soil.carcass import Carcass
 from soil.laws import lug_lines
 from soil.soil import Soil
@@ -32,7 +33,9 @@ FloatArray = NDArray[np.float64]
 CELL = 0.01
 """Of the soil, if not said otherwise [m]."""
 MOST_CELLS = 40_000_000
-"""Of a field; its arrays take 72 bytes a cell of address space."""
+"""Of a field; its arrays take 80 bytes a cell of address space."""
+AT_ONCE = 200_000
+"""Cells whose heights are asked for at once: each takes 16 of a height field's."""
 ANGLES = 48
 """To each side of the lowest point, at which the rim's depth is looked at."""
 LEAST_SHARE = 0.005
@@ -77,6 +80,7 @@ class SoilField(NamedTuple):
     Attributes
     ----------
     x, y, cell : [m]
+    surface : (n, m) float, heights of the undisturbed ground [m], or (0, 0) where it is level
     deepest, carries_from, unloading : (n, m) float, z_u and z_0 [m] and k_u [N/m^3]; all zero where nothing pressed yet
     ahead, aside : (2, n, m) float, how far a cell was sheared in the last steps of even and odd number [m]
     touched : (2, n, m) int, number of that step; 0 for none
@@ -86,6 +90,7 @@ class SoilField(NamedTuple):
     x: float
     y: float
     cell: float
+    surface: FloatArray
     deepest: FloatArray
     carries_from: FloatArray
     unloading: FloatArray
@@ -126,17 +131,19 @@ class Ruts(NamedTuple):
     x, y : (n,), (m,) float, centres of the cells [m]
     depth : (n, m) float, of the ground below the undisturbed surface [m]
     deepest : (n, m) float, to which the soil was pressed [m]
+    surface : (n, m) float, heights of the undisturbed ground [m]
     """
 
     x: FloatArray
     y: FloatArray
     depth: FloatArray
     deepest: FloatArray
+    surface: FloatArray
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SoilBed:
-    """Level soil under all wheels of a vehicle.
+    """Soil under all wheels of a vehicle.
 
     Attributes
     ----------
@@ -146,6 +153,8 @@ class SoilBed:
     low, high : corners of the field (x, y) [m]
     cell : length of a cell [m]
     settling : time in which a rim follows what presses on it, a damper beside its compliance [s]
+    lag : see `SoilNumbers`
+    terrain : the undisturbed ground
 
     Raises
     ------
@@ -163,6 +172,7 @@ class SoilBed:
     cell: Annotated[float, In("m", above=0.0)] = CELL
     settling: Annotated[float, In("s", above=0.0)] = 0.1
     lag: Annotated[float, In("s", least=0.0)] = 0.05
+    terrain: Terrain = field(default_factory=Plane)
 
     def __post_init__(self) -> None:
         require_declared(self, "soil bed")
@@ -195,6 +205,16 @@ class SoilBed:
         found, shape = standing_rim(replace(self.wheel, carcass=carcass), self.soil, self.load)
         return found.hub_height, np.zeros(4) if rigid else np.array([*shape.cosines, *shape.sines, 0.0, 0.0])
 
+    def _surface(self) -> FloatArray:
+        """Heights of the undisturbed ground at the cells' centres [m], (0, 0) if it is level."""
+        if self.terrain == Plane():
+            return np.zeros((0, 0))
+        n, m = self.shape
+        x, y = (low + self.cell * (0.5 + np.arange(k)) for low, k in zip(self.low, (n, m), strict=True))
+        some = max(1, AT_ONCE // m)
+        places = [np.meshgrid(x[i : i + some], y, indexing="ij") for i in range(0, n, some)]
+        return np.concatenate([self.terrain.height(*place) for place in places])
+
     def ground(self, wheels: int) -> SoilGround:
         """Undisturbed soil under so many wheels."""
         soil, wheel, shape = self.soil, self.wheel, self.shape
@@ -221,6 +241,7 @@ class SoilBed:
                 x=self.low[0] + 0.5 * self.cell,
                 y=self.low[1] + 0.5 * self.cell,
                 cell=self.cell,
+                surface=self._surface(),
                 deepest=np.zeros(shape),
                 carries_from=np.zeros(shape),
                 unloading=np.zeros(shape),
@@ -239,7 +260,8 @@ def ruts_of(field: SoilField) -> Ruts:
     """What a field remembers of being pressed; empty arrays if nothing was."""
     rows, columns = (np.flatnonzero((field.deepest > 0.0).any(axis=axis)) for axis in (1, 0))
     if not rows.size:
-        return Ruts(np.zeros(0), np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0)))
+        return Ruts(np.zeros(0), np.zeros(0), *[np.zeros((0, 0))] * 3)
     i, j = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
     x, y = field.x + field.cell * np.arange(i.start, i.stop), field.y + field.cell * np.arange(j.start, j.stop)
-    return Ruts(x, y, field.carries_from[i, j].copy(), field.deepest[i, j].copy())
+    depth, deepest = field.carries_from[i, j].copy(), field.deepest[i, j].copy()
+    return Ruts(x, y, depth, deepest, field.surface[i, j].copy() if field.surface.size else np.zeros_like(depth))

@@ -51,7 +51,7 @@ class Vehicle:
     wheels : names of the wheels' bodies; y of their frames is the axle
     terrain : the ground
     tire, settings : of all wheels
-    soil : what they stand on instead of the terrain, wheels of its own kind; or None
+    soil : what they stand on instead of hard ground, wheels of its own kind; or None
     efforts : torques and forces in joints
     motors, control : of the wheels, one each in their order or none, and what they are told
 

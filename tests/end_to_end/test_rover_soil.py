@@ -40,6 +40,24 @@ def test_a_drive_on_a_soil_of_ones_own(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+def test_soil_lies_as_a_height_field_does(tmp_path: Path) -> None:
+    x = np.arange(-2.5, 3.01, 0.1)
+    heights = 0.05 * np.sin(1.5 * x)[:, None] + 0.04 * x + 1.0
+    np.savez(tmp_path / "dunes.npz", heights=heights, spacing=[0.1, 0.1], origin=[-2.5, -2.5])
+    drive = ("straight", "--soil", "ding2011", "--tire", "rigid", "--cell", "20 mm")
+    ended = run("rover", *drive, "--terrain", tmp_path / "dunes.npz", "--out", tmp_path / "out")
+    assert ended.returncode == 0, ended.stderr
+    series = read_series(tmp_path / "out" / "series" / "straight_rigid.csv", "straight", "rigid")
+    for leg in ("front_left", "front_right", "center_left", "center_right", "rear_left", "rear_right"):
+        assert 0.005 < series[f"{leg}_sinkage_m"].min() < series[f"{leg}_sinkage_m"].max() < 0.05
+    before, left = (read_height_field(tmp_path / name) for name in ("dunes.npz", "out/ruts/straight_rigid.npz"))
+    x, y = (begin + 0.02 * np.arange(n) for begin, n in zip(left.origin, left.heights.shape, strict=True))
+    depth = before.height(x[:, None] + 0.0 * y, y + 0.0 * x[:, None]) - left.heights
+    assert -1e-9 < depth.min() < 1e-9
+    assert 0.01 < depth.max() < 0.05
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [("traction",), ("straight", "--walk")])
 def test_what_is_not_driven_by_its_speed_tells_no_slip(tmp_path: Path, how: tuple[str, ...]) -> None:
     ended = run("rover", *how, "--tire", "rigid", "--soil", "fjs1", "--cell", "20 mm", "--out", tmp_path)
@@ -57,7 +75,8 @@ def test_what_is_not_driven_by_its_speed_tells_no_slip(tmp_path: Path, how: tupl
         (["straight", "--soil", "ding2011", "--tire", "rigid", "--cell", "1 m"], "must be at most 20 mm"),
         (["straight", "--soil", "ding2011", "--tire", "rigid", "--cell", "1 um"], "cells of the soil"),
         (["straight", "--cell", "10 mm"], "is of no soil"),
-        (["straight", "--soil", "ding2011", "--rocks", "1"], "is level ground"),
+        (["straight", "--soil", "ding2011", "--rocks", "1"], "has no rocks"),
+        (["straight", "--soil", "ding2011", "--start", "1", "2"], "is a place on a height field"),
         (["step", "--soil", "ding2011", "--tire", "rigid"], "has a ground of its own"),
         (["drop", "--soil", "ding2011", "--tire", "rigid"], "or does not drive"),
     ],

@@ -2,8 +2,8 @@
 
 Claims: a wheel driven over cells has pull, torque and sinkage of the steady wheel's integrals, rigid and flexible; the
 rover's wheels carry its weight, leave ruts of their width, and the rear ones run in those of the front ones; on a slope
-the rover slips as the bench says a wheel must that pulls as much; what the drives give is spent. References:
-`soil.steady_wheel` (Wong and Reece's integrals, verified apart) and the balance of forces. Negative control: soil
+the rover slips as the bench says a wheel must that pulls as much, and the same
+on ground that rises; what the drives give is spent. References: `soil.steady_wheel` (Wong and Reece's integrals, verified apart) and the balance of forces. Negative control: soil
 without cohesion and friction does not carry the rover up.
 """
 
@@ -16,10 +16,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from contracts.terrain import inclined_plane
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
+from rover_dynamics.rover.scenarios.ground import on_terrain
 from rover_dynamics.rover.scenarios.on_soil import on_soil
-from rover_dynamics.rover.scenarios.scenario import ScenarioRun, run_scenario
+from rover_dynamics.rover.scenarios.scenario import ScenarioRun, Tilt, run_scenario
 from rover_dynamics.soil.field import SoilBed
 from soil.carcass import RIGID, Carcass
 from soil.soil import soil_named
@@ -97,14 +99,33 @@ def test_the_drives_give_what_the_bench_says(design: RoverDesign, straight: Scen
     assert 0.75 * alone < given / float(np.ptp(straight.place[late, 0])) < alone
 
 
+def slip_late(run: ScenarioRun, way: np.ndarray) -> float:
+    """Over the last 15 s, of a way [m]."""
+    late = run.motion.times > run.motion.times[-1] - 15.0
+    pace = float(np.polyfit(run.motion.times[late], way[late], 1)[0])
+    return 1.0 - pace / float(run.spins[late].mean() * run.design.wheel_radius)
+
+
+def test_a_slope_of_the_ground_is_a_tilt_of_gravity(design: RoverDesign) -> None:
+    angle = math.radians(7.0)
+    scenario = replace(SCENARIOS["slope_up"], lasts=20.0)
+    tilted = replace(scenario, tilt=replace(scenario.tilt, angle=angle))
+    rising = on_terrain(replace(scenario, tilt=Tilt()), design, inclined_plane(angle), "a slope")
+    soft = replace(WHEEL, carcass=SOFT)  # rigid wheels rock on this slope, sooner or later
+    one, other = (run_scenario(on_soil(each, DING, soft), design) for each in (tilted, rising))
+    along = np.hypot(other.place[:, 0] - other.place[0, 0], other.place[:, 2] - other.place[0, 2])
+    assert slip_late(other, along) == pytest.approx(slip_late(one, one.place[:, 0]), abs=0.01)
+    for name, within in (("loads", 2.0), ("tractive", 2.0), ("sinkages", 1e-3)):
+        a, b = (getattr(run, name)[run.motion.times > 10.0].mean(axis=0) for run in (one, other))
+        assert a == pytest.approx(b, abs=within), name
+
+
 def test_on_a_slope_the_rover_slips_as_the_bench_says(design: RoverDesign) -> None:
     angle = math.radians(7.0)
     scenario = SCENARIOS["slope_up"]
     scenario = replace(scenario, tilt=replace(scenario.tilt, angle=angle), lasts=35.0)
     run = run_scenario(on_soil(scenario, DING, WHEEL), design)
-    late = run.motion.times > 20.0
-    pace = float(np.polyfit(run.motion.times[late], run.place[late, 0], 1)[0])
-    slip = 1.0 - pace / float(run.spins[late].mean() * design.wheel_radius)
+    slip = slip_late(run, run.place[:, 0])
     load, wanted = design.static_load * math.cos(angle), design.static_load * math.sin(angle)
 
     def lacks(s: float) -> float:

@@ -195,11 +195,11 @@ def _chosen(name: str | None, choices: RoverChoices, store: Path) -> tuple[Scena
     study = None if choices.study is None else read_and_warn(choices.study)
     source = TireSource(study=study, path=choices.study, store=store)
     if choices.soil is not None:
-        if choices.terrain is not None or choices.rocks is not None:
-            rule = "is level ground: slopes are scenarios of their own"
-            raise InputError("soil", f"{choices.soil.soil} and a terrain", rule, "give --soil, --terrain or --rocks")
+        if choices.rocks is not None:
+            rule = "has no rocks: a field of heights may lie under it"
+            raise InputError("soil", f"{choices.soil.soil} and rocks", rule, "give --soil or --rocks")
         driven = walked(scenario) if choices.walk else scenario
-        return on_chosen_soil(driven, choices.tire, source, choices.soil), design
+        return on_chosen_soil(_on_ground(driven, design, choices), choices.tire, source, choices.soil), design
     scenario = on_tires(scenario, choices.tire, source, design)
     if choices.walk:
         scenario = walked(scenario)

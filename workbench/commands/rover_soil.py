@@ -81,6 +81,6 @@ def ruts_npz(ruts: Ruts) -> bytes:
     spacing = [float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (ruts.x, ruts.y)]
     stream = io.BytesIO()
     np.savez_compressed(
-        stream, heights=-ruts.depth, spacing=spacing, origin=[ruts.x[0], ruts.y[0]], deepest=ruts.deepest
+        stream, heights=ruts.surface - ruts.depth, spacing=spacing, origin=[ruts.x[0], ruts.y[0]], deepest=ruts.deepest
     )
     return stream.getvalue()

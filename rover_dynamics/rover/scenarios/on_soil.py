@@ -1,4 +1,4 @@
-"""A scenario on level soil that keeps its ruts, with wheels of the study's kind.
+"""A scenario on soil that keeps its ruts, with wheels of the study's kind.
 
 Verified by tests/verification/test_rover_on_soil.py.
 """
@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from contracts.errors import InputError
+from contracts.terrain_cover import extent
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.scenarios.readings import energy_of_drives
@@ -31,11 +32,11 @@ _LAST, _STRAIGHT = 5.0, 0.98
 def on_soil(
     scenario: Scenario, soil: Soil, wheel: WheelOnSoil, *, cell: float = CELL, settling: float | None = None
 ) -> Scenario:
-    """The same drive on soil.
+    """The same drive on soil, as the ground of the scenario lies: level, or a height field.
 
     Parameters
     ----------
-    scenario : what the rover does; a slope is a tilt of gravity
+    scenario : what the rover does; a slope is a tilt of gravity, or one of its height field
     soil, wheel : numbers of the soil; radius, width, rim and lugs of all six wheels
     cell : length of a cell [m]
     settling : see `rover_dynamics.soil.field.SoilBed`; its own if None
@@ -57,10 +58,13 @@ def on_soil(
             raise InputError("radius of the wheel on soil", f"{1e3 * wheel.radius:g} mm", rule, "give its rover")
         places = path(design)
         beyond = MARGIN + design.wheel_radius + ASIDE * float(np.ptp(places, axis=0).max())
-        (x, y), (end_x, end_y) = (places.min(axis=0) - beyond).tolist(), (places.max(axis=0) + beyond).tolist()
+        terrain = scenario.terrain(design)
+        low, high = extent(terrain)
+        x, y = np.maximum(places.min(axis=0) - beyond, low).tolist()
+        end_x, end_y = np.minimum(places.max(axis=0) + beyond, high - cell).tolist()
         more = {} if settling is None else {"settling": settling}
         numbers = {"load": design.static_load, "gravity": design.gravity, "cell": cell, **more}
-        return SoilBed(soil=soil, wheel=wheel, low=(x, y), high=(end_x, end_y), **numbers)
+        return SoilBed(soil=soil, wheel=wheel, low=(x, y), high=(end_x, end_y), terrain=terrain, **numbers)
 
     return replace(
         scenario,
@@ -93,7 +97,10 @@ def _told(run: ScenarioRun) -> tuple[Outcome, ...]:
         return tuple(found)
     late = times >= times[-1] - _LAST
     rolled = float(np.trapezoid(run.spins[late], times[late], axis=0).mean()) * run.design.wheel_radius
-    gone, way = (float((run.place[-1, :2] - run.place[k, :2]) @ ahead) for k in (int(np.argmax(late)), 0))
+    steps = np.diff(run.place, axis=0)
+    ahead_of_each = steps[:, :2] @ ahead
+    ways = np.copysign(np.hypot(ahead_of_each, steps[:, 2]), ahead_of_each)  # along the ground, however it rises
+    gone, way = float(ways[np.argmax(late) :].sum()), float(ways.sum())
     if rolled > 0.0:
         found.append(Outcome(quantity="slip of the rover, mean of the last 5 s", value=1.0 - gone / rolled, unit="-"))
     if way > 0.0:

@@ -22,7 +22,9 @@ from contracts.terrain import Plane, Terrain
 from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import RoverDesign
 from rover_dynamics.rover.scenarios.outcome import Outcome
+from rover_dynamics.rover.set_down import set_down
 from rover_dynamics.soil.field import SoilBed
+from rover_dynamics.soil.lie import footprint_plane
 from rover_dynamics.tires.brush_force import BESIDE, DEEP
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, with_friction
@@ -118,7 +120,9 @@ class ScenarioRun:
     @property
     def sinkages(self) -> FloatArray:
         """Of the wheels' lowest points below the undisturbed ground (n, n_w) [m]; on soil."""
-        return np.asarray(self.design.wheel_radius - self.deflections - self.wheels[:, :, 2])
+        x, y, z = self.wheels.reshape(-1, 3).T
+        ground, normals = footprint_plane(self.scenario.terrain(self.design), x, y, self.design.wheel_radius)
+        return self.design.wheel_radius - self.deflections - ((z - ground) * normals[:, 2]).reshape(self.loads.shape)
 
     @property
     def met(self) -> bool:
@@ -189,7 +193,7 @@ class Scenario:
     ride : its vehicle's motion at its times; other tires than the brush have one of their own
     has_closed_forms : whether the brush tire's formulas are references of what is judged
     path : places (n, 2) [m] the wheels are to reach, or None for a scenario that has a ground of its own
-    soil : level soil of a rover's design instead of the terrain, with wheels of its own; or None
+    soil : of a rover's design, lying as the terrain does, with wheels of its own; or None
     study : more outcomes by more runs, a few seconds, or None
     search : how far the requirement could be raised, by bisection (up to a minute), or None
     composed : makes the run out of several, or None
@@ -254,8 +258,10 @@ class Scenario:
             tire=with_friction(self.tire, self.friction),
             settings=self.settings,
         )
-        gravity = self.tilt.gravity(design.gravity)
-        return replace(vehicle, model=replace(vehicle.model, gravity=gravity), soil=soil)
+        model = replace(vehicle.model, gravity=self.tilt.gravity(design.gravity))
+        if soil is not None and soil.terrain != Plane():
+            model = set_down(model, design, soil)
+        return replace(vehicle, model=model, soil=soil)
 
     def times(self) -> FloatArray:
         """Samples from the start of the settling to the end [s]."""
