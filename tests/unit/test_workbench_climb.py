@@ -1,6 +1,6 @@
 """The rover's slopes on soil: what a record says, when it is of another study, and what its drives are given.
 
-Claims: the steepest slope lies between two drives, by a line; a record follows the study, its soils and its rim; the
+Claims: the steepest slope is one that was driven; a record follows the study, its soils and its rim; the
 task tells slip and energy of the drive it makes. Negative controls: a rover that slips from the start climbs nothing; a
 changed wheel makes the record stale.
 """
@@ -33,10 +33,10 @@ def climbs(slips: list[float | None], soil: str = "ding2011") -> Climbs:
 
 @pytest.mark.parametrize(
     ("slips", "steepest"),
-    [([0.0, 0.2, 1.0], 7.5), ([0.0, 0.1, 0.2], 10.0), ([0.7, 0.8, 0.9], 0.0), ([0.0, None, 0.1], 0.0)],
+    [([0.0, 0.2, 1.0], 5.0), ([0.0, 0.1, 0.2], 10.0), ([0.7, 0.8, 0.9], 0.0), ([0.0, None, 0.1], 0.0)],
 )
-def test_the_steepest_slope_lies_between_two_drives(slips: list[float | None], steepest: float) -> None:
-    assert climbs(slips).steepest == pytest.approx(steepest)
+def test_the_steepest_slope_was_driven(slips: list[float | None], steepest: float) -> None:
+    assert climbs(slips).steepest == steepest
 
 
 def test_a_record_is_read_as_it_was_kept() -> None:
@@ -62,7 +62,7 @@ def test_a_record_of_a_changed_wheel_is_stale(study: Study) -> None:
     held = held_climbs(study)
     assert held is not None
     assert held.state == "current"
-    assert held.best["ding2011"].steepest == pytest.approx(5.0 + 5.0 * 0.4 / 0.9)
+    assert held.best["ding2011"].steepest == 5.0
     assert study.kept is not None
     file = study.kept.with_suffix(".toml")
     text = file.read_text(encoding="utf-8")
