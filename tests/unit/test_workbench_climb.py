@@ -1,26 +1,31 @@
 """The rover's slopes on soil: what a record says, when it is of another study, and what its drives are given.
 
-Claims: the steepest slope is one that was driven; a record follows the study, its soils and its rim; the
-task tells slip and energy of the drive it makes. Negative controls: a rover that slips from the start climbs nothing; a
-changed wheel makes the record stale.
+Claims: the steepest slope is one that was driven, all wheels on fresh soil, as the statement says; a record follows the
+study, its soils and its rim; the task tells slip and energy of the drive it makes. Negative controls: a rover that
+slips from the start climbs nothing; a changed wheel makes the record stale.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import asdict
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
+from rover_dynamics.rover.rover_file import read_rover
+from rover_dynamics.rover.scenarios.level_ground import SPEED
 from soil.carcass import RIGID
 from soil.soil import soil_named
 from soil.steady_wheel import WheelOnSoil
 from workbench.questions.kept import keep
 from workbench.questions.soil.climb import RECORD, Climb, Climbs, climb_tasks, climbs_of, found_of
+from workbench.questions.soil.climb_task import LASTS
 from workbench.questions.soil.held_climbs import held_climbs, rim_and_settling
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
+from workbench.verdict.statements import statement_of
 
 
 def climbs(slips: list[float | None], soil: str = "ding2011") -> Climbs:
@@ -44,6 +49,16 @@ def test_a_record_is_read_as_it_was_kept() -> None:
     assert climbs_of(found_of(both)) == both
     assert both[0].at(5.0) == both[0].rows[1]
     assert both[0].at(6.0) is None
+
+
+def test_a_drive_is_too_short_for_ruts_and_the_statement_says_so() -> None:
+    places = sorted({round(leg.drive[0], 6) for leg in read_rover().legs})
+    way = SPEED * LASTS
+    ruts = way > min(b - a for a, b in pairwise(places))
+    for soil in ("ding2011", "fjs1", "grc1"):
+        said = statement_of(f"soil.rover_{soil}", "slope", "")
+        assert ("in the ruts" in said.claim) == ruts
+        assert ("fresh soil" in said.claim) == (not ruts)
 
 
 @pytest.fixture
