@@ -6,6 +6,7 @@ Verified by tests/verification/test_vehicle_step.py.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -54,6 +55,7 @@ class Vehicle:
     soil : what they stand on instead of hard ground, wheels of its own kind; or None
     efforts : torques and forces in joints
     motors, control : of the wheels, one each in their order or none, and what they are told
+    until : whether the motion ends at a sample already, by its time [s] and the bodies' positions (n_b, 3) [m]
 
     Raises
     ------
@@ -70,6 +72,7 @@ class Vehicle:
     efforts: tuple[JointEffort, ...] = ()
     motors: tuple[JointMotor, ...] = ()
     control: DriveControl = field(default_factory=DriveControl)
+    until: Callable[[float, FloatArray], bool] | None = None
 
     def __post_init__(self) -> None:
         if self.model.forces:
@@ -207,6 +210,8 @@ class _Run:
                 elif length < self.steps.shortest or self.steps.fixed is not None:
                     raise self._stopped(t)
             self._keep(now)
+            if self.vehicle.until is not None and self.vehicle.until(target, self.rows[-1][0]):
+                break
         return self._motion()
 
     def _step(self, before: Moment, end: float, dt: float) -> tuple[float, Moment]:

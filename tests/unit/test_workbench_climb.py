@@ -1,7 +1,8 @@
 """The rover's slopes on soil: what a record says, when it is of another study, and what its drives are given.
 
-Claims: the steepest slope is one that was driven, all wheels on fresh soil, as the statement says; a record follows the
-study, its soils and its rim; the task tells slip and energy of the drive it makes. Negative controls: a rover that
+Claims: the steepest slope is one that was driven, from fresh soil into the rover's own ruts, as the statement says; a
+record follows the study, its soils and its rim; the task tells slip and energy of the drive it makes, which ruts spare,
+and looks for the steepest slope between two; a rover that gets stuck late is stuck. Negative controls: a rover that
 slips from the start climbs nothing; a changed wheel makes the record stale.
 """
 
@@ -12,6 +13,7 @@ from dataclasses import asdict
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rover_dynamics.rover.rover_file import read_rover
@@ -20,8 +22,8 @@ from soil.carcass import RIGID
 from soil.soil import soil_named
 from soil.steady_wheel import WheelOnSoil
 from workbench.questions.kept import keep
-from workbench.questions.soil.climb import RECORD, Climb, Climbs, climb_tasks, climbs_of, found_of
-from workbench.questions.soil.climb_task import LASTS
+from workbench.questions.soil.climb import RECORD, STUCK, Climb, Climbs, climb_tasks, climbs_of, found_of
+from workbench.questions.soil.climb_task import LASTS, _ends, _slips, _ways
 from workbench.questions.soil.held_climbs import held_climbs, rim_and_settling
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
@@ -31,7 +33,8 @@ from workbench.verdict.statements import statement_of
 def climbs(slips: list[float | None], soil: str = "ding2011") -> Climbs:
     """Upwards at 0, 5, 10 degrees."""
     rows = tuple(
-        Climb(angle_deg=5.0 * k, slip=s, energy=None if s is None or s >= 1.0 else 100.0) for k, s in enumerate(slips)
+        Climb(angle_deg=5.0 * k, slip=s, largest=s, energy=None if s is None or s >= 1.0 else 100.0)
+        for k, s in enumerate(slips)
     )
     return Climbs(soil=soil, tire="rigid", direction="up", rows=rows)
 
@@ -51,14 +54,14 @@ def test_a_record_is_read_as_it_was_kept() -> None:
     assert both[0].at(6.0) is None
 
 
-def test_a_drive_is_too_short_for_ruts_and_the_statement_says_so() -> None:
+def test_a_drive_comes_into_its_ruts_as_the_statement_says() -> None:
     places = sorted({round(leg.drive[0], 6) for leg in read_rover().legs})
-    way = SPEED * LASTS
-    ruts = way > min(b - a for a, b in pairwise(places))
+    fresh, ruts, way = _ways(read_rover())
+    radius = read_rover().wheel_radius
+    assert fresh < min(b - a for a, b in pairwise(places)) - 2.0 * 0.99 * radius  # two contacts end to end
+    assert max(b - a for a, b in pairwise(places)) + radius <= ruts < way < LASTS * SPEED
     for soil in ("ding2011", "fjs1", "grc1"):
-        said = statement_of(f"soil.rover_{soil}", "slope", "")
-        assert ("in the ruts" in said.claim) == ruts
-        assert ("fresh soil" in said.claim) == (not ruts)
+        assert "from fresh soil into its own ruts" in statement_of(f"soil.rover_{soil}", "slope", "").claim
 
 
 @pytest.fixture
@@ -88,6 +91,19 @@ def test_a_record_of_a_changed_wheel_is_stale(study: Study) -> None:
     assert other.state == "stale"
 
 
+def test_a_rover_that_gets_stuck_late_is_stuck() -> None:
+    """0.2 of slip for 30 s, then 0.9: the mean of all is below 0.6."""
+    times = np.arange(0.0, 45.0, 0.1)
+    places = SPEED * np.where(times < 30.0, 0.8 * times, 24.0 + 0.1 * (times - 30.0))
+    slips = _slips(times, places, 15.0)
+    assert slips.min() == pytest.approx(0.2)
+    assert slips.max() == pytest.approx(0.9)
+    assert 1.0 - (places[-1] - places[0]) / (times[-1] * SPEED) < STUCK
+    ends = _ends(read_rover())
+    ended = [t for t, x in zip(times, places, strict=True) if ends(float(t), np.array([[x, 0.0, 0.0]]))]
+    assert ended[0] == pytest.approx(30.0 + 0.5 * (STUCK - 0.2) / 0.7 * 10.0 + 10.0, abs=0.5)
+
+
 @pytest.mark.slow
 def test_a_drive_tells_slip_and_energy(tmp_path: Path) -> None:
     from workbench.execution.result_files import read_result
@@ -105,6 +121,11 @@ def test_a_drive_tells_slip_and_energy(tmp_path: Path) -> None:
     assert found.slip is not None
     assert found.energy is not None
     assert 0.03 < found.slip < 0.4
+    assert found.largest is not None
+    assert found.slip <= found.largest + 1e-9
+    assert found.climbs
+    assert found.energy_in_ruts is not None
+    assert found.energy_in_ruts < 0.9 * found.energy
     assert abs(found.drift or 0.0) < 1e-3
     weight = 6.0 * 198.0 * math.sin(math.radians(5.0))
     assert found.energy > weight / (1.0 - found.slip)  # lifting alone, at this slip

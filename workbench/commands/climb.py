@@ -118,19 +118,18 @@ def _again(study_path: Path | None, choices: ClimbChoices) -> str:
 
 
 def _print(climbs: Sequence[Climbs]) -> None:
-    columns = ("soil", "tire", "way", "steepest", "slip at", "drift", "torque", "energy")
-    table = empty_table(f"slopes with less slip than {STUCK:g}; the rest at the last slope", columns, texts=columns[:3])
+    columns = ("soil", "tire", "way", "steepest", "slip", "in ruts", "drift", "torque", "energy", "in ruts")
+    title = f"slopes without getting stuck (a slip of {STUCK:g} over 5 s), and what the steepest takes"
+    table = empty_table(title, columns, texts=columns[:3])
     for one in climbs:
-        last = one.rows[-1]
-        told = [f"{one.steepest:.1f} deg"] + [last.stopped or "-"] * 4
-        if last.slip is not None:
-            energy = "-" if last.energy is None else f"{last.energy:.0f} J/m"
-            told[1:] = [
-                f"{last.angle_deg:g} deg: {last.slip:.2f}",
-                f"{last.drift:.2f}",
-                f"{last.torque:.2f} N m",
-                energy,
-            ]
+        row = one.at(one.steepest) if one.rows[0].climbs else None
+        if row is None or row.slip is None:
+            told = ["none", *[one.rows[0].stopped or "-"] * 6]
+        else:
+            numbers = (row.slip, row.slip_in_ruts, row.drift, row.torque, row.energy, row.energy_in_ruts)
+            shapes = ("{:.2f}", "{:.2f}", "{:.2f}", "{:.2f} N m", "{:.0f} J/m", "{:.0f} J/m")
+            told = [f"{row.angle_deg:.1f} deg"]
+            told += ["-" if n is None else shape.format(n) for n, shape in zip(numbers, shapes, strict=True)]
         table.add_row(one.soil, one.tire, one.direction, *told)
     console.print(table)
 
@@ -138,7 +137,8 @@ def _print(climbs: Sequence[Climbs]) -> None:
 def _table(climbs: Sequence[Climbs]) -> str:
     stream = io.StringIO()
     names = [one.name for one in fields(Climb) if one.name != "stopped"]
-    units = {"slip": "slip", "drift": "drift", "torque": "torque_N_m", "energy": "energy_J_m", "sinkage": "sinkage_m"}
+    units = {"largest": "largest_slip", "torque": "torque_N_m", "energy": "energy_J_m", "sinkage": "sinkage_m"}
+    units["energy_in_ruts"] = "energy_in_ruts_J_m"
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["soil", "tire", "direction", *(units.get(name, name) for name in names), "stopped"])
     for one in climbs:

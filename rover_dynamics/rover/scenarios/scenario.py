@@ -194,6 +194,7 @@ class Scenario:
     has_closed_forms : whether the brush tire's formulas are references of what is judged
     path : places (n, 2) [m] the wheels are to reach, or None for a scenario that has a ground of its own
     soil : of a rover's design, lying as the terrain does, with wheels of its own; or None
+    until : of a rover's design, what ends its motion before its time, see `Vehicle`; or None
     study : more outcomes by more runs, a few seconds, or None
     search : how far the requirement could be raised, by bisection (up to a minute), or None
     composed : makes the run out of several, or None
@@ -220,6 +221,7 @@ class Scenario:
     has_closed_forms: bool = True
     path: Callable[[RoverDesign], FloatArray] | None = None
     soil: Callable[[RoverDesign], SoilBed] | None = None
+    until: Callable[[RoverDesign], Callable[[float, FloatArray], bool]] | None = None
     study: Study | None = None
     search: Study | None = None
     composed: Callable[[Scenario, RoverDesign], ScenarioRun] | None = None
@@ -261,7 +263,7 @@ class Scenario:
         model = replace(vehicle.model, gravity=self.tilt.gravity(design.gravity))
         if soil is not None and soil.terrain != Plane():
             model = set_down(model, design, soil)
-        return replace(vehicle, model=model, soil=soil)
+        return replace(vehicle, model=model, soil=soil, until=None if self.until is None else self.until(design))
 
     def times(self) -> FloatArray:
         """Samples from the start of the settling to the end [s]."""

@@ -33,21 +33,32 @@ class Climb:
     Attributes
     ----------
     angle_deg : of the slope
-    slip : of the rover: its speed ahead over that of its rims, from 1 [-]; above 1 it slides back
+    slip : of the rover while all its wheels press fresh soil: its speed ahead over that of its rims, from 1 [-]; it
+        slides back above 1
+    largest : of the slip's means over 5 s from its steady drive on; `STUCK` or more: it does not climb
     drift : speed to the left over that of its rims [-]
     torque : mean of all drives [N m]
     energy : of the drives a metre of way [J/m]; None where it does not come ahead
+    slip_in_ruts, energy_in_ruts : once middle and rear wheels run in ruts; None where it does not come so far
     sinkage : deepest of a wheel [m]
     stopped : why there is no number, else empty
     """
 
     angle_deg: float
     slip: float | None = None
+    largest: float | None = None
     drift: float | None = None
     torque: float | None = None
     energy: float | None = None
+    slip_in_ruts: float | None = None
+    energy_in_ruts: float | None = None
     sinkage: float | None = None
     stopped: str = ""
+
+    @property
+    def climbs(self) -> bool:
+        """Whether the rover is never stuck."""
+        return self.largest is not None and self.largest < STUCK
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,14 +72,13 @@ class Climbs:
 
     @property
     def steepest(self) -> float:
-        """Steepest slope driven up to which the slip stays below `STUCK` [deg]; 0 if it does on none.
+        """Steepest slope driven up to which the rover is never stuck [deg]; 0 if it is on all.
 
-        No line leads to the next drive, as the slip leaps: on ``ding2011``, flexible wheels, from 0.33 at 16 degrees to
-        1.27 at 17.25, to which a line between the drives at 15 and 20 degrees would give a slip of 0.6.
+        No line leads to the next drive, as the slip leaps: a rover that slips more sinks more.
         """
         found = 0.0
         for row in self.rows:
-            if row.slip is None or row.slip >= STUCK:
+            if not row.climbs:
                 break
             found = row.angle_deg
         return found

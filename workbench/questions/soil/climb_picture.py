@@ -1,4 +1,4 @@
-"""Picture of the rover on slopes of soil: slip, and energy a metre, over the angle.
+"""Picture of the rover on slopes of soil: slip, and energy a metre, over the angle; rings where it runs in ruts.
 
 Verified by tests/end_to_end/test_climb.py.
 """
@@ -29,14 +29,18 @@ def climb_png(climbs: Sequence[Climbs], title: str) -> bytes:
             continue
         style = {"color": _COLOURS[soils.index(one.soil) % 6], "linestyle": _LINES[tires.index(one.tire) % 4]}
         rows = [row for row in one.rows if row.slip is not None]
+        ruts = [row for row in rows if row.slip_in_ruts is not None and row.climbs]
+        rings = {"color": style["color"], "marker": "o", "markersize": 5, "fillstyle": "none", "linestyle": "none"}
         label = f"{one.soil}, {one.tire}"
         slip.plot([r.angle_deg for r in rows], [r.slip for r in rows], marker="o", markersize=3, label=label, **style)
-        some = [row for row in rows if row.energy is not None and row.slip is not None and row.slip < STUCK]
+        slip.plot([r.angle_deg for r in ruts], [r.slip_in_ruts for r in ruts], **rings)
+        some = [row for row in rows if row.energy is not None and row.climbs]
         energy.plot([r.angle_deg for r in some], [r.energy for r in some], marker="o", markersize=3, **style)
+        energy.plot([r.angle_deg for r in ruts], [r.energy_in_ruts for r in ruts], **rings)
     slip.axhline(STUCK, color=INK, linewidth=0.6)
     slip.set_ylim(-0.1, _TOP)
     slip.set_title(for_matplotlib(title), fontsize=10, color=INK, loc="left")
-    slip.set_ylabel("slip, upwards")
+    slip.set_ylabel("slip, upwards; rings: in ruts")
     energy.set_ylabel("energy of the drives [J/m]")
     energy.set_xlabel("slope [deg]")
     slip.legend(frameon=False, fontsize=8)

@@ -38,6 +38,11 @@ class HeldClimbs:
         return tuple(one for one in self.climbs if one.direction == direction)
 
     @property
+    def angles(self) -> tuple[float, ...]:
+        """Slopes that were asked for [deg]; upwards there are more between."""
+        return _asked(self.climbs)
+
+    @property
     def best(self) -> dict[str, Climbs]:
         """Upwards by soil, on the last tire that was driven: the most flexible one, if tires are named as usual."""
         return {one.soil: one for one in self.of("up")}
@@ -71,7 +76,11 @@ def _tasks(study: Study, climbs: Sequence[Climbs]) -> list[Task]:
     soils = [known.get(name) or soil_of(name) for name in dict.fromkeys(one.soil for one in climbs)]
     tires = dict.fromkeys(one.tire for one in climbs)
     wheels = {tire: rim_and_settling(study, tire, _rim(study, tire)) for tire in tires}
-    return climb_tasks(soils, wheels, [math.radians(row.angle_deg) for row in climbs[0].rows], CELL)
+    return climb_tasks(soils, wheels, [math.radians(angle) for angle in _asked(climbs)], CELL)
+
+
+def _asked(climbs: Sequence[Climbs]) -> tuple[float, ...]:
+    return tuple(row.angle_deg for row in min((one.rows for one in climbs), key=len))
 
 
 def _rim(study: Study, tire: str) -> Carcass:
