@@ -13,9 +13,11 @@ from pathlib import Path
 
 import pytest
 
+from contracts.errors import InputError
 from soil.carcass import RIGID
 from soil.soil import soil_named
 from soil.steady_wheel import WheelOnSoil
+from workbench.commands.steps import steps_of
 from workbench.questions.kept import keep
 from workbench.questions.soil.climb import RECORD, Climb, Climbs, climb_tasks, climbs_of, found_of
 from workbench.questions.soil.held_climbs import held_climbs, rim_and_settling
@@ -71,6 +73,25 @@ def test_a_record_of_a_changed_wheel_is_stale(study: Study) -> None:
     other = held_climbs(read_study(file))
     assert other is not None
     assert other.state == "stale"
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("0:25:5", (0.0, 5.0, 10.0, 15.0, 20.0, 25.0)),
+        ("0:9:5", (0.0, 5.0)),
+        ("0:10.6:1", tuple(float(k) for k in range(11))),
+        ("0:0.6:0.1", (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6)),
+        ("3", (3.0,)),
+    ],
+)
+def test_steps_end_at_their_end(text: str, found: tuple[float, ...]) -> None:
+    assert steps_of(text, "angle", "0:25:5", 100) == found
+
+
+def test_steps_too_small_to_tell_apart_are_refused() -> None:
+    with pytest.raises(InputError, match="must rise by a step"):
+        steps_of("0:1e-12:1e-13", "angle", "0:25:5", 100)
 
 
 @pytest.mark.slow
