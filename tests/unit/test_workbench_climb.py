@@ -75,6 +75,18 @@ def test_a_record_of_a_changed_wheel_is_stale(study: Study) -> None:
     assert other.state == "stale"
 
 
+@pytest.mark.parametrize("angle", [1.5, 3.0, 6.0, 12.0, 24.0, 25.0, 0.1])
+def test_a_record_of_any_slope_is_current(study: Study, angle: float) -> None:
+    radians = math.radians(angle)
+    rows = (Climb(angle_deg=math.degrees(radians), slip=0.1),)
+    tasks = climb_tasks([soil_named("ding2011")], {"rigid": rim_and_settling(study, "rigid", RIGID)}, [radians], 0.01)
+    found = found_of((Climbs(soil="ding2011", tire="rigid", direction="up", rows=rows),))
+    keep(study, RECORD, "workbench climb", tasks, 1.0, found)
+    held = held_climbs(study)
+    assert held is not None
+    assert held.state == "current"
+
+
 @pytest.mark.parametrize(
     ("text", "found"),
     [

@@ -71,7 +71,10 @@ def _tasks(study: Study, climbs: Sequence[Climbs]) -> list[Task]:
     soils = [known.get(name) or soil_of(name) for name in dict.fromkeys(one.soil for one in climbs)]
     tires = dict.fromkeys(one.tire for one in climbs)
     wheels = {tire: rim_and_settling(study, tire, _rim(study, tire)) for tire in tires}
-    return climb_tasks(soils, wheels, [math.radians(row.angle_deg) for row in climbs[0].rows], CELL)
+    typed = [
+        round(row.angle_deg, 12) for row in climbs[0].rows
+    ]  # as `commands.steps` has them: 3, not 2.9999999999999996
+    return climb_tasks(soils, wheels, [math.radians(one) for one in typed], CELL)
 
 
 def _rim(study: Study, tire: str) -> Carcass:
