@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -85,6 +86,31 @@ def test_a_record_of_any_slope_is_current(study: Study, angle: float) -> None:
     held = held_climbs(study)
     assert held is not None
     assert held.state == "current"
+
+
+ROW = {"angle_deg": 0.0, "slip": 0.1, "drift": 0.0, "torque": 3.0, "energy": 100.0, "sinkage": 0.02, "stopped": ""}
+DRIVES = {"soil": "ding2011", "tire": "rigid", "direction": "up", "rows": [ROW, ROW | {"angle_deg": 5.0}]}
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        {"climbs": []},
+        {"climbs": [DRIVES | {"rows": []}]},
+        {"climbs": [DRIVES | {"rows": [ROW, ROW]}]},
+        {"climbs": [DRIVES, DRIVES | {"rows": [ROW]}]},
+        {"climbs": [DRIVES | {"rows": [ROW | {"slip": "much"}]}]},
+        {"climbs": [DRIVES | {"rows": [ROW | {"stopped": 7}]}]},
+        {"climbs": [DRIVES | {"soil": 5}]},
+        {"climbs": [DRIVES | {"tire": []}]},
+        {"climbs": [DRIVES | {"direction": "inward"}]},
+    ],
+)
+def test_a_record_that_somebody_changed_gets_a_message(study: Study, found: dict[str, Any]) -> None:
+    assert climbs_of({"climbs": [DRIVES]})
+    keep(study, RECORD, "workbench climb", (), 1.0, found)
+    with pytest.raises(InputError, match=r"kept record = .*cannot be read"):
+        held_climbs(study)
 
 
 @pytest.mark.parametrize(

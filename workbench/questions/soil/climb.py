@@ -125,7 +125,15 @@ def found_of(climbs: Sequence[Climbs]) -> dict[str, Any]:
 def climbs_of(found: Mapping[str, Any]) -> tuple[Climbs, ...]:
     """From a record; raises what `kept` turns into a message."""
     climbs = tuple(Climbs(**(one | {"rows": tuple(Climb(**row) for row in one["rows"])})) for one in found["climbs"])
-    numbers = (value for one in climbs for row in one.rows for value in asdict(row).values())
-    require_numbers([value for value in numbers if isinstance(value, int | float)])
-    assert all(one.rows and np.all(np.diff([row.angle_deg for row in one.rows]) > 0.0) for one in climbs)
+    for one in climbs:
+        if not all(isinstance(w, str) for w in (one.soil, one.tire, *(row.stopped for row in one.rows))):
+            raise ValueError("soil, tire and stopped are texts")
+        if one.direction not in DIRECTIONS:
+            raise ValueError(f"a direction is one of {', '.join(DIRECTIONS)}")
+        for row in one.rows:
+            numbers = row.slip, row.drift, row.torque, row.energy, row.sinkage
+            require_numbers([row.angle_deg, *(value for value in numbers if value is not None)])
+    slopes = {tuple(row.angle_deg for row in one.rows) for one in climbs}
+    if len(slopes) != 1 or not all(slopes) or any(np.any(np.diff(one) <= 0.0) for one in slopes):
+        raise ValueError("climbs are drives on the same slopes, from one on, which rise")
     return climbs
