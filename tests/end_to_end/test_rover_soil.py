@@ -58,6 +58,7 @@ def test_what_is_not_driven_by_its_speed_tells_no_slip(tmp_path: Path, how: tupl
         (["straight", "--soil", "ding2011", "--tire", "rigid", "--cell", "1 um"], "cells of the soil"),
         (["straight", "--cell", "10 mm"], "is of no soil"),
         (["straight", "--soil", "ding2011", "--rocks", "1"], "is level ground"),
+        (["straight", "--soil", "ding2011", "--start", "1", "2"], "is a place on a height field"),
         (["step", "--soil", "ding2011", "--tire", "rigid"], "has a ground of its own"),
         (["drop", "--soil", "ding2011", "--tire", "rigid"], "or does not drive"),
     ],

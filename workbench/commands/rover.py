@@ -198,6 +198,7 @@ def _chosen(name: str | None, choices: RoverChoices, store: Path) -> tuple[Scena
         if choices.terrain is not None or choices.rocks is not None:
             rule = "is level ground: slopes are scenarios of their own"
             raise InputError("soil", f"{choices.soil.soil} and a terrain", rule, "give --soil, --terrain or --rocks")
+        _require_no_start(choices)
         driven = walked(scenario) if choices.walk else scenario
         return on_chosen_soil(driven, choices.tire, source, choices.soil), design
     scenario = on_tires(scenario, choices.tire, source, design)
@@ -209,10 +210,7 @@ def _chosen(name: str | None, choices: RoverChoices, store: Path) -> tuple[Scena
 def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -> Scenario:
     if choices.terrain is not None and choices.rocks is not None:
         raise InputError("terrain", f"{choices.terrain} and rocks", "are two grounds", "give --terrain or --rocks")
-    if choices.start is not None and choices.terrain is None:
-        raise InputError(
-            "start", f"{choices.start} m", "is a place on a height field", "give --terrain, or leave it out"
-        )
+    _require_no_start(choices)
     if choices.rocks is not None:
         rocks = rocks_on_the_way(scenario, design, choices.rocks)
         return on_terrain(scenario, design, rocks, f"random rocks, seed {choices.rocks}")
@@ -223,6 +221,13 @@ def _on_ground(scenario: Scenario, design: RoverDesign, choices: RoverChoices) -
     field = read_height_field(choices.terrain)
     x, y = (place - begin for place, begin in zip(field.origin, choices.start or (0.0, 0.0), strict=True))
     return on_terrain(scenario, design, replace(field, origin=(x, y)), one_line(choices.terrain.name))
+
+
+def _require_no_start(choices: RoverChoices) -> None:
+    if choices.start is not None and choices.terrain is None:
+        raise InputError(
+            "start", f"{choices.start} m", "is a place on a height field", "give --terrain, or leave it out"
+        )
 
 
 def _print_outcomes(title: str, outcomes: Sequence[Outcome]) -> None:
