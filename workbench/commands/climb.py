@@ -55,7 +55,7 @@ def run_climb(study_path: Path | None, choices: ClimbChoices, out: Path, store: 
     tires = tuple(dict.fromkeys(choices.tires)) or _TIRES
     for tire in tires:
         check_soil_tire(tire)
-    angles = _angles(choices.angle or _ANGLES)
+    angles = _angles(_ANGLES if choices.angle is None else choices.angle)
     path = study_path or built_in_study()
     study, begun = read_and_warn(path), time.monotonic()
     soils = [soil_of(name) if choices.soils else soil_of(name, path.parent) for name in _soils(study, choices)]
