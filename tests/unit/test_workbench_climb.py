@@ -13,11 +13,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from typer.testing import CliRunner
 
 from contracts.errors import InputError
 from soil.carcass import RIGID
 from soil.soil import soil_named
 from soil.steady_wheel import WheelOnSoil
+from workbench.cli import app
 from workbench.commands.steps import steps_of
 from workbench.questions.kept import keep
 from workbench.questions.soil.climb import RECORD, Climb, Climbs, climb_tasks, climbs_of, found_of
@@ -125,6 +127,11 @@ def test_a_record_that_somebody_changed_gets_a_message(study: Study, found: dict
 )
 def test_steps_end_at_their_end(text: str, found: tuple[float, ...]) -> None:
     assert steps_of(text, "angle", "0:25:5", 100) == found
+
+
+@pytest.mark.parametrize("command", ["climb", "drawbar"])
+def test_the_help_says_how_steps_are_typed(command: str) -> None:
+    assert "A:B:STEP" in CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "120"}).output
 
 
 def test_steps_too_small_to_tell_apart_are_refused() -> None:
