@@ -15,13 +15,16 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from contracts.errors import InputError
+from contracts.errors import ConvergenceError, InputError
+from rover_dynamics.rover.scenarios.scenario import Scenario
 from soil.carcass import RIGID
 from soil.soil import soil_named
 from soil.steady_wheel import WheelOnSoil
 from workbench.cli import app
 from workbench.commands.steps import steps_of
+from workbench.execution.result_files import read_result
 from workbench.questions.kept import keep
+from workbench.questions.soil import climb_task
 from workbench.questions.soil.climb import RECORD, Climb, Climbs, climb_tasks, climbs_of, found_of
 from workbench.questions.soil.held_climbs import held_climbs, rim_and_settling
 from workbench.study.model import Study
@@ -139,18 +142,38 @@ def test_steps_too_small_to_tell_apart_are_refused() -> None:
         steps_of("0:1e-12:1e-13", "angle", "0:25:5", 100)
 
 
+def test_finished_slopes_of_an_interrupted_task_are_not_driven_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    driven: list[float] = []
+
+    def drive(scenario: Scenario, design: object) -> None:
+        driven.append(round(math.degrees(scenario.tilt.angle)))
+        if len(driven) == 2:
+            raise KeyboardInterrupt
+        raise ConvergenceError("no step converges", [])
+
+    monkeypatch.setattr(climb_task, "run_scenario", drive)
+    wheels = {"rigid": (WheelOnSoil(radius=0.1425, width=0.12), None)}
+    task = climb_tasks([soil_named("ding2011")], wheels, [math.radians(a) for a in (0.0, 5.0, 10.0)], 0.02)[0]
+    assert task.resumable
+    kept = tmp_path / "kept.npz"
+    with pytest.raises(KeyboardInterrupt):
+        climb_task.climb(task.inputs, {}, tmp_path, lambda share: None, kept)
+    assert climb_task.climb(task.inputs, {}, tmp_path, lambda share: None, kept) == 3
+    assert driven == [0, 5, 5, 10]
+    assert [row["angle_deg"] for row in read_result(tmp_path)["rows"]] == pytest.approx([0.0, 5.0, 10.0])
+
+
 @pytest.mark.slow
 def test_a_drive_tells_slip_and_energy(tmp_path: Path) -> None:
-    from workbench.execution.result_files import read_result
-    from workbench.questions.soil.climb_task import climb
-
     wheel = WheelOnSoil(radius=0.1425, width=0.12)
     (task,) = [
         one
         for one in climb_tasks([soil_named("ding2011")], {"rigid": (wheel, None)}, [math.radians(5.0)], 0.02)
         if one.inputs["direction"] == "up"
     ]
-    assert climb(task.inputs, {}, tmp_path, lambda share: None) == 1
+    assert climb_task.climb(task.inputs, {}, tmp_path, lambda share: None) == 1
     (row,) = read_result(tmp_path)["rows"]
     found = Climb(**row)
     assert found.slip is not None

@@ -100,6 +100,7 @@ def climb_tasks(
                 "cell": cell,
             },
             cost=4.0 * len(angles),
+            resumable=True,
         )
         for soil in soils
         for tire, (wheel, settling) in wheels.items()

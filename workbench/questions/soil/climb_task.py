@@ -5,6 +5,7 @@ Verified by tests/unit/test_workbench_climb.py and tests/end_to_end/test_climb.p
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, replace
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contracts.errors import ConvergenceError
+from contracts.kept_arrays import read_kept, write_kept
 from rover_dynamics.rover.rover_file import read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.level_ground import SPEED
@@ -34,12 +36,17 @@ LASTS, LATE = 30.0, 15.0
 """Of a drive, and its part that is looked at [s]."""
 
 
-def climb(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``result.json``: a row for each angle, as `Climb` has them; returns drives."""
+def climb(
+    inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
+) -> int:
+    """``result.json``: a row for each angle, as `Climb` has them; returns drives.
+
+    Goes on behind the last drive in ``checkpoint``, if there is one.
+    """
     soil, design = Soil(**inputs["soil"]), read_rover()
     wheel = WheelOnSoil(**inputs["wheel"], carcass=carcass_of(inputs["carcass"]))
-    slope, rows = SCENARIOS[f"slope_{inputs['direction']}"], []
-    for number, angle in enumerate(inputs["angles"], 1):
+    slope, rows = SCENARIOS[f"slope_{inputs['direction']}"], _driven(checkpoint)
+    for number, angle in enumerate(inputs["angles"][len(rows) :], len(rows) + 1):
         tilted = replace(slope, tilt=replace(slope.tilt, angle=angle), lasts=LASTS, every=0.1)
         driven = on_soil(tilted, soil, wheel, cell=inputs["cell"], settling=inputs["settling"])
         try:
@@ -48,9 +55,17 @@ def climb(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
         except ConvergenceError as error:
             run, why = None, str(error)
         rows.append(asdict(_row(angle, run, why)))
+        if checkpoint is not None:
+            write_kept(checkpoint, {"rows": np.array(json.dumps(rows))})
         progress(number / len(inputs["angles"]))
     write_result(out, {"rows": rows})
     return len(rows)
+
+
+def _driven(checkpoint: Path | None) -> list[dict[str, Any]]:
+    """Rows that an interrupted run has kept."""
+    kept = None if checkpoint is None else read_kept(checkpoint)
+    return [] if kept is None else list(json.loads(str(kept["rows"])))
 
 
 def _row(angle: float, run: ScenarioRun | None, why: str | None) -> Climb:
