@@ -8,7 +8,7 @@ changed wheel makes the record stale.
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,7 @@ from workbench.questions.kept import keep
 from workbench.questions.soil import climb_task
 from workbench.questions.soil.climb import RECORD, Climb, Climbs, climb_tasks, climbs_of, found_of
 from workbench.questions.soil.held_climbs import held_climbs, rim_and_settling
+from workbench.questions.soil.question import _rover
 from workbench.study.model import Study
 from workbench.study.reading import built_in_study, read_study
 
@@ -45,6 +46,13 @@ def climbs(slips: list[float | None], soil: str = "ding2011") -> Climbs:
 )
 def test_the_steepest_slope_lies_between_two_drives(slips: list[float | None], steepest: float) -> None:
     assert climbs(slips).steepest == pytest.approx(steepest)
+
+
+def test_a_slope_beyond_those_driven_is_a_bound_and_decides_nothing() -> None:
+    open_end, ends = climbs([0.0, 0.1, 0.2]), climbs([0.0, 0.2, 1.0])
+    assert (open_end.shown, ends.shown) == ("≥ 10.0", "7.5")
+    assert (_rover(open_end).status, _rover(ends).status) == ("undecided", "fail")
+    assert _rover(replace(open_end, rows=(Climb(angle_deg=25.0, slip=0.3),))).status == "pass"
 
 
 def test_a_record_is_read_as_it_was_kept() -> None:

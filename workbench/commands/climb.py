@@ -122,7 +122,7 @@ def _print(climbs: Sequence[Climbs]) -> None:
     table = empty_table(f"slopes with less slip than {STUCK:g}; the rest at the last slope", columns, texts=columns[:3])
     for one in climbs:
         last = one.rows[-1]
-        told = [f"{one.steepest:.1f} deg"] + [last.stopped or "-"] * 4
+        told = [f"{one.shown} deg"] + [last.stopped or "-"] * 4
         if last.slip is not None:
             energy = "-" if last.energy is None else f"{last.energy:.0f} J/m"
             told[1:] = [

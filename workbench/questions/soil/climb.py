@@ -74,6 +74,16 @@ class Climbs:
             found, before = row.angle_deg, row
         return found
 
+    @property
+    def all_climbed(self) -> bool:
+        """Whether the slip stays below `STUCK` on all slopes that were driven: the steepest one may lie beyond them."""
+        return all(row.slip is not None and row.slip < STUCK for row in self.rows)
+
+    @property
+    def shown(self) -> str:
+        """The steepest slope in words [deg], as a bound where it may lie beyond what was driven."""
+        return f"{'≥ ' if self.all_climbed else ''}{self.steepest:.1f}"
+
     def at(self, angle_deg: float) -> Climb | None:
         """The drive at an angle [deg], if there is one."""
         return next((row for row in self.rows if abs(row.angle_deg - angle_deg) < 1e-6), None)
