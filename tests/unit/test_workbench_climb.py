@@ -21,6 +21,7 @@ from soil.carcass import RIGID
 from soil.soil import soil_named
 from soil.steady_wheel import WheelOnSoil
 from workbench.cli import app
+from workbench.commands.climb import _print
 from workbench.commands.steps import steps_of
 from workbench.execution.result_files import read_result
 from workbench.questions.kept import keep
@@ -53,6 +54,17 @@ def test_a_slope_beyond_those_driven_is_a_bound_and_decides_nothing() -> None:
     assert (open_end.shown, ends.shown) == ("≥ 10.0", "7.5")
     assert (_rover(open_end).status, _rover(ends).status) == ("undecided", "fail")
     assert _rover(replace(open_end, rows=(Climb(angle_deg=25.0, slip=0.3),))).status == "pass"
+
+
+def test_why_a_drive_stopped_is_told_once(capsys: pytest.CaptureFixture[str]) -> None:
+    stopped = Climb(angle_deg=10.0, stopped="a wheel lies in the soil up to its axle")
+    going = Climb(angle_deg=5.0, slip=-1e-4, drift=-1e-9, torque=3.0, energy=100.0)
+    one = Climbs(soil="ding2011", tire="rigid", direction="up", rows=(going, stopped))
+    _print([one, replace(one, tire="fe", rows=(going,))])
+    shown = capsys.readouterr().out
+    assert shown.count("axle") == 1
+    assert "ding2011, rigid, up, 10 deg: a wheel lies in the soil up to its axle" in shown
+    assert "-0.00" not in shown
 
 
 def test_a_record_is_read_as_it_was_kept() -> None:

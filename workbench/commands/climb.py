@@ -122,17 +122,22 @@ def _print(climbs: Sequence[Climbs]) -> None:
     table = empty_table(f"slopes with less slip than {STUCK:g}; the rest at the last slope", columns, texts=columns[:3])
     for one in climbs:
         last = one.rows[-1]
-        told = [f"{one.shown} deg"] + [last.stopped or "-"] * 4
+        told = [f"{one.shown} deg"] + ["-"] * 4
         if last.slip is not None:
             energy = "-" if last.energy is None else f"{last.energy:.0f} J/m"
             told[1:] = [
-                f"{last.angle_deg:g} deg: {last.slip:.2f}",
-                f"{last.drift:.2f}",
+                f"{last.angle_deg:g} deg: {last.slip:z.2f}",
+                f"{last.drift:z.2f}",
                 f"{last.torque:.2f} N m",
                 energy,
             ]
         table.add_row(one.soil, one.tire, one.direction, *told)
     console.print(table)
+    for one in climbs:
+        for row in one.rows:
+            if row.stopped:
+                where = f"{one.soil}, {one.tire}, {one.direction}, {row.angle_deg:g} deg"
+                console.print(f"{where}: {row.stopped}", soft_wrap=True)
 
 
 def _table(climbs: Sequence[Climbs]) -> str:
