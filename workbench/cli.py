@@ -40,8 +40,6 @@ __all__ = ["app", "main"]
 _INTERRUPTED = "interrupted; finished results are kept, start again to go on"
 _TYPER_INTERRUPTED = 130
 """What Typer makes of Ctrl-C within a command."""
-_STEPS = "A:[bold]B[/bold]:STEP"
-"""In a help text: plain, its middle is the name of a picture that Rich puts in its place."""
 app = typer.Typer(
     name="workbench",
     no_args_is_help=True,
@@ -454,7 +452,7 @@ def drawbar(
     slip: Annotated[
         str | None,
         typer.Option(
-            help=f"{_STEPS} or a number; 0:0.6:0.1 if left out and the wheel is not towed.", show_default=False
+            help="A to B by STEP, or a number; 0:0.6:0.1 if left out and the wheel is not towed.", show_default=False
         ),
     ] = None,
     tire: Annotated[
@@ -491,7 +489,8 @@ def climb(
         ),
     ] = None,
     angle: Annotated[
-        str | None, typer.Option(help=f"Slopes {_STEPS} in degrees; 0:25:5 if left out.", show_default=False)
+        str | None,
+        typer.Option(help="Slopes A to B by STEP, or one, in degrees; 0:25:5 if left out.", show_default=False),
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of climb.csv and climb.png.")] = Path("build/climb"),
     store: StoreOption = DEFAULT_STORE,

@@ -13,14 +13,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
 
 from contracts.errors import ConvergenceError, InputError
 from rover_dynamics.rover.scenarios.scenario import Scenario
 from soil.carcass import RIGID
 from soil.soil import soil_named
 from soil.steady_wheel import WheelOnSoil
-from workbench.cli import app
 from workbench.commands.climb import _print
 from workbench.commands.steps import steps_of
 from workbench.execution.result_files import read_result
@@ -150,11 +148,6 @@ def test_a_record_that_somebody_changed_gets_a_message(study: Study, found: dict
 )
 def test_steps_end_at_their_end(text: str, found: tuple[float, ...]) -> None:
     assert steps_of(text, "angle", "0:25:5", 100) == found
-
-
-@pytest.mark.parametrize("command", ["climb", "drawbar"])
-def test_the_help_says_how_steps_are_typed(command: str) -> None:
-    assert "A:B:STEP" in CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "120"}).output
 
 
 def test_steps_too_small_to_tell_apart_are_refused() -> None:
