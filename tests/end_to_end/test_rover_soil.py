@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 
 from contracts.series import read_series
+from rover_dynamics.rover.rover_file import read_rover
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
+from rover_dynamics.rover.scenarios.ground import on_terrain
+from rover_dynamics.soil.field import Ruts
 from tests.end_to_end.small_study import run
+from workbench.commands.rover_soil import ruts_npz
 from workbench.study.terrain_file import read_height_field
 
 OWN = """
@@ -46,6 +51,18 @@ def test_what_is_not_driven_by_its_speed_tells_no_slip(tmp_path: Path, how: tupl
     assert ended.returncode == 0, ended.stderr
     assert "deepest rut" in ended.stdout
     assert "slip of the rover" not in " ".join(ended.stdout.split())
+
+
+def test_the_drive_that_left_ruts_fits_on_their_field(tmp_path: Path) -> None:
+    x, y = np.arange(-0.77, 1.395, 0.01), np.arange(-0.66, 0.665, 0.01)
+    depth = np.where(np.abs(y) > 0.54, 0.015, 0.0) * np.ones((len(x), 1))
+    file = tmp_path / "ruts.npz"
+    file.write_bytes(ruts_npz(Ruts(x, y, depth, depth)))
+    field = read_height_field(file)
+    assert field.heights.min() == -0.015
+    assert field.heights.max() == 0.0
+    straight, design = SCENARIOS["straight"], read_rover()
+    assert on_terrain(straight, design, field, "its own ruts").terrain(design) is not None
 
 
 @pytest.mark.parametrize(

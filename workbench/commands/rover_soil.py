@@ -6,6 +6,7 @@ Verified by tests/end_to_end/test_rover_soil.py.
 from __future__ import annotations
 
 import io
+import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -29,6 +30,9 @@ from workbench.study.reading import built_in_study
 from workbench.study.soil_file import soil_of
 
 __all__ = ["SoilChoice", "on_chosen_soil", "ruts_npz", "wheel_of"]
+
+_AROUND = 0.3
+"""Undisturbed soil around ruts in their file [m]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,10 +81,14 @@ def _length(text: str) -> float:
 
 
 def ruts_npz(ruts: Ruts) -> bytes:
-    """A height field that ``workbench rover --terrain`` reads, with the largest depths beside it [m]."""
-    spacing = [float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (ruts.x, ruts.y)]
+    """A height field that ``workbench rover --terrain`` reads, with the largest depths beside it [m].
+
+    As much undisturbed soil lies around the ruts as a wheel needs beside its path.
+    """
+    spacing = [float(one[1] - one[0]) if len(one) > 1 else CELL for one in (ruts.x, ruts.y)]
+    more = [math.ceil(_AROUND / one) for one in spacing]
+    heights, deepest = (np.pad(one, [(k, k) for k in more]) for one in (0.0 - ruts.depth, ruts.deepest))
+    origin = [one[0] - k * step for one, k, step in zip((ruts.x, ruts.y), more, spacing, strict=True)]
     stream = io.BytesIO()
-    np.savez_compressed(
-        stream, heights=-ruts.depth, spacing=spacing, origin=[ruts.x[0], ruts.y[0]], deepest=ruts.deepest
-    )
+    np.savez_compressed(stream, heights=heights, spacing=spacing, origin=origin, deepest=deepest)
     return stream.getvalue()
