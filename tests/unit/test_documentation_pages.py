@@ -137,7 +137,7 @@ def test_a_guide_outside_the_menu_comes_last_among_the_guides() -> None:
 
 
 def test_no_words_of_the_help_are_taken_for_markup() -> None:
-    """Rich would swallow ``[sweep]`` in a help text: brackets stand behind a backslash there. And ``:B:`` is a picture."""
+    """Rich would swallow ``[sweep]`` in a help text: brackets stand behind a backslash there. ``:B:`` is a picture."""
     import workbench.cli
 
     commands, texts = [get_command(workbench.cli.app)], list[str]()
