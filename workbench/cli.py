@@ -452,7 +452,7 @@ def drawbar(
     slip: Annotated[
         str | None,
         typer.Option(
-            help="A:B:STEP or a number; 0:0.6:0.1 if left out and the wheel is not towed.", show_default=False
+            help="A to B by STEP, or a number; 0:0.6:0.1 if left out and the wheel is not towed.", show_default=False
         ),
     ] = None,
     tire: Annotated[
@@ -489,7 +489,8 @@ def climb(
         ),
     ] = None,
     angle: Annotated[
-        str | None, typer.Option(help="Slopes A:B:STEP in degrees; 0:25:5 if left out.", show_default=False)
+        str | None,
+        typer.Option(help="Slopes A to B by STEP, or one, in degrees; 0:25:5 if left out.", show_default=False),
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of climb.csv and climb.png.")] = Path("build/climb"),
     store: StoreOption = DEFAULT_STORE,

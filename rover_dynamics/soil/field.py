@@ -34,6 +34,8 @@ CELL = 0.01
 """Of the soil, if not said otherwise [m]."""
 MOST_CELLS = 40_000_000
 """Of a field; its arrays take 80 bytes a cell of address space."""
+AROUND = 0.3
+"""Undisturbed soil around ruts [m], as much as a wheel needs beside its path: they can be driven over again."""
 AT_ONCE = 200_000
 """Cells whose heights are asked for at once: each takes 16 of a height field's."""
 ANGLES = 48
@@ -124,7 +126,7 @@ class SoilGround(NamedTuple):
 
 
 class Ruts(NamedTuple):
-    """What is left of a drive, cut to where the soil was touched.
+    """What is left of a drive, cut to where the soil was touched and `AROUND` it.
 
     Attributes
     ----------
@@ -257,11 +259,15 @@ class SoilBed:
 
 
 def ruts_of(field: SoilField) -> Ruts:
-    """What a field remembers of being pressed; empty arrays if nothing was."""
-    rows, columns = (np.flatnonzero((field.deepest > 0.0).any(axis=axis)) for axis in (1, 0))
-    if not rows.size:
+    """What a field remembers of being pressed, with soil around it; empty arrays if nothing was pressed."""
+    touched = [np.flatnonzero((field.deepest > 0.0).any(axis=axis)) for axis in (1, 0)]
+    if not touched[0].size:
         return Ruts(np.zeros(0), np.zeros(0), *[np.zeros((0, 0))] * 3)
-    i, j = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    more = math.ceil(AROUND / field.cell)
+    i, j = (
+        slice(max(int(one[0]) - more, 0), min(int(one[-1]) + 1 + more, n))
+        for one, n in zip(touched, field.deepest.shape, strict=True)
+    )
     x, y = field.x + field.cell * np.arange(i.start, i.stop), field.y + field.cell * np.arange(j.start, j.stop)
     depth, deepest = field.carries_from[i, j].copy(), field.deepest[i, j].copy()
     return Ruts(x, y, depth, deepest, field.surface[i, j].copy() if field.surface.size else np.zeros_like(depth))

@@ -33,6 +33,7 @@ def test_slopes_are_driven_kept_and_drawn(tmp_path: Path) -> None:
     ("arguments", "told"),
     [
         (["--angle", "a"], "angle = 'a': must be A:B:STEP"),
+        (["--angle", ""], "angle = '': must be A:B:STEP"),
         (["--angle", "0:60:5"], "must lie in 0 to 40 degrees"),
         (["--angle", "0:nan:5"], "must be A:B:STEP"),
         (["--tire", "ancf"], "tire on soil = 'ancf'"),

@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 
 from contracts.series import read_series
+from contracts.terrain_cover import check_covered
+from rover_dynamics.rover.rover_file import read_rover
+from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from tests.end_to_end.small_study import run
 from workbench.study.terrain_file import read_height_field
 
@@ -36,6 +39,9 @@ def test_a_drive_on_a_soil_of_ones_own(tmp_path: Path) -> None:
     field = read_height_field(out / "ruts" / "straight_brush.npz")
     assert -0.06 < field.heights.min() < -0.01
     assert field.spacing == pytest.approx((0.02, 0.02))
+    design, path = read_rover(), SCENARIOS["straight"].path
+    assert path is not None
+    check_covered(field, path(design), design.wheel_radius)  # the same drive can be driven in its ruts
     assert (out / "ruts" / "straight_brush.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
 
 

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
+from rich.emoji import Emoji
 from typer.main import get_command
 
 ROOT = Path(__file__).parents[2]
@@ -136,7 +137,7 @@ def test_a_guide_outside_the_menu_comes_last_among_the_guides() -> None:
 
 
 def test_no_words_of_the_help_are_taken_for_markup() -> None:
-    """Rich would swallow ``[sweep]`` in a help text: brackets stand behind a backslash there."""
+    """Rich would swallow ``[sweep]`` in a help text: brackets stand behind a backslash there. ``:B:`` is a picture."""
     import workbench.cli
 
     commands, texts = [get_command(workbench.cli.app)], list[str]()
@@ -146,6 +147,7 @@ def test_no_words_of_the_help_are_taken_for_markup() -> None:
         texts += [command.help or "", *(getattr(option, "help", None) or "" for option in command.params)]
     assert sum(map(bool, texts)) > 50
     assert [text for text in texts if "[" in text.replace("\\[", "")] == []
+    assert [text for text in texts if Emoji.replace(text) != text] == []
 
 
 def test_help_answers_in_a_moment() -> None:

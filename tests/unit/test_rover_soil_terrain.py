@@ -99,7 +99,7 @@ def test_ruts_lie_below_the_ground_as_it_was() -> None:
     assert ruts_of(ground.field).surface.size == 0
     ground.field.deepest[20:23, 30:34] = 0.02
     left = ruts_of(ground.field)
-    assert left.surface == pytest.approx(1.0 + math.tan(0.1) * left.x[:, None] + np.zeros(4), abs=1e-12)
+    assert left.surface == pytest.approx(1.0 + math.tan(0.1) * left.x[:, None] + 0.0 * left.y, abs=1e-12)
     flat = replace(BED, cell=0.01)
     assert flat.ground(1).field.surface.size == 0
     assert not ruts_of(driven(replace(flat, lag=0.0), 0.1, way=0.05).ground.field).surface.any()

@@ -26,6 +26,7 @@ from rover_dynamics.rover.scenarios.level_ground import drive_forward, straight_
 from rover_dynamics.rover.scenarios.on_soil import on_soil
 from rover_dynamics.rover.scenarios.scenario import ScenarioRun, Tilt, run_scenario
 from rover_dynamics.soil.field import SoilBed
+from rover_dynamics.tires.brush_force import BESIDE
 from soil.carcass import RIGID, Carcass
 from soil.soil import soil_named
 from soil.steady_wheel import WheelOnSoil, steady_wheel
@@ -162,3 +163,22 @@ def test_on_a_slope_the_rover_slips_as_the_bench_says(design: RoverDesign) -> No
     assert 0.7 * alone < slip < 1.1 * alone
     slick = replace(DING, cohesion=0.0, friction_angle=math.radians(6.0))
     assert run_scenario(on_soil(replace(scenario, lasts=15.0), slick, WHEEL), design).place[-1, 0] < run.place[0, 0]
+
+
+def test_a_wheel_up_to_its_axle_in_soil_or_beside_it_ends_the_motion(
+    design: RoverDesign, straight: ScenarioRun
+) -> None:
+    motion, scenario = straight.motion, straight.scenario
+    sunk, tires = motion.positions.copy(), motion.tires.copy()
+    sunk[-2:, :, 2] -= 0.13
+    tires[-3:, 1, 9] = BESIDE  # the mark of a wheel
+    ends = {"front_left lies in the soil up to its axle": (2, {"positions": sunk})}
+    ends["front_right slides off the field of soil"] = 3, {"tires": tires}
+    for told, (rows, changed) in ends.items():
+        moved = replace(motion, **changed)
+        run = run_scenario(replace(scenario, ride=lambda asked, rover, moved=moved: moved), design)
+        assert run.stopped is not None
+        assert told in run.stopped
+        assert f"at t = {motion.times[-rows]:.4g} s" in run.stopped
+        assert len(run.motion.times) == len(motion.times) - rows
+    assert run_scenario(replace(scenario, ride=lambda asked, rover: motion), design).stopped is None

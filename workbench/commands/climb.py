@@ -55,7 +55,7 @@ def run_climb(study_path: Path | None, choices: ClimbChoices, out: Path, store: 
     tires = tuple(dict.fromkeys(choices.tires)) or _TIRES
     for tire in tires:
         check_soil_tire(tire)
-    angles = _angles(choices.angle or _ANGLES)
+    angles = _angles(_ANGLES if choices.angle is None else choices.angle)
     path = study_path or built_in_study()
     study, begun = read_and_warn(path), time.monotonic()
     soils = [soil_of(name) if choices.soils else soil_of(name, path.parent) for name in _soils(study, choices)]
@@ -123,15 +123,18 @@ def _print(climbs: Sequence[Climbs]) -> None:
     table = empty_table(title, columns, texts=columns[:3])
     for one in climbs:
         row = one.at(one.steepest) if one.rows[0].climbs else None
-        if row is None or row.slip is None:
-            told = ["none", *[one.rows[0].stopped or "-"] * 6]
-        else:
+        told = [f"{one.shown} deg" if row else "none", *["-"] * 6]
+        if row is not None:
             numbers = (row.slip, row.slip_in_ruts, row.drift, row.torque, row.energy, row.energy_in_ruts)
-            shapes = ("{:.2f}", "{:.2f}", "{:.2f}", "{:.2f} N m", "{:.0f} J/m", "{:.0f} J/m")
-            told = [f"{row.angle_deg:.1f} deg"]
-            told += ["-" if n is None else shape.format(n) for n, shape in zip(numbers, shapes, strict=True)]
+            shapes = ("{:z.2f}", "{:z.2f}", "{:z.2f}", "{:.2f} N m", "{:.0f} J/m", "{:.0f} J/m")
+            told[1:] = ["-" if n is None else shape.format(n) for n, shape in zip(numbers, shapes, strict=True)]
         table.add_row(one.soil, one.tire, one.direction, *told)
     console.print(table)
+    for one in climbs:
+        for row in one.rows:
+            if row.stopped:
+                where = f"{one.soil}, {one.tire}, {one.direction}, {row.angle_deg:g} deg"
+                console.print(f"{where}: {row.stopped}", soft_wrap=True)
 
 
 def _table(climbs: Sequence[Climbs]) -> str:

@@ -78,7 +78,7 @@ def _length(text: str) -> float:
 
 def ruts_npz(ruts: Ruts) -> bytes:
     """A height field that ``workbench rover --terrain`` reads, with the largest depths beside it [m]."""
-    spacing = [float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (ruts.x, ruts.y)]
+    spacing = [float(one[1] - one[0]) for one in (ruts.x, ruts.y)]
     stream = io.BytesIO()
     np.savez_compressed(
         stream, heights=ruts.surface - ruts.depth, spacing=spacing, origin=[ruts.x[0], ruts.y[0]], deepest=ruts.deepest

@@ -297,9 +297,10 @@ def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
     except np.linalg.LinAlgError as error:  # a fall whose numbers overflow within a step
         message = f"motion of scenario {scenario.name} cannot be followed: a step's numbers overflow, as in a fall"
         raise ConvergenceError(message, []) from error
-    _check_covered(motion)
+    if scenario.soil is None:
+        _check_covered(motion)
     begin = int(np.searchsorted(motion.times, 0.0))
-    end, deep = _within_curves(motion, scenario, design)
+    end, deep = (_within_curves if scenario.soil is None else _on_its_soil)(motion, scenario, design)
     kept = {name: rows[begin:end] for name, rows in sampled(motion).items()}
     stopped = deep or stopped
     return ScenarioRun(scenario=scenario, design=design, motion=replace(motion, **kept), stopped=stopped)
@@ -319,6 +320,27 @@ def _check_covered(motion: VehicleMotion) -> None:
         place, when = f"x, y = {x:g}, {y:g} m", motion.times[times[0]]
         rule = f"lies beside the terrain, which the rover left by t = {when:g} s"
         raise InputError("path", place, rule, "give a larger field or another start")
+
+
+def _on_its_soil(motion: VehicleMotion, scenario: Scenario, design: RoverDesign) -> tuple[int, str | None]:
+    """Rows up to where a wheel lies in the soil up to its axle, or beside the field; ConvergenceError at rest."""
+    beside = motion.tires[:, :, _MARK] == BESIDE
+    on_it = len(motion.times) if not beside.any() else int(np.argmax(beside.any(axis=1)))
+    kept = {name: rows[:on_it] for name, rows in sampled(motion).items()}
+    run = ScenarioRun(scenario=scenario, design=design, motion=replace(motion, **kept))
+    lost = beside.copy()
+    lost[:on_it] = run.sinkages + run.deflections >= design.wheel_radius
+    times, wheels = np.nonzero(lost)
+    if not times.size:
+        return len(motion.times), None
+    k, wheel = int(times[0]), int(wheels[0])
+    ends = (
+        "slides off the field of soil" if beside[k, wheel] else "lies in the soil up to its axle, where its laws end,"
+    )
+    message = f"wheel {design.legs[wheel].name} {ends} at t = {motion.times[k]:.4g} s"
+    if motion.times[k] <= 0.0:
+        raise ConvergenceError(message, [])
+    return k, f"{message}; give firmer soil, a smaller load or a gentler slope"
 
 
 def _within_curves(motion: VehicleMotion, scenario: Scenario, design: RoverDesign) -> tuple[int, str | None]:

@@ -83,6 +83,16 @@ class Climbs:
             found = row.angle_deg
         return found
 
+    @property
+    def all_climbed(self) -> bool:
+        """Whether the rover is stuck on none of the slopes that were driven: the steepest one may lie beyond them."""
+        return all(row.climbs for row in self.rows)
+
+    @property
+    def shown(self) -> str:
+        """The steepest slope in words [deg], as a bound where it may lie beyond what was driven."""
+        return f"{'≥ ' if self.all_climbed else ''}{self.steepest:.1f}"
+
     def at(self, angle_deg: float) -> Climb | None:
         """The drive at an angle [deg], if there is one."""
         return next((row for row in self.rows if abs(row.angle_deg - angle_deg) < 1e-6), None)
@@ -109,6 +119,7 @@ def climb_tasks(
                 "cell": cell,
             },
             cost=4.0 * len(angles),
+            resumable=True,
         )
         for soil in soils
         for tire, (wheel, settling) in wheels.items()
@@ -134,7 +145,16 @@ def found_of(climbs: Sequence[Climbs]) -> dict[str, Any]:
 def climbs_of(found: Mapping[str, Any]) -> tuple[Climbs, ...]:
     """From a record; raises what `kept` turns into a message."""
     climbs = tuple(Climbs(**(one | {"rows": tuple(Climb(**row) for row in one["rows"])})) for one in found["climbs"])
-    numbers = (value for one in climbs for row in one.rows for value in asdict(row).values())
-    require_numbers([value for value in numbers if isinstance(value, int | float)])
-    assert all(one.rows and np.all(np.diff([row.angle_deg for row in one.rows]) > 0.0) for one in climbs)
+    for one in climbs:
+        if not all(isinstance(w, str) for w in (one.soil, one.tire, *(row.stopped for row in one.rows))):
+            raise ValueError("soil, tire and stopped are texts")
+        if one.direction not in DIRECTIONS:
+            raise ValueError(f"a direction is one of {', '.join(DIRECTIONS)}")
+        for row in one.rows:
+            numbers = [value for name, value in asdict(row).items() if name not in ("angle_deg", "stopped")]
+            require_numbers([row.angle_deg, *(value for value in numbers if value is not None)])
+    slopes = [[row.angle_deg for row in one.rows] for one in climbs]
+    rise = slopes and all(one and np.all(np.diff(one) > 0.0) for one in slopes)
+    if not rise or len(set.intersection(*map(set, slopes))) < min(len(one) for one in slopes):
+        raise ValueError("climbs are drives on the same slopes, from one on, which rise, and others between them")
     return climbs

@@ -8,6 +8,7 @@ Verified by tests/unit/test_workbench_climb.py and tests/end_to_end/test_climb.p
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.errors import ConvergenceError
+from contracts.kept_arrays import read_kept, write_kept
 from rover_dynamics.rover.rover_file import RoverDesign, read_rover
 from rover_dynamics.rover.scenarios.catalogue import SCENARIOS
 from rover_dynamics.rover.scenarios.level_ground import SPEED, straight_ahead
@@ -42,19 +44,28 @@ OVER, EVERY = 5.0, 0.1
 """Time the slip is a mean of, above that in which rigid wheels rock, and between samples [s]."""
 STAYS = 10.0
 """How long a rover that is stuck is looked at [s]."""
+_SAME = 1e-9
+"""Difference of equal angles [deg]."""
 HALVINGS = 3
 """Of the interval between the steepest slope climbed and the first that is not."""
 
 
-def climb(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``result.json``: a row for each angle, as `Climb` has them; returns drives."""
+def climb(
+    inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress, checkpoint: Path | None = None
+) -> int:
+    """``result.json``: a row for each angle, as `Climb` has them; returns drives.
+
+    Drives in ``checkpoint`` are not driven again.
+    """
     soil, design = Soil(**inputs["soil"]), read_rover()
     wheel = WheelOnSoil(**inputs["wheel"], carcass=carcass_of(inputs["carcass"]))
     slope = SCENARIOS[f"slope_{inputs['direction']}"]
     halvings = HALVINGS if inputs["direction"] == "up" else 0
-    rows: list[Climb] = []
+    rows = _kept_rows(checkpoint)
 
     def drive(angle: float) -> None:
+        if any(abs(row.angle_deg - math.degrees(angle)) < _SAME for row in rows):
+            return
         drives = replace(
             slope,
             tilt=replace(slope.tilt, angle=angle),
@@ -65,6 +76,8 @@ def climb(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
         )
         rows.append(_driven(angle, on_soil(drives, soil, wheel, cell=inputs["cell"], settling=inputs["settling"])))
         rows.sort(key=lambda row: row.angle_deg)
+        if checkpoint is not None:
+            write_kept(checkpoint, {"rows": np.array(json.dumps([asdict(row) for row in rows]))})
         progress(len(rows) / (len(inputs["angles"]) + halvings))
 
     def _driven(angle: float, scenario: Scenario) -> Climb:
@@ -85,6 +98,12 @@ def climb(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
     progress(1.0)
     write_result(out, {"rows": [asdict(row) for row in rows]})
     return len(rows)
+
+
+def _kept_rows(checkpoint: Path | None) -> list[Climb]:
+    """Of an interrupted run."""
+    kept = None if checkpoint is None else read_kept(checkpoint)
+    return [] if kept is None else [Climb(**row) for row in json.loads(str(kept["rows"]))]
 
 
 def _ways(design: RoverDesign) -> tuple[float, float, float]:

@@ -80,7 +80,8 @@ def _tasks(study: Study, climbs: Sequence[Climbs]) -> list[Task]:
 
 
 def _asked(climbs: Sequence[Climbs]) -> tuple[float, ...]:
-    return tuple(row.angle_deg for row in min((one.rows for one in climbs), key=len))
+    """As they were typed: 3, not 2.9999999999999996."""
+    return tuple(round(row.angle_deg, 12) for row in min((one.rows for one in climbs), key=len))
 
 
 def _rim(study: Study, tire: str) -> Carcass:

@@ -100,7 +100,8 @@ def _rover(climbs: Climbs) -> Check:
         role="finding",
         source=f"mission requirements, Samarini 2020, section 1: slopes of 25 degrees; on tire {climbs.tire}",
     )
-    return at_least(claim, lambda: climbs.steepest, math.degrees(REQUIRED_SLOPE))
+    check = at_least(claim, lambda: climbs.steepest, math.degrees(REQUIRED_SLOPE))
+    return undecided(check, "no steeper slope was driven") if check.status == "fail" and climbs.all_climbed else check
 
 
 SOIL = Question(
