@@ -67,7 +67,7 @@ class Soil:
     rim_friction: Annotated[float, In("", above=0.0)]
     slip_sinkage: Annotated[float, In("", least=0.0)]
     source: str
-    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
         require_declared(self, "soil")

@@ -25,8 +25,9 @@ __all__ = ["on_soil"]
 
 MARGIN, ASIDE = 1.0, 0.25
 """A field beyond the wheels' places [m], and more by this share of the way, along which slopes turn a rover."""
-_LAST, _STRAIGHT = 5.0, 0.98
-"""Time over which the slip is taken [s], and the cosine of a turn beyond which there is none."""
+_LAST, _STRAIGHT, _AT_SPEED = 5.0, 0.98, 0.95
+"""Time over which the slip is taken [s], the cosine of a turn beyond which there is none, and the share of its largest
+speed from which on a rover drives at speed."""
 
 
 def on_soil(
@@ -55,7 +56,12 @@ def on_soil(
     def bed(design: RoverDesign) -> SoilBed:
         if abs(wheel.radius - design.wheel_radius) > 1e-9:
             rule = f"is not that of the rover's wheels, {1e3 * design.wheel_radius:g} mm"
-            raise InputError("radius of the wheel on soil", f"{1e3 * wheel.radius:g} mm", rule, "give its rover")
+            raise InputError(
+                "radius of the wheel on soil",
+                f"{1e3 * wheel.radius:g} mm",
+                rule,
+                "give a study and a rover of one wheel",
+            )
         places = path(design)
         beyond = MARGIN + design.wheel_radius + ASIDE * float(np.ptp(places, axis=0).max())
         terrain = scenario.terrain(design)
@@ -95,14 +101,18 @@ def _told(run: ScenarioRun) -> tuple[Outcome, ...]:
     by_wheels = run.torques("drive").shape[1] == len(run.design.legs) and not run.scenario.name.endswith(WALKED)
     if not by_wheels or float(R[-1, :2, 0] @ ahead) < _STRAIGHT:
         return tuple(found)
-    late = times >= times[-1] - _LAST
+    pace = run.spins.mean(axis=1)
+    ends = times[np.flatnonzero(pace >= _AT_SPEED * pace.max())[-1]]
+    late = (times >= ends - _LAST) & (times <= ends)
     rolled = float(np.trapezoid(run.spins[late], times[late], axis=0).mean()) * run.design.wheel_radius
     steps = np.diff(run.place, axis=0)
     ahead_of_each = steps[:, :2] @ ahead
     ways = np.copysign(np.hypot(ahead_of_each, steps[:, 2]), ahead_of_each)  # along the ground, however it rises
-    gone, way = float(ways[np.argmax(late) :].sum()), float(ways.sum())
+    gone, way = float(ways[late[1:] & late[:-1]].sum()), float(ways.sum())
     if rolled > 0.0:
-        found.append(Outcome(quantity="slip of the rover, mean of the last 5 s", value=1.0 - gone / rolled, unit="-"))
+        found.append(
+            Outcome(quantity="slip of the rover, mean of its last 5 s at speed", value=1.0 - gone / rolled, unit="-")
+        )
     if way > 0.0:
         found.append(Outcome(quantity="energy of the drives a metre", value=energy_of_drives(run) / way, unit="J/m"))
     return tuple(found)

@@ -9,13 +9,14 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from contracts.errors import InputError
 from rover_dynamics.rover.planets import gravity_named
 from soil.soil import Soil, with_ends_of_ranges
-from soil.steady_wheel import steady_wheel
+from soil.steady_wheel import WheelOnSoil, steady_wheel
 from workbench.execution.task import Task
 from workbench.questions.ancf_wheel.graph import ancf_wheel_curve_tasks
 from workbench.questions.fe.foresight import foreseen
@@ -76,7 +77,7 @@ def soil_tasks(study: Study) -> list[Task]:
     section, soils = stated(study.soil, "soil"), soils_of(study)
     wheel, gravity = wheel_on_soil(wheel_design(study)), gravity_named("mars")
     for one in (end for soil in soils for end in with_ends_of_ranges(soil)):
-        steady_wheel(wheel, one, section.load, SLIPS[-1], gravity)
+        _driven_once(wheel, one, section.load, gravity)
     bench = Task(
         name=BENCH,
         function="workbench.questions.soil.bench_task:drive",
@@ -93,6 +94,12 @@ def soil_tasks(study: Study) -> list[Task]:
     )
     held = Task(name=MEASURED, function="workbench.questions.soil.bench_task:hold", inputs={}, cost=2.0)
     return [_carcass(study, "fe", *_shown(study, "fe")), bench, held, *_at_rest(study, soils[0])]
+
+
+@lru_cache(maxsize=128)
+def _driven_once(wheel: WheelOnSoil, soil: Soil, load: float, gravity: float) -> None:
+    """Kept, as a study is planned again and again."""
+    steady_wheel(wheel, soil, load, SLIPS[-1], gravity)
 
 
 def at_rest_orientation(study: Study) -> float:
