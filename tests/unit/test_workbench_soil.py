@@ -24,7 +24,7 @@ from workbench.questions.soil.bench import COLUMNS, Bench, bench_csv, run_bench,
 from workbench.questions.soil.carcass_task import _shape
 from workbench.questions.soil.figures import soil_figures
 from workbench.questions.soil.graph import at_rest_orientation, carcass_tasks, soil_tasks, soils_of
-from workbench.questions.soil.measured import REFINEMENTS, measured, refinements
+from workbench.questions.soil.measured import CONTROLS, REFINEMENTS, controls, measured, refinements
 from workbench.questions.soil.question import SOIL
 from workbench.questions.soil.results import AtRest, Held, HeldRefinement, OnSoil
 from workbench.study.model import stated
@@ -137,6 +137,13 @@ def test_refinements_are_held_against_the_same_points_and_nothing_is_fitted() ->
     assert list(found) == list(REFINEMENTS)
     assert found["all three"] == pytest.approx([0.120, 0.232, 0.094], abs=0.002)
     assert found["plain"][0] > 2.0 * found["all three"][0]
+
+
+def test_wrong_numbers_are_noticed_by_the_measured_points() -> None:
+    """Beyond the limits of pull or torque, which the right ones are not all."""
+    found = {one.name: one.errors for one in controls(measured())}
+    assert list(found) == list(CONTROLS)
+    assert all(errors[0] > 2.0 * 0.3 and errors[1] > 2.0 * 0.232 for errors in found.values())
 
 
 def test_figures_hold_each_soil_twice_and_every_refinement(bench: Bench) -> None:

@@ -13,7 +13,7 @@ from soil.soil import Soil
 from soil.steady_wheel import standing_wheel
 from workbench.execution.result_files import read_result, write_result
 from workbench.questions.soil.bench import carcass_of, run_bench, wheel_on_soil
-from workbench.questions.soil.measured import measured, refinements
+from workbench.questions.soil.measured import Refinement, controls, measured, refinements
 from workbench.study.wheel_design import design_from
 
 if TYPE_CHECKING:
@@ -39,18 +39,20 @@ def drive(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progr
 
 
 def hold(inputs: Mapping[str, Any], needs: Mapping[str, Path], out: Path, progress: Progress) -> int:
-    """``result.json``: measured values, and those of the laws with each refinement; returns points."""
+    """``result.json``: measured values, and those of the laws with each refinement and control; returns points."""
     test = measured()
     write_result(
         out,
         {
             "slip": test.slip.tolist(),
             "measured": test.values.tolist(),
-            "refinements": [
-                {"name": one.name, "values": one.values.tolist(), "errors": one.errors.tolist()}
-                for one in refinements(test)
-            ],
+            "refinements": [_values(one) for one in refinements(test)],
+            "controls": [_values(one) for one in controls(test)],
         },
     )
     progress(1.0)
     return len(test.slip)
+
+
+def _values(one: Refinement) -> dict[str, Any]:
+    return {"name": one.name, "values": one.values.tolist(), "errors": one.errors.tolist()}

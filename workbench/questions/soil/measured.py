@@ -16,7 +16,7 @@ from contracts.published import published_table
 from soil.soil import Soil, soil_named
 from soil.steady_wheel import WheelOnSoil, steady_wheel
 
-__all__ = ["REFINEMENTS", "TABLE", "Measured", "Refinement", "measured", "refinements"]
+__all__ = ["CONTROLS", "REFINEMENTS", "TABLE", "Measured", "Refinement", "controls", "measured", "refinements"]
 
 FloatArray = NDArray[np.float64]
 TABLE = "ding2011_smooth"
@@ -31,6 +31,10 @@ REFINEMENTS: dict[str, dict[str, Any]] = {
     "all three": {},
 }
 """Name -> what of the soil's numbers is changed: Wong and Reece's wheel alone, each refinement alone, all."""
+
+CONTROLS = {"K ten times": ("shear_modulus", 10.0), "half the friction angle": ("friction_angle", 0.5)}
+"""Name -> number of the soil that is wrong, and by what factor: the measured points must notice. They cannot notice the
+cohesion, which a smooth rim slides without."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,6 +83,15 @@ def measured() -> Measured:
 def refinements(test: Measured) -> tuple[Refinement, ...]:
     """The laws on the test's own soil with each of `REFINEMENTS`."""
     return tuple(_held(name, replace(soil_named("ding2011"), **change), test) for name, change in REFINEMENTS.items())
+
+
+def controls(test: Measured) -> tuple[Refinement, ...]:
+    """All three refinements with each of `CONTROLS`."""
+    soil = replace(soil_named("ding2011"), ranges={})
+    return tuple(
+        _held(name, replace(soil, **{key: factor * getattr(soil, key)}), test)  # type: ignore[arg-type]
+        for name, (key, factor) in CONTROLS.items()
+    )
 
 
 def _held(name: str, soil: Soil, test: Measured) -> Refinement:

@@ -43,6 +43,7 @@ class Held:
     slip: list[float]
     measured: list[list[float]]
     refinements: tuple[HeldRefinement, ...]
+    controls: tuple[HeldRefinement, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,6 +118,7 @@ def read_on_soil(study: Study, folders: Mapping[str, Path]) -> OnSoil:
             slip=held["slip"],
             measured=held["measured"],
             refinements=tuple(HeldRefinement(**one) for one in held["refinements"]),
+            controls=tuple(HeldRefinement(**one) for one in held["controls"]),
         ),
         at_rest=at_rest,
         climbs=held_climbs(study),
