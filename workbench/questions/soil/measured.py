@@ -89,7 +89,7 @@ def controls(test: Measured) -> tuple[Refinement, ...]:
     """All three refinements with each of `CONTROLS`."""
     soil = replace(soil_named("ding2011"), ranges={})
     return tuple(
-        _held(name, replace(soil, **{key: factor * getattr(soil, key)}), test)  # type: ignore[arg-type]
+        _held(name, replace(soil, **{key: factor * getattr(soil, key)}), test)
         for name, (key, factor) in CONTROLS.items()
     )
 
