@@ -189,6 +189,9 @@ def stiffness(
     width: Annotated[str | None, typer.Option(help="Of a cleat, along the wheel's way.")] = None,
     edge_radius: Annotated[str | None, typer.Option(help="Of a step or cleat; 5 mm if left out.")] = None,
     offset: Annotated[str | None, typer.Option(help="Of the obstacle ahead of the hub; none if left out.")] = None,
+    soil: Annotated[
+        str | None, typer.Option(help="Press into soil (fe, ancf_wheel): a known one, or a soil's file.")
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of the curves.")] = Path("build/stiffness"),
     store: StoreOption = DEFAULT_STORE,
     workers: Workers = None,
@@ -198,12 +201,15 @@ def stiffness(
     """Stiffness curves of one model."""
     from workbench.commands.obstacle import chosen_obstacle
     from workbench.commands.stiffness import run_stiffness
+    from workbench.study.soil_file import soil_of
 
     who = computing(workers, ranks, scheduler)
     ground = chosen_obstacle(obstacle, height=height, width=width, edge_radius=edge_radius, offset=offset)
     moves = [name for name, given in (("--travel", travel), ("--path", path), ("--matrix", matrix)) if given]
     if ground is not None and moves:
         raise InputError("--obstacle", ground["shape"], "is pressed on, not moved over", f"leave out {moves[0]}")
+    if soil is not None and (moves or ground is not None):
+        raise InputError("--soil", soil, "is pressed into, level", f"leave out {moves[0] if moves else '--obstacle'}")
     if len(moves) > 1:
         raise InputError(moves[1], "", f"moves the hub its own way, beside {moves[0]}", f"leave out {moves[0]}")
     if path is not None and load is not None:
@@ -222,7 +228,8 @@ def stiffness(
         raise typer.Exit(run_travel(study, model, (tuple(travel), load), tuple(orientation or ()), out, store, who))
     if load is not None:
         raise InputError("load", f"{load:g} N", "is where the hub's travel begins", "give --travel or --matrix")
-    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who, ground))
+    earth = None if soil is None else soil_of(soil)
+    raise typer.Exit(run_stiffness(study, model, tuple(orientation or ()), out, store, who, ground, earth))
 
 
 @app.command(cls=LongCommand)

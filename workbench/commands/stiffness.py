@@ -12,6 +12,7 @@ from pathlib import Path
 
 from contracts.curves import StiffnessCurve
 from contracts.errors import InputError
+from soil.soil import Soil
 from workbench.commands.computing import (
     complain_of_early_ends,
     computed,
@@ -29,6 +30,7 @@ from workbench.questions.curve_graph import MODELS, stiffness_tasks
 from workbench.questions.fe.graph import footprint_tasks
 from workbench.questions.fe.unloading import Unloading, unloadings
 from workbench.questions.models.curves import stiffness_curves
+from workbench.questions.soil.graph import pressed_tasks
 from workbench.questions.strength.yielding import PeakStress, peak_stresses
 from workbench.report.folders import check_folder, check_targets
 from workbench.report.outputs import beside_fields, field_files, publish
@@ -38,6 +40,7 @@ from workbench.study.strengths import yield_strengths
 
 __all__ = ["check_orientation", "run_stiffness"]
 
+_SUNK = "contact_point_penetration_m"
 type Peaks = Sequence[tuple[float, PeakStress]]
 """Orientation [deg] and peak stress of a part."""
 
@@ -50,10 +53,12 @@ def run_stiffness(
     store: Path,
     computing: Computing,
     obstacle: Mapping[str, str] | None = None,
+    soil: Soil | None = None,
 ) -> int:
     """Curves of one model at the orientations asked for; fields and peak stresses at the study's snapshot loads.
 
     obstacle : [fe.obstacle] in place of the study's
+    soil : that the wheel is pressed into, or None
     """
     if model not in MODELS:
         raise InputError("model", model, "is not known", f"give one of {', '.join(MODELS)}")
@@ -65,8 +70,9 @@ def run_stiffness(
     check_folder(out)
     check_targets(out, ("curves/any", "fields/any", "footprints/any", f"{model}_peak_stress.csv"))
     with naming(study_path):
-        tasks = stiffness_tasks(study, model, tuple(dict.fromkeys(orientations)))
-        if model == "fe":
+        asked = tuple(dict.fromkeys(orientations))
+        tasks = stiffness_tasks(study, model, asked) if soil is None else pressed_tasks(study, model, soil, asked)
+        if model == "fe" and soil is None:
             tasks += tuple(footprint_tasks(study, [task for task in tasks if task.name.startswith("fe_")]))
     entries = computed(study_path, tasks, store, computing)
     folders = {name: entry.path for name, entry in entries.items()}
@@ -74,15 +80,16 @@ def run_stiffness(
         curves = stiffness_curves(study, model, folders)
         ways = {c.orientation_deg: c for c in curves if model == "fe" and c.orientation_deg is not None}
         back = unloadings(ways, folders)
-    if ground := ground_words(study.fe) if model in USED_BY else "":
-        curves = [replace(curve, source=f"{curve.source}, pressed on a {ground}") for curve in curves]
-        console.print(f"pressed on a {ground}", soft_wrap=True)
+    ground = ground_words(study.fe) if model in USED_BY else ""
+    if pressed := f"pressed into soil {soil.name}" if soil is not None else f"pressed on a {ground}" if ground else "":
+        curves = [replace(curve, source=f"{curve.source}, {pressed}") for curve in curves]
+        console.print(pressed, soft_wrap=True)
     peaks, fields = tuple(_peaks(study, curves)), field_files(entries)
     table = {f"{model}_peak_stress.csv": _peaks_csv(peaks)} if peaks else {}
     texts = beside_fields(study, fields) | table
     every = [*curves, *(one.curve for one in back.values())]
     tell_kept(publish(out, f"stiffness {model}", texts, every, copies=fields))
-    _print(model, curves, peaks)
+    _print(model, curves, peaks, soil is not None)
     _print_back(back.values())
     for what in (*(["curves"] if curves else []), *sorted({name.split("/")[0] for name in fields})):
         console.print(f"{what}: {out / what}", soft_wrap=True)
@@ -135,14 +142,16 @@ def _print_back(back: Iterable[Unloading]) -> None:
         console.print(f"{label}: {told} ({share:.1f} %)", soft_wrap=True)
 
 
-def _print(model: str, curves: Sequence[StiffnessCurve], peaks: Peaks) -> None:
-    """How far each curve reaches; at each orientation and load the part that is nearest to its yield."""
+def _print(model: str, curves: Sequence[StiffnessCurve], peaks: Peaks, soil: bool) -> None:
+    """How far curves reach, a rim into soil; at each orientation and load the part that is nearest to its yield."""
     for curve in curves:
         label = "average" if curve.orientation_deg is None else f"{curve.orientation_deg:g} deg"
         reach = f"{curve.deflection[-1] * 1e3:.1f} mm at {curve.load[-1]:.1f} N"
         reach = "no point converged" if curve.unloaded else reach
         part = " (partial)" if curve.partial else ""
-        console.print(f"{model} {label}: {reach}{part}")
+        sunk = curve.columns.get(_SUNK) if soil else None
+        sinks = "" if sunk is None or curve.unloaded else f", the rim {1e3 * sunk[-1]:.1f} mm in the soil"
+        console.print(f"{model} {label}: {reach}{sinks}{part}", soft_wrap=True)
     if not peaks:
         return
     columns = ("orientation", "load", "part", "stress", "yield", "share")

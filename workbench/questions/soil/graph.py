@@ -39,6 +39,7 @@ __all__ = [
     "at_rest_orientation",
     "carcass_name",
     "carcass_tasks",
+    "pressed_tasks",
     "soil_tasks",
     "soils_of",
 ]
@@ -128,6 +129,28 @@ def _at_rest(study: Study, soil: Soil) -> list[Task]:
         asked = {**plates.inputs, **level, "keep_points": False}
         found.append(replace(plates, name=AT_REST["ancf_wheel"], inputs=asked))
     return found
+
+
+def pressed_tasks(study: Study, model: str, soil: Soil, orientations_deg: Sequence[float]) -> tuple[Task, ...]:
+    """Curves of one of the `CARCASS_MODELS` pressed into a soil; no orientation means those of the study.
+
+    Raises
+    ------
+    InputError
+        For another model, and as `carcass_tasks`.
+    """
+    if model not in CARCASS_MODELS:
+        rule = f"is not pressed into soil; {', '.join(CARCASS_MODELS)} are"
+        raise InputError("model", model, rule, "leave out --soil")
+    if (lacking := without_soil(study)) is not None:
+        raise InputError(*lacking)
+    law = [soil.modulus(wheel_design(study).tire.width), soil.exponent]
+    if model == "ancf_wheel":
+        plates = ancf_wheel_curve_tasks(study, orientations_deg)
+        return tuple(replace(one, inputs={**one.inputs, "soil": law}) for one in plates)
+    changed = {"soil": law, "contact_method": "penalty"}
+    curves = [replace(one, inputs={**one.inputs, **changed}) for one in fe_curve_tasks(study, orientations_deg)]
+    return foreseen((wheel_meshes(study)[0], *curves))
 
 
 def carcass_tasks(study: Study, model: str) -> tuple[Task, ...]:
