@@ -41,6 +41,7 @@ def calibrated(tmp_path_factory: pytest.TempPathFactory) -> Calibrated:
     return folder, run(*COMMAND, "--out", "o", "--store", "s", folder=folder)
 
 
+@pytest.mark.long
 def test_the_table_stands_beside_table_two(calibrated: Calibrated) -> None:
     folder, ended = calibrated
     assert ended.returncode == 0, ended.stderr
@@ -61,6 +62,7 @@ def test_the_table_stands_beside_table_two(calibrated: Calibrated) -> None:
     assert 0.0 < record["found"]["forward_N_per_m"] < record["found"]["sideways_N_per_m"] < 275e3
 
 
+@pytest.mark.long
 def test_the_same_again_is_found_in_the_store(calibrated: Calibrated) -> None:
     folder, _ = calibrated
     before = (folder / "study.kept" / "brush.json").read_text(encoding="utf-8")

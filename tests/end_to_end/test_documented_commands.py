@@ -18,8 +18,10 @@ from tests.documentation import Command, blocks_of, explain, run_command, unlike
 
 ROOT = Path(__file__).parents[2]
 PAGES = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md"))]
-LONG = ("docs/how_to/materials.md",)
-"""Pages that take a minute or more; what they show has a shorter test: tests/end_to_end/test_materials_page.py."""
+LONG = tuple(
+    f"docs/{page}.md" for page in ("how_to/materials", "how_to/other_wheels", "how_to/own_mesh", "tutorials/own_wheel")
+)
+"""Pages that take half a minute or more."""
 RUN = [page for page in PAGES if any(not b.reason for b in blocks_of((ROOT / page).read_text(encoding="utf-8")))]
 
 SCRIPT = f"""#!{sys.executable}

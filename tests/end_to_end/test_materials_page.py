@@ -40,6 +40,7 @@ def _curve(folder: Path, name: str) -> StiffnessCurve:
     return read_curve(folder / "out" / "curves" / f"{name}.csv")
 
 
+@pytest.mark.long
 def test_the_way_back_is_a_curve_of_its_own(folder: Path, pressed: subprocess.CompletedProcess[str]) -> None:
     assert pressed.returncode == 0, pressed.stderr
     there, back = _curve(folder, "fe_phi000"), _curve(folder, "fe_unloading_phi000")
@@ -54,6 +55,7 @@ def test_the_way_back_is_a_curve_of_its_own(folder: Path, pressed: subprocess.Co
     assert back.columns["plastic_dissipation_J"][0] == pytest.approx(loop, rel=0.2)  # over three points
 
 
+@pytest.mark.long
 def test_rubber_bears_and_is_not_judged(folder: Path, pressed: subprocess.CompletedProcess[str]) -> None:
     there = _curve(folder, "fe_phi000")
     assert 0.0 < there.columns["max_von_mises_tread_Pa"][-1] < 5e6
@@ -62,6 +64,7 @@ def test_rubber_bears_and_is_not_judged(folder: Path, pressed: subprocess.Comple
         assert {row["part"] for row in csv.DictReader(file)} == {"tire", "springs"}
 
 
+@pytest.mark.long
 def test_a_report_tells_the_set_and_who_is_not_judged(folder: Path, pressed: subprocess.CompletedProcess[str]) -> None:
     found = run("report", folder / "tread.toml", "--out", folder / "report", "--store", folder / "store")
     assert found.returncode == 0, found.stdout + found.stderr

@@ -71,6 +71,7 @@ def one_missing(
     return done, summary, folder / "report"
 
 
+@pytest.mark.long
 def test_one_missing_orientation_is_named_with_where_how_far_why_and_what_to_try(
     one_missing: tuple[Finished, dict[str, Any], Path],
 ) -> None:

@@ -57,6 +57,7 @@ def test_mesh_of_the_honeycomb(tmp_path: Path) -> None:
     assert "lattice_joints" not in step
 
 
+@pytest.mark.long
 def test_honeycomb_repeats_itself_and_is_its_mirror_image(tmp_path: Path) -> None:
     """After 22.5 degrees the same load, none of it forwards; the solid model says what the section model says."""
     coarse = {'axial_size = "15 mm"': 'axial_size = "30 mm"', r'max_deflection = "[^"]*"': 'max_deflection = "1 mm"'}
@@ -83,6 +84,7 @@ def test_tapered_leaves_lie_between_even_ones(tmp_path: Path) -> None:
     np.testing.assert_allclose(section[1:], solid[1:], rtol=0.02)
 
 
+@pytest.mark.long
 def test_a_tread_takes_part_of_the_deflection(tmp_path: Path) -> None:
     """The wheel with its tread is softer than that with a tread as stiff as steel; its energy is the ground's work."""
     coarse = {'element_size = "10 mm"': 'element_size = "16 mm"', 'axial_size = "25 mm"': 'axial_size = "50 mm"'}

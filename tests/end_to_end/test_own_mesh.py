@@ -188,6 +188,7 @@ def test_solids_are_listed_before_a_wrong_name_is_told(tmp_path: Path) -> None:
     assert "of rim: cylinder, radius 100 mm, position 0 to 20 mm" in " ".join(done.stdout.split())
 
 
+@pytest.mark.long
 def test_a_wheel_of_solids_is_solved(tmp_path: Path) -> None:
     done = said("new", tmp_path / "mine.toml", "--from", "spoked")
     assert done.returncode == 0, done.stderr

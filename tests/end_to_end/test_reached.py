@@ -56,6 +56,7 @@ def _loaded(store: Path, manifest: dict[str, Any], out: Path) -> set[str]:
     return {name for name in names if not any(other.startswith(f"{name}.") for other in names)}
 
 
+@pytest.mark.long
 def test_what_workers_load_is_what_keys_cover(
     workspace: Path, first_report: subprocess.CompletedProcess[str], tmp_path: Path
 ) -> None:

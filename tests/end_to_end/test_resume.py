@@ -71,6 +71,7 @@ def test_a_killed_run_leaves_no_report(killed: tuple[Path, dict[str, int]]) -> N
     assert not (killed[0] / "report").exists()
 
 
+@pytest.mark.long
 def test_started_again_it_finishes_with_the_same_numbers(
     killed: tuple[Path, dict[str, int]], workspace: Path, first_report: subprocess.CompletedProcess[str]
 ) -> None:

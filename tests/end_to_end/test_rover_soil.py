@@ -64,7 +64,7 @@ def test_soil_lies_as_a_height_field_does(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("how", [("traction",), ("straight", "--walk")])
+@pytest.mark.parametrize("how", [("traction",), pytest.param(("straight", "--walk"), marks=pytest.mark.long)])
 def test_what_is_not_driven_by_its_speed_tells_no_slip(tmp_path: Path, how: tuple[str, ...]) -> None:
     ended = run("rover", *how, "--tire", "rigid", "--soil", "fjs1", "--cell", "20 mm", "--out", tmp_path)
     assert ended.returncode == 0, ended.stderr

@@ -48,6 +48,7 @@ def _rows(out: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
+@pytest.mark.long
 def test_every_point_is_judged_and_the_best_run_again(searched: tuple[Path, str]) -> None:
     """What ran again has the thickness found, two orientations of a period, and the load that was sought."""
     folder, told = searched

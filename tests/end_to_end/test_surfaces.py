@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from contracts.curves import read_curve
 from geometry.step_surfaces import read_surfaces_step
@@ -25,6 +26,7 @@ def test_mesh_of_the_ancf_tire(workspace: Path, tmp_path: Path) -> None:
     assert (tmp_path / "ancf.step").read_bytes().startswith(b"ISO-10303-21")
 
 
+@pytest.mark.long
 def test_a_tire_from_its_own_step_file_gives_its_own_curve(workspace: Path, tmp_path: Path) -> None:
     """What `workbench mesh` writes is what a study may read; a changed file is computed again, an unchanged one not."""
     store = ("--store", tmp_path / "store")

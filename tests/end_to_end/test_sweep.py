@@ -48,6 +48,7 @@ def killed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, in
     return folder, _manifests(folder / "store"), run(*arguments)
 
 
+@pytest.mark.long
 def test_a_killed_sweep_goes_on(killed: tuple[Path, dict[str, int], subprocess.CompletedProcess[str]]) -> None:
     folder, before, again = killed
     assert again.returncode == 0, again.stderr

@@ -13,6 +13,7 @@ from tests.end_to_end.small_study import ROOT, command, environment, run, said, 
 from workbench.questions.traverse.results import traverse_of
 
 
+@pytest.mark.long
 def test_a_killed_drive_goes_on_where_it_was_and_a_second_one_drives_nothing(tmp_path: Path) -> None:
     study, out = tmp_path / "own.toml", tmp_path / "out"
     study.write_text(small_study_text(), encoding="utf-8")

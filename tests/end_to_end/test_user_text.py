@@ -198,6 +198,7 @@ def test_markdown_holds_no_markup_of_theirs(report: Finished, folder: Path) -> N
         assert not tags & {"script", "em", "b", "img", "a"}
 
 
+@pytest.mark.long
 def test_a_report_with_such_words_is_accepted_and_held_against(report: Finished, folder: Path) -> None:
     kept = _run(folder, "accept", "nasty", "--baseline", "[red]kept")
     assert (kept.returncode, kept.stderr) == (0, "")

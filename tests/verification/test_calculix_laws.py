@@ -96,7 +96,7 @@ def theirs(case: Case, folder: Path) -> np.ndarray:
     return np.array(found, dtype=float)[:, list(case.move)]
 
 
-@pytest.mark.parametrize("case", [BENT, PULLED], ids=["plasticity", "rubber"])
+@pytest.mark.parametrize("case", [pytest.param(BENT, marks=pytest.mark.long), PULLED], ids=["plasticity", "rubber"])
 def test_the_forces_are_ours_and_other_constants_are_seen(case: Case, tmp_path: Path) -> None:
     mine, other = ours(case, case.material), theirs(case, tmp_path)
     tolerance = 0.01 * np.abs(mine).max()

@@ -52,6 +52,7 @@ def test_two_processes_yield_the_curve_of_one(one: dict[str, np.ndarray], tmp_pa
     assert (two["newton_iterations"] == one["newton_iterations"]).all()
 
 
+@pytest.mark.long
 def test_the_comparison_sees_a_ten_millionth(one: dict[str, np.ndarray], tmp_path: Path) -> None:
     off = _solve(tmp_path, 1, factor=1.0 + 1e-7)
     with pytest.raises(AssertionError):

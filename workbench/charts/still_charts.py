@@ -1,4 +1,4 @@
-"""Charts as pictures. The one module that imports matplotlib; needs no display.
+"""Charts as pictures. The one module that imports matplotlib, and only where something is drawn; needs no display.
 
 Verified by tests/unit/test_workbench_compared_page.py and tests/end_to_end/test_rover_soil.py.
 """
@@ -8,18 +8,18 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from matplotlib import get_data_path
-from matplotlib.axes import Axes
-from matplotlib.colors import to_rgba
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
 from contracts.text import for_matplotlib
 from workbench.charts.palette import INK, MODEL_COLOURS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = [
     "Axes",
@@ -35,7 +35,7 @@ __all__ = [
 
 def stacked_axes(heights: Sequence[float], size: tuple[float, float]) -> tuple[Figure, list[Any]]:
     """Axes above each other with one abscissa; ``heights`` relative to each other, ``size`` in inches."""
-    figure = Figure(figsize=size, layout="constrained")
+    figure = blank_figure(*size, layout="constrained")
     grid = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=list(heights))
     axes = [row[0] for row in grid]
     for one in axes:
@@ -64,25 +64,31 @@ def curve_axes(curve: StiffnessCurve, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def blank_figure(width: float, height: float) -> Any:
+def blank_figure(width: float, height: float, layout: Literal["constrained"] | None = None) -> Any:
     """A page [inches] without axes."""
-    return Figure(figsize=(width, height))
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout=layout)
 
 
 def red_green_blue(name: str) -> tuple[float, float, float, float]:
     """A colour's name or hexadecimal number as red, green, blue, opacity."""
+    from matplotlib.colors import to_rgba
+
     return to_rgba(name)
 
 
 def font_folder() -> Path:
     """Where matplotlib's DejaVu fonts lie."""
+    from matplotlib import get_data_path
+
     return Path(get_data_path()) / "fonts" / "ttf"
 
 
 def ground_png(x: NDArray[np.float64], y: NDArray[np.float64], depth: NDArray[np.float64], title: str) -> bytes:
     """PNG of ruts from above, x ahead: depths (n, m) [m] at x (n,) and y (m,) [m]."""
     length, width = (max(float(np.ptp(one)), 0.1) for one in (x, y))
-    figure = Figure(figsize=(9.0, min(max(9.0 * width / length, 2.0), 9.0) + 0.8), layout="constrained")
+    figure = blank_figure(9.0, min(max(9.0 * width / length, 2.0), 9.0) + 0.8, layout="constrained")
     axes = figure.subplots()
     image = axes.pcolormesh(x, y, 1e3 * depth.T, cmap="cividis_r", shading="nearest")
     axes.set_aspect("equal")

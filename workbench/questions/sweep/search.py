@@ -12,9 +12,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
-from cmaes import CMA  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from contracts.curves import StiffnessCurve
@@ -122,13 +122,15 @@ class Strategy:
     seed: int
     step: float = 0.3
     _runs: int = 0
-    _cma: CMA | None = None
+    _cma: Any = None
     _asked: list[NDArray[np.float64]] = field(default_factory=list)
 
     def ask(self, more: Sequence[NDArray[np.float64]] = ()) -> NDArray[np.float64]:
         """The next batch, (batch, dimensions); ``more`` points of others' choice (dimensions,) take the last places."""
         dimensions = max(len(self.start), 2)
         if self._cma is None or self._cma.should_stop():
+            from cmaes import CMA  # type: ignore[import-untyped]  # with scipy.stats, a second: only who searches waits
+
             rng = np.random.default_rng((self.seed, self._runs))
             start = np.full(dimensions, 0.5)
             start[: len(self.start)] = self.start
