@@ -118,15 +118,15 @@ def _again(study_path: Path | None, choices: ClimbChoices) -> str:
 
 
 def _print(climbs: Sequence[Climbs]) -> None:
-    columns = ("soil", "tire", "way", "steepest", "slip", "in ruts", "drift", "torque", "energy", "in ruts")
-    title = f"slopes without getting stuck (a slip of {STUCK:g} over 5 s), and what the steepest takes"
+    columns = ("soil", "tire", "way", "deg", "slip", "ruts", "drift", "N m", "J/m", "ruts")
+    title = f"steepest slope without getting stuck (a slip of {STUCK:g} over 5 s) and what it takes, in ruts too"
     table = empty_table(title, columns, texts=columns[:3])
     for one in climbs:
         row = one.at(one.steepest) if one.rows[0].climbs else None
-        told = [f"{one.shown} deg" if row else "none", *["-"] * 6]
+        told = [one.shown if row else "none", *["-"] * 6]
         if row is not None:
             numbers = (row.slip, row.slip_in_ruts, row.drift, row.torque, row.energy, row.energy_in_ruts)
-            shapes = ("{:z.2f}", "{:z.2f}", "{:z.2f}", "{:.2f} N m", "{:.0f} J/m", "{:.0f} J/m")
+            shapes = ("{:z.2f}", "{:z.2f}", "{:z.2f}", "{:.2f}", "{:.0f}", "{:.0f}")
             told[1:] = ["-" if n is None else shape.format(n) for n, shape in zip(numbers, shapes, strict=True)]
         table.add_row(one.soil, one.tire, one.direction, *told)
     console.print(table)
