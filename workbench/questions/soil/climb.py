@@ -91,7 +91,7 @@ class Climbs:
     @property
     def shown(self) -> str:
         """The steepest slope in words [deg], as a bound where it may lie beyond what was driven."""
-        return f"{'≥ ' if self.all_climbed else ''}{self.steepest:.1f}"
+        return f"{'≥' if self.all_climbed else ''}{self.steepest:.1f}"
 
     def at(self, angle_deg: float) -> Climb | None:
         """The drive at an angle [deg], if there is one."""
