@@ -12,6 +12,7 @@ import math
 from dataclasses import asdict, replace
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -216,6 +217,21 @@ def test_finished_slopes_of_an_interrupted_task_are_not_driven_again(
     assert climb_task.climb(task.inputs, {}, tmp_path, lambda share: None, kept) == 3
     assert driven == [0, 5, 5, 10]
     assert [row["angle_deg"] for row in read_result(tmp_path)["rows"]] == pytest.approx([0.0, 5.0, 10.0])
+
+
+def test_the_steepest_slope_is_halved_for_upwards_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rovers that are stuck above 12 degrees."""
+    monkeypatch.setattr(climb_task, "run_scenario", lambda scenario, design: SimpleNamespace(stopped=None))
+    monkeypatch.setattr(
+        climb_task, "_row", lambda angle, run: Climb(angle_deg=math.degrees(angle), largest=0.1 + (angle > 0.21))
+    )
+    wheels = {"rigid": (WheelOnSoil(radius=0.1425, width=0.12), None)}
+    tasks = climb_tasks([soil_named("ding2011")], wheels, [math.radians(a) for a in (0.0, 10.0, 20.0)], 0.02)
+    found = {}
+    for task in tasks:
+        climb_task.climb(task.inputs, {}, tmp_path, lambda share: None)
+        found[task.inputs["direction"]] = [round(row["angle_deg"], 6) for row in read_result(tmp_path)["rows"]]
+    assert found == {"up": [0.0, 10.0, 11.25, 12.5, 15.0, 20.0], "down": [0.0, 10.0, 20.0], "across": [0.0, 10.0, 20.0]}
 
 
 @pytest.mark.slow
