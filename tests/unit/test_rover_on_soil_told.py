@@ -1,7 +1,7 @@
 """What a drive on soil tells of its slip.
 
-Claim: it is that of the last 5 s at speed, along the ground. Negative controls: a rover that brakes and slides meanwhile
-tells the slip before; a way that rises is longer than its plan.
+Claim: it is that of the last 5 s at speed, along the ground. Negative controls: a rover that brakes and slides
+meanwhile tells the slip before; a way that rises is longer than its plan.
 """
 
 from __future__ import annotations
