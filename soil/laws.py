@@ -69,9 +69,8 @@ def mobilised(sheared: float, modulus: float) -> tuple[float, float]:
     sheared : j [m]
     modulus : K, shear deformation modulus [m]
     """
-    left = math.exp(-abs(sheared) / modulus)
     share = -math.expm1(-abs(sheared) / modulus)
-    return math.copysign(share, sheared), left / modulus
+    return math.copysign(share, sheared), (1.0 - share) / modulus
 
 
 def slip_sinkage(slip: float) -> float:

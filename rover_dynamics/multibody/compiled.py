@@ -32,6 +32,12 @@ def compiled[F: Callable[..., object]](function: F) -> F:
         return cast(F, numba.njit(cache=True, error_model="numpy")(function))
 
 
+def inlined[F: Callable[..., object]](function: F) -> F:
+    """As `compiled`, for what is put into its callers: a call by itself copies every array of its arguments' tuples."""
+    with kept_by_sources(numba.config, _PACKAGE):
+        return cast(F, numba.njit(cache=True, error_model="numpy", forceinline=True)(function))
+
+
 @compiled
 def cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
     """out = a x b, (3,) each; out must not be a or b."""

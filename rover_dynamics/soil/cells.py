@@ -28,12 +28,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_dynamics.multibody.compiled import inlined
 from rover_dynamics.soil.column import pressure_of, remember, shear_stress, sheared_way, within
 from rover_dynamics.soil.derivatives import add_derivatives, finish_derivatives
 from rover_dynamics.soil.field import SoilField, SoilGround, SoilNumbers
 from rover_dynamics.soil.lie import lie_below, lies_higher
 from rover_dynamics.soil.rim import BULGE, LEAST_COSINE, falling_off, rim_over, share_of_depth
-from rover_dynamics.tires.brush_compiled import Vector, along, compiled, cross, dot, over_length, vector
+from rover_dynamics.tires.brush_compiled import Vector, along, compiled, cross, dot, hypotenuse, over_length, vector
 from rover_dynamics.tires.brush_force import BESIDE, BrushResult, HubMotions, hub_axes
 from soil import laws
 
@@ -134,11 +135,14 @@ def _wheel(
     rate[-1] = (n.radius * spin - rolls * state[-1]) / length
     modulus = n.modulus / (_slip_sinkage(state[-2]) ** (n.slip_sinkage * n.exponent))
     depths = ground.depths[i]
-    falls = falling_off(height, state, n, ground.rut[i], depths)
+    falls, farthest = falling_off(height, state, n, ground.rut[i], depths)
     foot = along(p, -height, up)
     (begin, end), inside = _cells(foot, height, (leans, heading), n, field)
     output[9] = 0.0 if inside else BESIDE
     thrust, turning, widest = 0.0, along(omega, -spin, e), 0.5 * (n.width + field.cell) + abs(leans) * BULGE * n.radius
+    drop, shift, level, radius = -dot(down, up), dot(down, left), dot(e, left), n.radius
+    pair = np.empty((2, len(state) + 5))
+    least, beyond = height - abs(leans) * widest, farthest * farthest + field.cell * field.cell
     for row in range(begin[0], end[0]):
         for column in range(begin[1], end[1]):
             dx, dy = field.x + row * field.cell - p[0], field.y + column * field.cell - p[1]
@@ -146,15 +150,19 @@ def _wheel(
             s, side = dot(place, heading), dot(place, left)
             if abs(side) > widest:
                 continue
-            depth, slope, radius = rim_over(s, state, n.radius)
-            across = (side - depth * dot(down, left)) / dot(e, left)
-            share = min((0.5 * n.width - abs(across)) / field.cell + 0.5, 1.0)
-            if depth <= radius * LEAST_COSINE or share <= LEAST_COVER:
+            higher, begins = lies_higher(row, column, place, lie, p, field), field.carries_from[row, column]
+            needed = (least + begins - higher) / drop  # of a piece of rim, or of its tangent within the cell, to touch
+            if needed > 0.0 and s * s + needed * needed > beyond + field.cell * abs(s):
                 continue
+            depth, slope, rho = rim_over(s, state, n.radius, radius)
+            across = (side - depth * shift) / level
+            share = min((0.5 * n.width - abs(across)) / field.cell + 0.5, 1.0)
+            if depth <= rho * LEAST_COSINE or share <= LEAST_COVER:
+                continue
+            radius = rho
             cosine, sine = depth / radius, s / radius
             x_rate, z_rate = radius * cosine - slope * sine, -radius * sine - slope * cosine
-            begins = field.carries_from[row, column]
-            lower = lies_higher(row, column, place, lie, p, field) - height - depth * dot(down, up) - across * leans
+            lower = higher - height + depth * drop - across * leans
             reached, share_within = within(lower - begins, z_rate / x_rate * field.cell)
             if share_within == 0.0:
                 continue
@@ -180,16 +188,16 @@ def _wheel(
                 output[4 + q] += area * pressure * r[q]
             output[1] += area * pressure
             thrust += area * shear * a
-            conjugate = area * radius / math.hypot(x_rate, z_rate)
+            conjugate = area * radius / hypotenuse(x_rate, z_rate)
             _add_harmonics(rate, cosine, sine, conjugate * pressure)
             if jacobian.shape[0]:
                 add_derivatives(
                     (r, t, normal, e, (cosine, sine, area, conjugate, facing)),
                     (shear, by, share_within * stiffness, pressure if yields else 0.0),
                     (a, b, field.clock[0] * share_within * kept + n.lag),
-                    ground,
+                    n,
                     state[-2],
-                    jacobian,
+                    (jacobian, pair),
                 )
             if keeps:
                 remember((row, column), (z, pressure, yields), (j, k), n, field)
@@ -203,7 +211,7 @@ def _wheel(
         output[0] += state[q]
 
 
-@compiled
+@inlined
 def _tangent(heading: Vector, down: Vector, along_x: float, along_z: float) -> Vector:
     """Unit vector forwards along the rim."""
     return over_length(along((along_x * heading[0], along_x * heading[1], along_x * heading[2]), along_z, down))
@@ -246,7 +254,7 @@ def _rut_ahead(axes: tuple[Vector, Vector, Vector], entry: float, n: SoilNumbers
     return total / max(count, 1)
 
 
-@compiled
+@inlined
 def _add_harmonics(rate: FloatArray, cosine: float, sine: float, force: float) -> None:
     """Parts of a radial force [N] in each harmonic."""
     count, c, d = rate.shape[0] // 2 - 1, 1.0, 0.0

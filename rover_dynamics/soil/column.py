@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_dynamics.multibody.compiled import inlined
 from rover_dynamics.soil.field import SoilField, SoilNumbers
 from rover_dynamics.tires.brush_compiled import Vector, compiled
 from soil import laws
@@ -21,7 +22,7 @@ _mobilised = compiled(laws.mobilised)
 _lug_thrust = compiled(laws.lug_thrust)
 
 
-@compiled
+@inlined
 def within(depth: float, across: float) -> tuple[float, float]:
     """Mean depth over a cell where its soil carries [m], and the share of it that does, by three of its places.
 
@@ -36,7 +37,7 @@ def within(depth: float, across: float) -> tuple[float, float]:
     return total, share
 
 
-@compiled
+@inlined
 def shear_stress(sheared: float, pressure: float, n: SoilNumbers) -> tuple[float, Vector]:
     """Shear stress over the way sheared [Pa/m], its derivatives by that [Pa/m] and, over it, by p [1/m]."""
     share, rising = _mobilised(sheared, n.shear_modulus)
@@ -48,7 +49,7 @@ def shear_stress(sheared: float, pressure: float, n: SoilNumbers) -> tuple[float
     return strength * share * over, (strength * rising, slope * share * over, sheared)
 
 
-@compiled
+@inlined
 def sheared_way(slides: Vector, sliding: Vector, field: SoilField, cell: tuple[int, int]) -> Vector:
     """How far the soil below a piece of rim is sheared, ahead and aside [m], and the share of a step's way in that.
 
@@ -56,27 +57,25 @@ def sheared_way(slides: Vector, sliding: Vector, field: SoilField, cell: tuple[i
     slides from, upwind and implicit. ``slides`` over the ground in the world's axes, ``sliding`` ahead and aside [m/s],
     and the share of the cell that carries, which is all that is sheared while a wheel comes over it.
     """
-    j, k = field.clock[0] * sliding[2] * sliding[0], field.clock[0] * sliding[2] * sliding[1]
-    whole, per_cell = 1.0, field.clock[0] / field.cell
-    if field.clock[1] > 0.0:
-        last = int(field.clock[1]) % 2
-        ahead, aside, touched = field.ahead[last], field.aside[last], field.touched[last]
-        if touched[cell] == field.clock[1]:
-            j += ahead[cell]
-            k += aside[cell]
-        for axis in range(2):
-            share = abs(slides[axis]) * per_cell
-            from_side = -1 if slides[axis] > 0.0 else 1
-            other = (cell[0] + from_side, cell[1]) if axis == 0 else (cell[0], cell[1] + from_side)
-            whole += share
-            within = 0 <= other[0] < touched.shape[0] and 0 <= other[1] < touched.shape[1]
-            if within and touched[other] == field.clock[1]:
-                j += share * ahead[other]
-                k += share * aside[other]
+    dt, before, (row, column) = field.clock[0], field.clock[1], cell
+    j, k, whole, last = dt * sliding[2] * sliding[0], dt * sliding[2] * sliding[1], 1.0, int(before) % 2
+    per_cell = dt / field.cell if before > 0.0 else 0.0
+    if field.touched[last, row, column] == before:
+        j += field.ahead[last, row, column]
+        k += field.aside[last, row, column]
+    for axis in range(2):
+        share = abs(slides[axis]) * per_cell
+        from_side = -1 if slides[axis] > 0.0 else 1
+        m, q = (row + from_side, column) if axis == 0 else (row, column + from_side)
+        whole += share
+        inside = 0 <= m < field.touched.shape[1] and 0 <= q < field.touched.shape[2]
+        if inside and field.touched[last, m, q] == before:
+            j += share * field.ahead[last, m, q]
+            k += share * field.aside[last, m, q]
     return j / whole, k / whole, 1.0 / whole
 
 
-@compiled
+@inlined
 def pressure_of(
     z: float, first: float, n: SoilNumbers, field: SoilField, cell: tuple[int, int]
 ) -> tuple[float, float, bool]:
@@ -93,7 +92,7 @@ def pressure_of(
     return line, stiffness, False
 
 
-@compiled
+@inlined
 def remember(
     cell: tuple[int, int],
     pressed: tuple[float, float, bool],
@@ -107,8 +106,8 @@ def remember(
     """
     z, pressure, yields = pressed
     now = int(field.clock[1]) + 1
-    field.touched[now % 2][cell] = now
-    field.ahead[now % 2][cell], field.aside[now % 2][cell] = sheared
+    field.touched[now % 2, *cell] = now
+    field.ahead[now % 2, *cell], field.aside[now % 2, *cell] = sheared
     if yields:
         most = max(pressure, field.unloading[cell] * (field.deepest[cell] - field.carries_from[cell]))
         deepest = max(field.deepest[cell], z)

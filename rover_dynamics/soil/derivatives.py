@@ -10,7 +10,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_dynamics.soil.field import SoilGround
+from rover_dynamics.multibody.compiled import inlined
+from rover_dynamics.soil.field import SoilGround, SoilNumbers
 from rover_dynamics.tires.brush_compiled import Vector, along, compiled, cross, dot
 
 __all__ = ["add_derivatives", "finish_derivatives"]
@@ -20,14 +21,14 @@ MOST_SLIP = 0.9
 """That the derivatives know."""
 
 
-@compiled
+@inlined
 def add_derivatives(
     axes: tuple[Vector, Vector, Vector, Vector, tuple[float, float, float, float, float]],
     laws_of: tuple[float, Vector, float, float],
     sheared: Vector,
-    ground: SoilGround,
+    n: SoilNumbers,
     sigma: float,
-    jacobian: FloatArray,
+    sums: tuple[FloatArray, FloatArray],
 ) -> None:
     """Add one cell's derivatives.
 
@@ -38,33 +39,33 @@ def add_derivatives(
     laws_of : shear stress over way, `_shear`'s derivatives, dp/dz, and p where the soil yields, else 0
     sheared : ahead and aside, lag included [m], and how much of it a unit of sliding speed adds [s]
     sigma : slip along the contact [-]
+    sums : (6 + s, 12 + s) float that is added to; (2, 5 + s) float, working memory: what a pressure on the cell does,
+        and by what the pressure changes
     """
     r, t, normal, e, (cosine, sine, area, conjugate, facing) = axes
     shear, (rising, by_pressure, way), stiffness, yielding = laws_of
     a, b, by_speed = sheared
-    n, count = ground.numbers, (jacobian.shape[0] - 8) // 2
+    jacobian, felt, by = sums[0], sums[1][0], sums[1][1]
+    count = (jacobian.shape[0] - 8) // 2
     unit = along(along(normal, -by_pressure * a, t), -by_pressure * b, e)  # of the force per area, by the pressure
     on_wrench = _wrench((r, e), unit, -by_pressure * a, (n.shear_radius, area))
     turned = cross(r, normal)
     by_motion = (*normal, *turned)
     for q in range(6):
-        dp = -stiffness * by_motion[q] / facing
-        for m in range(6):
-            jacobian[m, q] += on_wrench[m] * dp
-        _add_rates(jacobian, q, (cosine, sine), conjugate * dp)
+        felt[q], by[q] = on_wrench[q], -stiffness * by_motion[q] / facing
     c, d = 1.0, 0.0
     for k in range(count):
-        for column, value in ((12 + k, c), (12 + count + k, d)):
-            dp = -stiffness * value / facing
-            for m in range(6):
-                jacobian[m, column] += on_wrench[m] * dp
-            _add_rates(jacobian, column, (cosine, sine), conjugate * dp)
+        felt[6 + k], felt[6 + count + k] = conjugate * c, conjugate * d
+        by[6 + k], by[6 + count + k] = -stiffness * c / facing, -stiffness * d / facing
         c, d = c * cosine - d * sine, d * cosine + c * sine
+    by[6 + 2 * count] = 0.0
     if 0.0 < sigma < 1.0:
-        dp = -yielding * n.exponent * n.slip_sinkage * (1.0 / (1.0 + sigma) + 0.5 / (1.0 - 0.5 * sigma))
-        for m in range(6):
-            jacobian[m, 12 + 2 * count] += on_wrench[m] * dp
-        _add_rates(jacobian, 12 + 2 * count, (cosine, sine), conjugate * dp)
+        by[6 + 2 * count] = -yielding * n.exponent * n.slip_sinkage * (1.0 / (1.0 + sigma) + 0.5 / (1.0 - 0.5 * sigma))
+    for m in range(6 + 2 * count):
+        for q in range(6):
+            jacobian[m, q] += felt[m] * by[q]
+        for q in range(6, 7 + 2 * count):
+            jacobian[m, 6 + q] += felt[m] * by[q]
     over = 1.0 / max(way, 1e-12)
     x, y = a * over, b * over
     ahead_too = by_speed - (by_speed - n.lag) * min(max(sigma, 0.0), MOST_SLIP)  # what comes from upwind grows as well
@@ -82,7 +83,7 @@ def add_derivatives(
             jacobian[m, 6 + q] += on_ahead[m] * ahead[q] + on_aside[m] * aside[q]
 
 
-@compiled
+@inlined
 def _wrench(
     axes: tuple[Vector, Vector], stress: Vector, ahead: float, sizes: tuple[float, float]
 ) -> tuple[float, float, float, float, float, float]:
@@ -99,16 +100,6 @@ def _wrench(
         area * moment[1],
         area * moment[2],
     )
-
-
-@compiled
-def _add_rates(jacobian: FloatArray, column: int, place: tuple[float, float], force: float) -> None:
-    """A radial force in the harmonics' rows."""
-    count, c, d = (jacobian.shape[0] - 8) // 2, 1.0, 0.0
-    for k in range(count):
-        jacobian[6 + k, column] += force * c
-        jacobian[6 + count + k, column] += force * d
-        c, d = c * place[0] - d * place[1], d * place[0] + c * place[1]
 
 
 @compiled

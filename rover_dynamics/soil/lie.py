@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contracts.terrain import Terrain
+from rover_dynamics.multibody.compiled import inlined
 from rover_dynamics.soil.field import SoilField
 from rover_dynamics.tires.brush_compiled import Vector, compiled
 
@@ -47,7 +48,7 @@ def lie_below(p: Vector, radius: float, field: SoilField) -> Lie:
     return (-x * over, -y * over, over), above * over, (x, y, above)
 
 
-@compiled
+@inlined
 def lies_higher(row: int, column: int, place: Vector, lie: Lie, p: Vector, field: SoilField) -> float:
     """How much a cell's undisturbed ground lies over the plane, along its normal [m]; ``place`` from the hub."""
     if field.surface.shape[0] == 0:

@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_dynamics.multibody.compiled import inlined
 from rover_dynamics.soil.field import ANGLES, SoilNumbers
 from rover_dynamics.tires.brush_compiled import Vector, compiled
 from soil import laws
@@ -30,22 +31,28 @@ LEAST_COSINE = math.cos(FARTHEST)
 _slip_sinkage = compiled(laws.slip_sinkage)
 
 
-@compiled
-def rim_over(s: float, state: FloatArray, radius: float) -> tuple[float, float, float]:
-    """Depth of the rim below the hub at the place s ahead [m], dw/d theta [m], and R - w [m]; depth 0 if beside it."""
-    rho, slope, count = radius, 0.0, state.shape[0] // 2 - 1
-    for _ in range(4):
+@inlined
+def rim_over(s: float, state: FloatArray, radius: float, guess: float) -> tuple[float, float, float]:
+    """Depth of the rim below the hub at the place s ahead [m], dw/d theta [m], and R - w [m]; depth 0 if beside it.
+
+    Newton's method from a guess of R - w: the neighbour's is near.
+    """
+    rho, slope, depth, count = guess, 0.0, 0.0, state.shape[0] // 2 - 1
+    if count == 0:
+        return (math.sqrt(radius * radius - s * s) if abs(s) < radius else 0.0), 0.0, radius
+    for _ in range(5):
         if abs(s) >= rho:
             return 0.0, 0.0, rho
-        before, sine = rho, s / rho
-        cosine = math.sqrt(1.0 - sine * sine)
+        over, depth = 1.0 / rho, math.sqrt(rho * rho - s * s)
+        sine, cosine = s * over, depth * over
         w, slope, c, d = 0.0, 0.0, 1.0, 0.0
         for k in range(count):
             w += state[k] * c + state[count + k] * d
             slope += k * (state[count + k] * c - state[k] * d)
             c, d = c * cosine - d * sine, d * cosine + c * sine
-        rho = radius - w
-        if abs(rho - before) < NEAR * radius:
+        change = (radius - w - rho) * depth / (depth - slope * sine)
+        rho += change
+        if abs(change) < NEAR * radius:
             break
     return (math.sqrt(rho * rho - s * s) if abs(s) < rho else 0.0), slope, rho
 
@@ -61,15 +68,18 @@ def _way(cosine: float, sine: float, state: FloatArray) -> float:
 
 
 @compiled
-def falling_off(height: float, state: FloatArray, n: SoilNumbers, rut: float, depths: FloatArray) -> Vector:
-    """theta_1, theta_m and theta_2 [rad] of a wheel that rolls ahead, mirrored for one that rolls back.
+def falling_off(
+    height: float, state: FloatArray, n: SoilNumbers, rut: float, depths: FloatArray
+) -> tuple[Vector, float]:
+    """theta_1, theta_m and theta_2 [rad] of a wheel that rolls ahead, mirrored for one that rolls back; largest R - w.
 
     ``depths`` (2 `STEPS` + 1,) is filled with those of the rim [m], at angles from behind to ahead.
     """
-    side, lowest = math.copysign(1.0, state[-1]), 0.0
+    side, lowest, farthest = math.copysign(1.0, state[-1]), 0.0, 0.0
     cosine, sine = math.cos(FARTHEST), -math.sin(FARTHEST)
     for k in range(2 * STEPS + 1):
-        depths[k] = (n.radius - _way(cosine, side * sine, state)) * cosine - height
+        rho = n.radius - _way(cosine, side * sine, state)
+        depths[k], farthest = rho * cosine - height, max(farthest, rho)
         lowest = max(lowest, depths[k])
         cosine, sine = cosine * COSINE - sine * SINE, sine * COSINE + cosine * SINE
     entry = _crossed(depths, rut, 2 * STEPS, -1)
@@ -77,7 +87,7 @@ def falling_off(height: float, state: FloatArray, n: SoilNumbers, rut: float, de
     softer = _slip_sinkage(state[-2]) ** n.slip_sinkage
     peak, modulus = max(_at(top, depths), 0.0), n.modulus / softer**n.exponent
     behind = _crossed(depths, lowest - _rebound(peak, modulus, n.exponent, n.least, n.growth), 0, 1)
-    return entry, top, min(behind, top - 1e-6)
+    return (entry, top, min(behind, top - 1e-6)), farthest
 
 
 @compiled
@@ -94,7 +104,7 @@ def _crossed(depths: FloatArray, level: float, begin: int, way: int) -> float:
     return (k - STEPS - way * back) * STEP
 
 
-@compiled
+@inlined
 def _at(angle: float, depths: FloatArray) -> float:
     """Depth of the rim at an angle [m]."""
     place = min(max(angle / STEP + STEPS, 0.0), 2.0 * STEPS - 1e-9)
@@ -102,7 +112,7 @@ def _at(angle: float, depths: FloatArray) -> float:
     return float(depths[k] + (place - k) * (depths[k + 1] - depths[k]))
 
 
-@compiled
+@inlined
 def share_of_depth(sine: float, z: float, rolled: float, falls: Vector, depths: FloatArray) -> float:
     """Depth whose pressure a piece of rim has, over its own depth: 1 ahead of theta_m, less behind (Wong and Reece)."""
     entry, top, behind = falls

@@ -114,6 +114,45 @@ def test_edges_press_the_share_of_a_cell_that_they_cover() -> None:
     assert np.ptp(loads) < 1e-9 * loads[0]
 
 
+@pytest.mark.parametrize(("lean", "bent"), [(0.0, 0.0), (0.25, 0.0), (-0.25, 0.0), (0.0, 0.012)])
+@pytest.mark.parametrize("height", [0.141, 0.125, 0.1])
+def test_every_cell_below_the_rim_is_pressed(height: float, lean: float, bent: float) -> None:
+    """Of cells that are left out before the rim over them is looked for, none lies below its tangent."""
+    coarse = replace(BED, wheel=SOFT if bent else WHEEL, cell=0.02)
+    ground, yaw, radius = coarse.ground(1), 0.4, WHEEL.radius
+    c, s = math.cos(yaw), math.sin(yaw)
+    upright = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    leaning = np.array([[1.0, 0, 0], [0, math.cos(lean), -math.sin(lean)], [0, math.sin(lean), math.cos(lean)]])
+    height -= 0.7 * bent
+    hub = moving(at_rest(height, 0.013, 0.004), yaw, 0.0, (0.0, 0.0, 0.0))
+    hub.rotation[0] = upright @ leaning
+    state = np.zeros((1, ground.states))
+    count = ground.states // 2 - 1
+    if bent:
+        state[0, 1:3] = bent, -0.3 * bent
+    keep_step(hub, state, ground, empty_result(1, ground.states))
+    e, ahead, missed = hub.rotation[0][:, 1], upright[:, 0], []
+    down, left, found = np.cross(e, ahead), upright[:, 1], 0
+    angles = np.linspace(-1.19, 1.19, 4761)
+    k = np.arange(count)[:, None]
+    rho = radius - state[0, :count] @ np.cos(k * angles)
+    for i, j in np.ndindex(ground.field.deepest.shape):
+        x, y = ground.field.x + i * 0.02 - 0.013, ground.field.y + j * 0.02 - 0.004
+        ways = rho * np.sin(angles) - (x * ahead[0] + y * ahead[1])
+        m = int(np.argmin(np.abs(ways)))
+        if abs(ways[m]) > 1e-3:
+            continue
+        depth = rho[m] * math.cos(angles[m])
+        across = (x * left[0] + y * left[1] - depth * (down @ left)) / (e @ left)
+        along = np.gradient(rho * np.cos(angles), rho * np.sin(angles))[m]
+        below = -height - depth * down[2] - across * e[2] + abs(along) * 0.02 / 3.0
+        if below > 2e-4 and abs(across) < 0.5 * WHEEL.width + 0.009:
+            found += 1
+            missed += [] if ground.field.touched[1, i, j] == 1 else [(i, j)]
+    assert found > (5 if height < 0.14 else 0)
+    assert not missed
+
+
 @pytest.mark.parametrize("heading", [0.3, math.pi / 2.0, 2.5])
 def test_every_heading_is_alike(heading: float) -> None:
     fine = replace(BED, low=(-0.4, -0.4), high=(0.5, 0.5))

@@ -21,11 +21,16 @@ from contracts.errors import ConvergenceError, InputError
 from contracts.terrain import Plane, Terrain
 from rover_dynamics.rover.rover import Actuators, build_rover
 from rover_dynamics.rover.rover_file import RoverDesign
+from rover_dynamics.rover.scenarios.ends import (
+    hubs_over,
+    on_its_soil,
+    refuse_beside_terrain,
+    wheel_bodies,
+    within_curves,
+)
 from rover_dynamics.rover.scenarios.outcome import Outcome
 from rover_dynamics.rover.set_down import set_down
 from rover_dynamics.soil.field import SoilBed
-from rover_dynamics.soil.lie import footprint_plane
-from rover_dynamics.tires.brush_force import BESIDE, DEEP
 from rover_dynamics.tires.brush_settings import BrushSettings
 from rover_dynamics.tires.brush_tire import THESIS_BRUSH, BrushTireParameters, with_friction
 from rover_dynamics.vehicle.motors import Motor, electrical_power
@@ -43,7 +48,7 @@ __all__ = [
 ]
 
 FloatArray = NDArray[np.float64]
-_PENETRATION, _LOAD, _SLIP, _PATCH, _TRACTIVE, LATERAL, _MARK = 0, 1, 2, 4, 7, 8, 9
+_PENETRATION, _LOAD, _SLIP, _TRACTIVE, LATERAL = 0, 1, 2, 7, 8
 """Columns of `rover_dynamics.tires.brush_force.OUTPUT_SIZE`."""
 
 
@@ -98,8 +103,8 @@ class ScenarioRun:
 
     @property
     def wheel_bodies(self) -> slice:
-        """Rows of the wheels among the bodies: behind those of the design come arm, spindle and wheel of each leg."""
-        return slice(len(self.design.bodies) + 2, None, 3)
+        """Rows of the wheels among the bodies."""
+        return wheel_bodies(self.design)
 
     @property
     def wheels(self) -> FloatArray:
@@ -120,9 +125,8 @@ class ScenarioRun:
     @property
     def sinkages(self) -> FloatArray:
         """Of the wheels' lowest points below the undisturbed ground (n, n_w) [m]; on soil."""
-        x, y, z = self.wheels.reshape(-1, 3).T
-        ground, normals = footprint_plane(self.scenario.terrain(self.design), x, y, self.design.wheel_radius)
-        return self.design.wheel_radius - self.deflections - ((z - ground) * normals[:, 2]).reshape(self.loads.shape)
+        hubs = hubs_over(self.wheels, self.scenario.terrain(self.design), self.design.wheel_radius)
+        return self.design.wheel_radius - self.deflections - hubs
 
     @property
     def met(self) -> bool:
@@ -297,10 +301,12 @@ def run_scenario(scenario: Scenario, design: RoverDesign) -> ScenarioRun:
     except np.linalg.LinAlgError as error:  # a fall whose numbers overflow within a step
         message = f"motion of scenario {scenario.name} cannot be followed: a step's numbers overflow, as in a fall"
         raise ConvergenceError(message, []) from error
-    if scenario.soil is None:
-        _check_covered(motion)
     begin = int(np.searchsorted(motion.times, 0.0))
-    end, deep = (_within_curves if scenario.soil is None else _on_its_soil)(motion, scenario, design)
+    if scenario.soil is None:
+        refuse_beside_terrain(motion)
+        end, deep = within_curves(motion, design, scenario.settings)
+    else:
+        end, deep = on_its_soil(motion, design, scenario.terrain(design))
     kept = {name: rows[begin:end] for name, rows in sampled(motion).items()}
     stopped = deep or stopped
     return ScenarioRun(scenario=scenario, design=design, motion=replace(motion, **kept), stopped=stopped)
@@ -310,51 +316,3 @@ def sampled(motion: VehicleMotion) -> dict[str, Any]:
     """Arrays of a motion, with one row for each time, by name."""
     values = {one.name: getattr(motion, one.name) for one in fields(motion)}
     return {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
-
-
-def _check_covered(motion: VehicleMotion) -> None:
-    """Refuse a motion in which a hub came to lie beside the terrain's height field."""
-    times, wheels = np.nonzero(motion.tires[:, :, _MARK] == BESIDE)
-    if times.size:
-        x, y = motion.tires[times[0], wheels[0], _PATCH : _PATCH + 2]
-        place, when = f"x, y = {x:g}, {y:g} m", motion.times[times[0]]
-        rule = f"lies beside the terrain, which the rover left by t = {when:g} s"
-        raise InputError("path", place, rule, "give a larger field or another start")
-
-
-def _on_its_soil(motion: VehicleMotion, scenario: Scenario, design: RoverDesign) -> tuple[int, str | None]:
-    """Rows up to where a wheel lies in the soil up to its axle, or beside the field; ConvergenceError at rest."""
-    beside = motion.tires[:, :, _MARK] == BESIDE
-    on_it = len(motion.times) if not beside.any() else int(np.argmax(beside.any(axis=1)))
-    kept = {name: rows[:on_it] for name, rows in sampled(motion).items()}
-    run = ScenarioRun(scenario=scenario, design=design, motion=replace(motion, **kept))
-    lost = beside.copy()
-    lost[:on_it] = run.sinkages + run.deflections >= design.wheel_radius
-    times, wheels = np.nonzero(lost)
-    if not times.size:
-        return len(motion.times), None
-    k, wheel = int(times[0]), int(wheels[0])
-    ends = (
-        "slides off the field of soil" if beside[k, wheel] else "lies in the soil up to its axle, where its laws end,"
-    )
-    message = f"wheel {design.legs[wheel].name} {ends} at t = {motion.times[k]:.4g} s"
-    if motion.times[k] <= 0.0:
-        raise ConvergenceError(message, [])
-    return k, f"{message}; give firmer soil, a smaller load or a gentler slope"
-
-
-def _within_curves(motion: VehicleMotion, scenario: Scenario, design: RoverDesign) -> tuple[int, str | None]:
-    """Rows up to where a wheel is pressed deeper than its curves go, and words for that; ConvergenceError at rest."""
-    times, wheels = np.nonzero(motion.tires[:, :, _MARK] == DEEP)
-    if not times.size or scenario.settings.potential is None:
-        return len(motion.times), None
-    k, wheel = int(times[0]), int(wheels[0])
-    depth, load = 1e3 * motion.tires[k, wheel, _PENETRATION], motion.tires[k, wheel, _LOAD]
-    end, tip = 1e3 * scenario.settings.potential.last, 1e3 * scenario.settings.potential.tips.height
-    message = (
-        f"wheel {design.legs[wheel].name} is pressed {depth:.3g} mm deep at t = {motion.times[k]:.4g} s,"
-        f" with {load:.0f} N: its curves end at {end:.3g} mm of the rim, {tip:.3g} mm more on a grouser; go deeper"
-    )
-    if motion.times[k] <= 0.0:
-        raise ConvergenceError(message, [])
-    return k, message
