@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 import numba
 import numpy as np
@@ -46,8 +46,9 @@ def compiled[F: Callable[..., object]](function: F) -> F:
     sources of the package.
     """
     with kept_by_sources(numba.config, _PACKAGE):
-        jit = numba.njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"}, no_cfunc_wrapper=True)
-        return cast(F, jit(function))
+        jit: Any = numba.njit  # whose stubs lack an option
+        decorate = jit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"}, no_cfunc_wrapper=True)
+        return cast(F, decorate(function))
 
 
 def inlined[F: Callable[..., object]](function: F) -> F:

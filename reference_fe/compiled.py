@@ -16,8 +16,10 @@ __all__ = ["compiled"]
 def compiled[F: Callable[..., object]](**options: Any) -> Callable[[F], F]:
     """Compile with numba and these options, no entry for callers in C, cached on disk for the present sources."""
 
+    jit: Any = numba.njit  # whose stubs lack an option
+
     def decorate(function: F) -> F:
         with kept_by_sources(numba.config, Path(__file__).parent):
-            return cast(F, numba.njit(cache=True, no_cfunc_wrapper=True, **options)(function))
+            return cast(F, jit(cache=True, no_cfunc_wrapper=True, **options)(function))
 
     return decorate

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 import numba
 import numpy as np
@@ -37,15 +37,18 @@ def compiled[F: Callable[..., object]](function: F) -> F:
     Where sums may be contracted, the digits depend on which functions were compiled together and which came from the
     cache: a run that was killed and started again ended with other last digits. It was no faster either.
     """
-    with kept_by_sources(numba.config, _PACKAGE):
-        return cast(F, numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True)(function))
+    return _compiled(function)
 
 
 def inlined[F: Callable[..., object]](function: F) -> F:
     """As `compiled`, for what is put into its callers: a call by itself copies every array of its arguments' tuples."""
-    options = {"error_model": "numpy", "no_cfunc_wrapper": True, "forceinline": True}
+    return _compiled(function, forceinline=True)
+
+
+def _compiled[F: Callable[..., object]](function: F, **options: bool) -> F:
+    jit: Any = numba.njit  # whose stubs lack an option
     with kept_by_sources(numba.config, _PACKAGE):
-        return cast(F, numba.njit(cache=True, **options)(function))
+        return cast(F, jit(cache=True, error_model="numpy", no_cfunc_wrapper=True, **options)(function))
 
 
 @compiled
