@@ -176,15 +176,20 @@ def test_a_soil_of_ones_own(tmp_path: Path) -> None:
     assert soil.friction_angle == pytest.approx(math.pi / 4)
     with pytest.raises(InputError, match="ding2011"):
         soil_of("nowhere")
+    (tmp_path / "mine.toml").rename(tmp_path / "ding2011.toml")
+    with pytest.raises(InputError, match="ding2011: is the name of a known soil; rename the file"):
+        soil_of("ding2011.toml", tmp_path)
 
 
 @pytest.mark.parametrize(
     ("key", "value", "word"),
     [
         ("cohesion", "0.25", r"cohesion = 0\.25 Pa: must lie in 1 to 1e\+07 Pa; 1 kPa is 1000 of it"),
+        ("frictional_modulus", "2407.4", r"frictional_modulus = 2407\.4 N/m\^\(n\+2\): must lie in 10000"),
         ("density", "1.6", r"density = 1\.6 kg/m\^3: must lie in 100 to 20000"),
         ("shear_modulus", "11.4", r"shear_modulus = 11\.4 m: must lie in 0\.0001 to 1 m; write it with its unit"),
         ("shear_modulus", "[0.01, 11.4]", r"shear_modulus = 11\.4 m"),
+        ("shear_modulus", "[0, 0.01]", "soil shear modulus = 0 mm: must be finite and greater than zero"),
         ("unloading_growth", "1e300", "unloading_growth"),
         ("source", '["a", "b"]', "source = .*must be a text"),
     ],

@@ -15,7 +15,7 @@ tests/unit/test_workbench_soil.py.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +35,7 @@ _BY_EXPONENT = ("cohesive_modulus", "frictional_modulus")
 _CAN_BE = {
     "exponent": (0.05, 5.0),
     "cohesive_modulus": (1e-3, 1e8),
-    "frictional_modulus": (1e3, 1e10),
+    "frictional_modulus": (1e4, 1e10),
     "cohesion": (1.0, 1e7),
     "density": (100.0, 2e4),
     "shear_modulus": (1e-4, 1.0),
@@ -63,6 +63,8 @@ def soil_of(name: str, folder: Path = Path()) -> Soil:
 
 def _from_file(path: Path) -> Soil:
     given = input_table(path, "soil file", "docs/how_to/soil.md")
+    if path.stem in known_soils():
+        raise InputError(f"soil file {path}", path.stem, "is the name of a known soil", "rename the file")
     rules = {name: rule for name, one in declared_types(Soil).items() if (rule := _rule(one)) is not None}
     if unknown := sorted(set(given) - set(rules) - {"source"}):
         raise InputError(f"soil file {path}", unknown[0], "is not known", f"give {', '.join(rules)}, source")
@@ -81,9 +83,13 @@ def _from_file(path: Path) -> Soil:
         raise InputError(f"soil file {path}", missing[0], "is missing", f"add it, or take a known soil ({known})")
     source = _source(path, given)
     try:
-        return Soil(name=path.stem, source=source, ranges=ranges, **numbers)
+        found = Soil(name=path.stem, source=source, ranges=ranges, **numbers)
+        changes: list[dict[str, Any]] = [{key: end} for key, ends in ranges.items() for end in ends]
+        for change in changes:
+            replace(found, ranges={}, **change)
     except InputError as error:
         raise InputError(f"{path}: {error.what}", error.value, error.rule, error.hint, key=error.key) from error
+    return found
 
 
 def _rule(declared: Any) -> In | None:
