@@ -123,7 +123,7 @@ def test_a_soil_file_that_cannot_be_is_one_message(studies: Path, change: tuple[
 
 
 def test_what_a_rigid_wheel_cannot_is_told_before_its_rim_is_computed(studies: Path) -> None:
-    (studies / "soft.toml").write_text(SOIL.replace("2.4074e6", "1e3").replace("15600", "0"), encoding="utf-8")
+    (studies / "soft.toml").write_text(SOIL.replace("2.4074e6", "2e4").replace("15600", "0"), encoding="utf-8")
     (studies / "new.toml").write_text((ROOT / "studies" / "first.toml").read_text(encoding="utf-8"), encoding="utf-8")
     run = drawbar("new.toml", "--soil", "soft.toml", "--store", "store", cwd=studies)
     assert (run.returncode, run.stdout) == (2, "")
