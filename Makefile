@@ -25,7 +25,7 @@ APT := DEBIAN_FRONTEND=noninteractive apt-get --quiet --quiet --yes --no-install
 # Certificates of the machine, not uv's own list: works behind a company's proxy too.
 export UV_SYSTEM_CERTS ?= true
 
-.PHONY: help setup report test test-long search sample mission docs lint unit evidence bench test-debian test-bare clean distclean
+.PHONY: help setup report test suite test-long search sample mission docs lint unit evidence bench test-debian test-bare clean distclean
 
 help: ## show this list
 	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 18
@@ -35,7 +35,10 @@ setup: $(READY) ## install the pinned environment (the other targets do it when 
 report: $(READY) ## compute the study and write the report (STUDY=file.toml, OUT=build/report)
 	$(VENV)/bin/workbench report $(if $(STUDY),"$(STUDY)") --out "$(OUT)"
 
-test: lint ## lint, then every test, two processes
+test: $(READY) ## lint, and beside it every test in two processes
+	$(MAKE) --no-print-directory --jobs=2 lint suite
+
+suite: $(READY)
 	$(PYTHON) -m pytest -n 2 --dist loadfile --no-loadscope-reorder --durations 120 --durations-min 3
 
 test-long: $(READY) ## what takes minutes: kills, fuzz, whole studies; the result goes into docs/test_long.json and .md

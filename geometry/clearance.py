@@ -18,7 +18,7 @@ from contracts.errors import InputError
 from geometry.parts import SpringSet
 from geometry.springs import Leg, leg_sides, polar, spring_leg, station_angles, weld_angle
 
-__all__ = ["require_clear_of_rings", "require_clear_sets"]
+__all__ = ["bends_one_way", "overlaps_itself", "require_clear_of_rings", "require_clear_sets"]
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,7 @@ def require_clear_of_rings(springs: SpringSet, gap: tuple[float, float], key: st
         raise InputError(
             what, text, f"must exceed half the thickness, {half * 1e3:.4g} mm", "smooth the spline", key=f"{key}.shape"
         )
-    if _overlaps_itself(leg, springs.largest_thickness):
+    if not bends_one_way(leg) and overlaps_itself(leg, springs.largest_thickness):
         raise InputError(
             what, springs.shape, "the strip overlaps itself", "move the spline's points apart", key=f"{key}.shape"
         )
@@ -91,7 +91,21 @@ def _any_within(strips: Sequence[shapely.Geometry], others: Sequence[shapely.Geo
     return any(len(tree.query(strip, predicate="dwithin", distance=limit)) for strip in strips)
 
 
-def _overlaps_itself(leg: Leg, thickness: float) -> bool:
+def bends_one_way(leg: Leg) -> bool:
+    """Whether a strip bends to one side only, through half a turn at most: then it does not overlap itself.
+
+    Two places on it, l apart along it with an angle of 2 a between their tangents, are as far apart along the mean
+    tangent as the cosine of the angle to that is long along the strip. Where no bend is sharper than r that is at least
+    2 r sin a + (l - 2 r a) cos a, least at a quarter turn, a = pi / 2: 2 r, more than the strip's thickness, for r is
+    more than half of that.
+    """
+    x, y = leg.normals.T
+    turns = np.arctan2(x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:])
+    side = 1.0 if turns.sum() > 0.0 else -1.0
+    return bool(np.all(side * turns >= -1e-12) and abs(turns.sum()) <= math.pi * (1.0 + 1e-9))
+
+
+def overlaps_itself(leg: Leg, thickness: float) -> bool:
     """Whether two places of a strip, three thicknesses [m] apart along it, come closer than one thickness."""
     line = _divided(leg.points, max(0.25 * thickness, leg.length / _MOST_PIECES))
     pieces = shapely.linestrings(np.stack([line[:-1], line[1:]], axis=1))

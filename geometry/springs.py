@@ -6,6 +6,7 @@ Verified by tests/unit/test_geometry_springs.py.
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 
@@ -65,8 +66,9 @@ def leg_sides(springs: SpringSet) -> tuple[int, ...]:
     return (1, -1) if springs.shape == "hoop" else (springs.direction,)
 
 
+@functools.lru_cache(maxsize=512)
 def spring_leg(springs: SpringSet, gap: tuple[float, float], station: float, side: int) -> Leg:
-    """Return the strip that leaves the weld at ``station`` [rad] towards ``side``.
+    """Return the strip that leaves the weld at ``station`` [rad] towards ``side``; its arrays are not to be written.
 
     Parameters
     ----------

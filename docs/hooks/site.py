@@ -48,6 +48,8 @@ def on_config(config: Any, **_: Any) -> Any:
 
 def on_page_markdown(markdown: str, **_: Any) -> str:
     """Say whether the sources are still those of the last run of the long tests."""
+    if STATE not in markdown:  # what it takes to know is not to be known for each page
+        return markdown
     return markdown.replace(STATE, f"Against these sources the result is **{state_of(ROOT)}**.")
 
 

@@ -12,7 +12,9 @@ import pytest
 
 from contracts.errors import InputError
 from contracts.materials import SPRING_STEEL, TI_6AL_4V
+from geometry.clearance import bends_one_way, overlaps_itself
 from geometry.parts import Cone, Grousers, HubRing, SpringSet, Tire
+from geometry.springs import Leg, spring_leg
 from geometry.wheel import WheelDesign, exomars, exomars_hoops
 
 WHEEL = exomars_hoops()
@@ -165,3 +167,29 @@ def test_looking_for_clearance_costs_the_same_whatever_the_dimensions(
     turned = replace(sets[0], bands=((-60e-3, 60e-3),), phase=math.radians(40.0))
     with pytest.raises(InputError, match="cross"):
         replace(WHEEL, tire=replace(WHEEL.tire, outer_radius=radius), outer_hub=hub, spring_sets=(turned, sets[1]))
+
+
+def circle(turn: float) -> Leg:
+    angle = np.linspace(0.0, turn, 101)
+    normals = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return Leg(points=0.05 * normals, normals=normals, length=0.05 * turn, segments=2, centre=np.zeros(2))
+
+
+def test_a_strip_that_bends_one_way_does_not_overlap_itself() -> None:
+    """As thick as its sharpest bend allows; circles of more than half a turn and strips that bend both ways may."""
+    numbers, gap = np.random.default_rng(3), (WHEEL.outer_hub.outer_radius, WHEEL.tire.inner_radius)
+    one_way = 0
+    for _ in range(300):
+        middle, bulge = numbers.uniform(0.2, 0.8), numbers.uniform(0.02, 0.9)
+        ends = numbers.uniform(0.2, 1.2, 2) * bulge
+        points = ((0.5 * middle, ends[0]), (middle, bulge), (0.5 + 0.5 * middle, ends[1]))
+        leg = spring_leg(replace(OUTER, shape="spline", points=points), gap, 0.0, OUTER.direction)
+        if bends_one_way(leg):
+            sharpest = np.linalg.norm(np.diff(leg.normals, axis=0), axis=1).max() * (len(leg.points) - 1) / leg.length
+            one_way += 1
+            assert not overlaps_itself(leg, 1.99 / sharpest), points
+    assert 10 < one_way < 200
+    assert bends_one_way(circle(math.pi))
+    assert not overlaps_itself(circle(math.pi), 0.09)
+    assert not bends_one_way(circle(3.0 * math.pi))
+    assert overlaps_itself(circle(3.0 * math.pi), 1e-3)

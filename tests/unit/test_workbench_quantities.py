@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+import pint
 import pytest
 from pydantic_core import PydanticCustomError
 
-from workbench.study.quantities import to_si
+from workbench.study.quantities import USUAL, to_si
 
 
 @pytest.mark.parametrize(
@@ -74,3 +76,14 @@ def test_refuses_with_rule_and_hint(value: object, unit: str, rule: str) -> None
     assert rule in str(caught.value)
     assert caught.value.context is not None
     assert caught.value.context["hint"]
+
+
+@pytest.mark.parametrize(
+    ("unit", "given"), [(unit, one) for unit, usual in USUAL.items() for one in usual] + [("K", "degC")]
+)
+def test_usual_units_are_pint_s_to_the_last_digit(unit: str, given: str) -> None:
+    registry, numbers = pint.UnitRegistry(), np.random.default_rng(7)
+    for number in [0.1 * k for k in range(-1000, 4000)] + (10.0 ** numbers.uniform(-6.0, 9.0, 1000)).tolist():
+        theirs = float(registry.Quantity(number, given).to(unit).magnitude)
+        assert to_si(f"{number!r} {given}", unit) == (theirs if unit == "rad" else float(f"{theirs:.15g}"))
+    assert all(given not in usual for other, usual in USUAL.items() if other != unit)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import pint
 
 __all__ = [
+    "USUAL",
     "Angle",
     "Bedding",
     "Density",
@@ -56,6 +57,19 @@ _KINDS = {
     "byte": ("a size", "2 GB"),
     "": ("a plain number", "0.3"),
 }
+USUAL = {
+    "m": {"mm": 1e-3, "m": 1.0},
+    "rad": {"deg": math.pi / 180.0, "rad": 1.0},
+    "Pa": {"MPa": 1e6, "GPa": 1e9, "kPa": 1e3, "Pa": 1.0},
+    "N": {"N": 1.0, "kN": 1e3},
+    "kg/m**3": {"kg/m^3": 1.0},
+    "N/m**3": {"N/m^3": 1.0},
+    "N/m": {"N/m": 1.0, "N/mm": 1e3},
+    "N*s/m": {"N*s/m": 1.0},
+    "K": {"K": 1.0},
+    "s": {"s": 1.0},
+}
+"""What most studies are written in, read without pint: to make its registry takes longer than to read a study."""
 
 
 @cache
@@ -112,15 +126,23 @@ def _from_text(text: str, unit: str) -> float:
         raise _refuse(f"{kind} in a string needs its unit", f"write it like {example!r}")
     if not given or not math.isfinite(number):
         return number
+    if (unit, given) == ("K", "degC"):
+        return _rounded(number + 273.15, unit)
+    if (factor := USUAL.get(unit, {}).get(given)) is not None:
+        return _rounded(number * factor, unit)
     try:
         quantity = _registry().Quantity(number, given)
         _refuse_another_kind(quantity, unit, given)
-        number = float(quantity.to(unit or "dimensionless").magnitude)
-        return number if unit == "rad" else float(f"{number:.15g}")  # 142.5 mm is 0.1425 m to the last digit
+        return _rounded(float(quantity.to(unit or "dimensionless").magnitude), unit)
     except PydanticCustomError:
         raise
     except Exception as error:  # pint raises many kinds for text it cannot read
         raise _refuse(f"cannot be read as {kind} ({error})", f"write it like {example!r}") from error
+
+
+def _rounded(number: float, unit: str) -> float:
+    """142.5 mm is 0.1425 m to the last digit."""
+    return number if unit == "rad" else float(f"{number:.15g}")
 
 
 def _refuse_another_kind(quantity: pint.Quantity[float], unit: str, given: str) -> None:
