@@ -68,7 +68,7 @@ def leg_sides(springs: SpringSet) -> tuple[int, ...]:
 
 @functools.lru_cache(maxsize=512)
 def spring_leg(springs: SpringSet, gap: tuple[float, float], station: float, side: int) -> Leg:
-    """Return the strip that leaves the weld at ``station`` [rad] towards ``side``; its arrays are not to be written.
+    """Return the strip that leaves the weld at ``station`` [rad] towards ``side``, its arrays read-only as it is kept.
 
     Parameters
     ----------
@@ -81,8 +81,12 @@ def spring_leg(springs: SpringSet, gap: tuple[float, float], station: float, sid
     ray = station + side * 0.5 * weld_angle(springs, rim)
     ends = hub + 0.5 * springs.hub_thickness, rim - 0.5 * springs.thickness
     if springs.shape == "spline":
-        return _spline_leg(springs, ends, ray, side)
-    return _arc_leg(ends, ray, side, SPLINE_SEGMENTS if springs.tapered else ARC_SEGMENTS)
+        leg = _spline_leg(springs, ends, ray, side)
+    else:
+        leg = _arc_leg(ends, ray, side, SPLINE_SEGMENTS if springs.tapered else ARC_SEGMENTS)
+    for array in (leg.points, leg.normals):
+        array.flags.writeable = False
+    return leg
 
 
 def _arc_leg(ends: tuple[float, float], ray: float, side: int, segments: int) -> Leg:

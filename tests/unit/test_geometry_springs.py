@@ -79,3 +79,11 @@ def test_stations_and_sides() -> None:
     assert leg_sides(ARC) == (1,)
     hoop = SpringSet(name="h", count=3, bands=BANDS, thickness=6e-4, shape="hoop", weld_length=8e-3)
     assert leg_sides(hoop) == (1, -1)
+
+
+def test_a_strip_is_kept_and_cannot_be_written() -> None:
+    leg = spring_leg(SPLINE, GAP, 0.0, 1)
+    assert spring_leg(SPLINE, GAP, 0.0, 1) is leg
+    for array in (leg.points, leg.normals):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0.0
